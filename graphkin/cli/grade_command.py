@@ -159,7 +159,7 @@ def grade(
     from graphkin.classroom.grading.answers import read_answers
     from graphkin.classroom.grading.class_folder import open_class
     from graphkin.classroom.grading.class_marking import graded_class
-    from graphkin.classroom.grading.class_report import result_lines
+    from graphkin.classroom.grading.class_report import open_cells, result_lines
     from graphkin.classroom.grading.decisions import (
         DECISIONS,
         EMPTY,
@@ -191,6 +191,7 @@ def grade(
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
+    given.unread = open_cells(found.result, given.unread)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
     if not (out / DECISIONS).exists():
         files[DECISIONS] = EMPTY

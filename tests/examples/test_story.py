@@ -53,7 +53,7 @@ def test_the_story_ends_as_it_is_told(tmp_path: Path, monkeypatch: pytest.Monkey
     wrong = [head for head, cell in before.items() if head.endswith(" why") and cell != "right"]
     assert wrong == ["a_B_mm why"]
     Path("report/decisions.csv").write_text(decisions, encoding="utf-8")
-    assert "1 decisions" in lived(commands[5])
+    assert "decisions.csv: 1 decided" in lived(commands[5])
     after = read_marks(Path("report/marks.csv").read_bytes())["0042"]
     assert after["points"] == after["of"] == "14.5"
     reason = decisions.splitlines()[1].split(";")[-1]

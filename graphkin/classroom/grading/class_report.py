@@ -180,6 +180,17 @@ def unread_lines(
         )
 
 
+def open_cells(result: Result, unread: Iterable[Unread]) -> list[Unread]:
+    """The cells that cannot be read whose points nobody has decided."""
+    waiting = {
+        (graded.taker.student.id, mark.item.field)
+        for graded in result.graded
+        for mark in graded.marks
+        if mark.waits and (graded.pending or not mark.points)
+    }
+    return [cell for cell in unread if (cell.who, cell.field) in waiting]
+
+
 def stranger_lines(given: Answers, words: Words) -> Iterator[str]:
     """Columns that are no fields, and fields that have no column."""
     for each in given.strangers:
@@ -199,7 +210,7 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
 def absent_lines(result: Result) -> Iterator[str]:
     """Those who handed in nothing."""
     for each in result.graded:
-        if not each.present:
+        if not each.is_marked:
             yield name_of(each)
 
 

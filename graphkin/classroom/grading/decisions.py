@@ -167,8 +167,7 @@ def decided(graded: Graded, decisions: Sequence[Decision]) -> Graded:
         return graded
     own = {each.field: each for each in decisions}
     marks = tuple(ruled(mark, own.get(mark.item.field)) for mark in graded.marks)
-    present = graded.present or any(each.points is not None for each in decisions)
-    found = replace(graded, marks=marks, present=present)
+    found = replace(graded, marks=marks)
     whole = own.get("")
     if whole is None:
         return found

@@ -55,8 +55,8 @@ def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> s
 
 
 def is_shown(graded: Graded) -> bool:
-    """Whether a student sees marks: something was handed in, and nothing is held."""
-    return graded.present and not graded.held
+    """Whether a student sees marks: there are some, and they are not held."""
+    return graded.is_marked and not graded.held
 
 
 def total(graded: Graded, words: Words) -> str:
@@ -71,11 +71,11 @@ def total(graded: Graded, words: Words) -> str:
 
 def notes(graded: Graded, words: Words) -> list[str]:
     """What is said of the whole form: that there is none, what was decided, what waits."""
-    if not graded.present:
-        return [words("feedback.absent")]
-    if graded.held:
-        return [words("feedback.held")]
     told = [decision_words(graded.decision, words)] if graded.decision is not None else []
+    if not graded.is_marked:
+        return [words("feedback.absent"), *told]
+    if graded.held:
+        return [words("feedback.held"), *told]
     waiting = [mark.item for mark in graded.marks if mark.points and mark.waits]
     if not waiting or not graded.pending:
         return told
@@ -175,8 +175,10 @@ def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> It
         yield text_block(note, LETTER)
     if not is_shown(graded):
         return
-    yield head_block(words)
-    for row in rows(graded, words):
+    told = rows(graded, words)
+    if told:
+        yield head_block(words)
+    for row in told:
         yield row_block(row, spacing)
     yield text_block(how(rubric, words), SMALL)
 

@@ -68,8 +68,11 @@ class FeedbackRow(Struct, frozen=True):
 
 
 def rows(graded: Graded, words: Words) -> list[FeedbackRow]:
-    """What a student is told, a row for each field that earns points."""
-    return [row_of(graded, mark, words) for mark in graded.marks if mark.points]
+    """What a student is told, a row for each field that earns points; of who handed in nothing
+    only what the lecturer decided.
+    """
+    told = (mark for mark in graded.marks if graded.present or mark.decision is not None)
+    return [row_of(graded, mark, words) for mark in told if mark.points]
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:

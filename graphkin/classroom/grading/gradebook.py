@@ -14,14 +14,12 @@ from typing import Protocol
 
 from msgspec import Struct
 
-from graphkin.classroom.roster.read_roster import NAMES
+from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
 from graphkin.classroom.roster.spreadsheets import folded
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.classroom.roster.student_signs import signs as signs_of
 from graphkin.text.errors import GraphkinError, Problem
 
-POSSIBLE = "Points Possible"
-"""What Canvas writes, after four blanks, in the row below its head."""
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
 NUMERIC = re.compile(r"[-+]?[0-9]")

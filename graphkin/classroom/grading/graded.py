@@ -144,6 +144,11 @@ class Graded(Struct, frozen=True):
         return tuple(each for each in found if each is not None)
 
     @property
+    def is_marked(self) -> bool:
+        """Whether there are marks: something was handed in, or the lecturer gave points."""
+        return self.present or any(each.points is not None for each in self.decisions)
+
+    @property
     def earned(self) -> Fraction:
         """What was earned: the sum, or what the lecturer decided for the whole."""
         if self.decision is not None and self.decision.points is not None:
@@ -178,7 +183,7 @@ class Graded(Struct, frozen=True):
     @property
     def share(self) -> Fraction | None:
         """What was earned, in parts of the points that are decided; None without any."""
-        return self.earned / self.decided if self.present and self.decided else None
+        return self.earned / self.decided if self.is_marked and self.decided else None
 
     def mark(self, name: str) -> EarnedMark:
         """The mark of a field."""

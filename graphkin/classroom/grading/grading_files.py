@@ -124,5 +124,5 @@ def points_by_id(found: Class, scale: Fraction | None = None) -> dict[str, Fract
     return {
         each.taker.student.id: each.earned if scale is None else each.earned * scale / each.points
         for each in found.result.graded
-        if each.present and not each.pending and not each.held and (scale is None or each.points)
+        if each.is_marked and not each.pending and not each.held and (scale is None or each.points)
     }

@@ -59,20 +59,21 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
     share = None if graded.held else graded.share
+    told = {name for name in fields if graded.present or marks[name].decision is not None}
     return [
         str(student.row),
         "" if student.number is None else str(student.number),
         student.id,
         student.name,
         student.group,
-        number(graded.earned) if graded.present and not graded.held else "",
+        number(graded.earned) if graded.is_marked and not graded.held else "",
         number(graded.decided),
         f"{float(100 * share):.1f}" if share is not None else "",
         number(graded.pending) if graded.pending else "",
         "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
         ruling(graded.decision) if graded.decision is not None else "",
-        *(points_cell(marks[name]) if graded.present else "" for name in fields),
-        *(reason(graded, name) if graded.present else "" for name in fields),
+        *(points_cell(marks[name]) if name in told else "" for name in fields),
+        *(reason(graded, name) if name in told else "" for name in fields),
     ]
 
 

@@ -138,6 +138,8 @@ MOST_DIGITS = 9
 Tell = Callable[[str], object]
 """Tells a note that is no mistake."""
 LONGEST_ID, LONGEST_NAME = 100, 200
+POSSIBLE = "Points Possible"
+"""The first cell of the row in which an export of Canvas has the points of each assignment."""
 WHOLE = re.compile(r"[0-9]+")
 DECIMAL_ZERO = re.compile(r"([0-9]+)[.,]0+")
 
@@ -163,6 +165,8 @@ def read_roster(
     students: list[Student] = []
     first: dict[str, Student] = {}
     for row in sheet.rows:
+        if POSSIBLE in row.cells[:1]:
+            continue
         one = student(sheet, row, where, told, numbered)
         students.append(one)
         refuse_twin(sheet, one, first, head_of(sheet, where, "id"), told)

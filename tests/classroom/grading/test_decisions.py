@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.answers import Unread
 from graphkin.classroom.grading.class_marking import graded_class
+from graphkin.classroom.grading.class_report import open_cells
 from graphkin.classroom.grading.decisions import EMPTY, Deciding, read_decisions
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
 from graphkin.classroom.grading.graded import Answer, Decision, Status
@@ -116,6 +118,24 @@ def test_points_of_fields_and_of_the_whole_take_the_place_of_those_found():
     assert not of(before, "s009").present and of(after, "s009").earned == 2
     assert {"s007", "s008", "s009"} <= set(points_by_id(after))
     assert after.result.wrong_variants == before.result.wrong_variants
+    assert not of(after, "s009").present
+    page = feedback_html(of(after, "s009"), "Lab", lab_of(LAB).rubric, words("en"))
+    assert "handed in on paper" in page and "<table" not in page
+    assert words("en")("feedback.absent") not in page
+
+
+def test_a_cell_that_was_decided_waits_no_more():
+    cells = [Unread("a.csv", 2, "s007", field, "x", "number") for field in ("a_C", "v_C")]
+    spoilt = {"v_C": Answer("x", problem="number")}
+    given = {"s007": answers()["s007"] | spoilt}
+    for decision, left in (
+        (None, cells),
+        (Decision("s007", "a_C", Fraction(0), "no"), cells[1:]),
+        (Decision("s007", "a_C", None, "stays open"), cells),
+        (Decision("s007", "", Fraction(3), "all in all"), []),
+    ):
+        made = graded_class(book_of(LAB), TAKERS, given, decisions=[decision] if decision else [])
+        assert open_cells(made.result, cells) == left
 
 
 def test_what_stands_and_what_is_asked_change_no_points():

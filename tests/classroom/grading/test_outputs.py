@@ -355,7 +355,7 @@ def test_decisions_survive_a_new_marking_and_reach_the_gradebook(folder):
     for _ in range(2):
         found = run(folder, "--force", "--gradebook", str(folder / "canvas.csv"), "--lang", "en")
         assert found.exit_code == 0, found.output
-        assert "1 decisions and 0 open requests" in found.output
+        assert "decisions.csv: 1 decided, 0 still open" in found.output
         assert path.read_bytes() == own
         assert "A,19,88.5" in (folder / "out" / "gradebook-canvas.csv").read_text("utf-8")
         assert "drawn twice" in (folder / "out/feedback/0001.html").read_text("utf-8")

@@ -102,7 +102,7 @@ def test_leading_zeros_diacritics_commas_and_apostrophes_stay(saved):
 
 def test_a_moodle_and_a_canvas_export_are_class_lists(saved):
     moodle = "First name,Surname,ID number,Email address\nAnn,Lee,0042,a@b.c\n"
-    canvas = 'Student,ID,SIS User ID,Section\n"Lee, Ann",9,0042,A\n'
+    canvas = 'Student,ID,SIS User ID,Section\n    Points Possible,,,\n"Lee, Ann",9,0042,A\n'
     assert read_roster(saved(moodle))[0] == Student(
         2, "0042", None, "Ann Lee", "", {"Email address": "a@b.c"}
     )
