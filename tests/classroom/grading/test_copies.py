@@ -26,7 +26,7 @@ from tests.classroom.grading.classes import (
     written,
 )
 
-CAREFUL, ORDINARY = HONEST[:2]
+CAREFUL, ORDINARY, COMPUTED = HONEST[0], HONEST[1], HONEST[6]
 
 
 @pytest.mark.parametrize("seed", range(10 if EVERY else 1))
@@ -37,6 +37,15 @@ def test_nobody_of_an_honest_class_is_named(place, seed):
     result = marked(lab, kind, seed, honest_class(lab, kind, seed))
     assert len([each for each in result.graded if each.present]) == 120
     assert named(result) == []
+
+
+@pytest.mark.parametrize(("lab", "seed"), zip(LABS, (2, 4, 7), strict=True))
+def test_who_computes_instead_of_drawing_agrees_with_others_to_the_digits(lab, seed):
+    """Classes in which two have the same data and the same slip, and write the same uncopied."""
+    answers = honest_class(lab, COMPUTED, seed)
+    texts = [tuple(each.text for each in row.values()) for row in answers.values()]
+    assert len(set(texts)) < len(texts)
+    assert named(marked(lab, COMPUTED, seed, answers)) == []
 
 
 def test_of_what_careful_hands_draw_hardly_a_hundredth_is_judged_wrong():
