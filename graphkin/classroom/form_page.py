@@ -15,7 +15,13 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.answer_numbers import LONGEST, MISTYPED, NUMBER, UNITS
+from graphkin.classroom.grading.answer_numbers import (
+    BLANKS,
+    LONGEST,
+    MISTYPED,
+    NUMBER,
+    UNITS,
+)
 from graphkin.classroom.lab.items import items as fields_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import advice, why
@@ -112,6 +118,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "separator": ";" if words("decimal_mark") == "," else ",",
         "number": NUMBER.pattern.replace("(?P<", "(?<"),
         "mistyped": MISTYPED.pattern,
+        "blanks": BLANKS,
         "longest": LONGEST,
         "units": {unit: UNITS.get(unit, {unit: 1}) for unit in sorted({i.unit for i in items})},
         "sense": words("table.sense"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,9 +12,12 @@ import click
 from graphkin.cli.console import FAILED, complain, say
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from graphkin.classroom.grading.answers import Answers
     from graphkin.classroom.grading.class_folder import ClassFolder
     from graphkin.classroom.grading.class_marking import Class
+    from graphkin.classroom.roster.student_signs import Match, Signs
     from graphkin.text import Words
 
 KINDS = ("html", "pdf")
@@ -21,6 +25,7 @@ MANY = 100
 """Different variants from which several processes pay for themselves."""
 TERMINAL = "en"
 """What the terminal speaks, as all commands and all refusals do."""
+AMOUNT = re.compile(r"[0-9]{1,6}(?:\.[0-9]{1,4})?", re.ASCII)
 SHOWN = 10
 """Notes of one kind that are told one by one."""
 
@@ -62,6 +67,17 @@ SHOWN = 10
     "--column", metavar="NAME", help="The column of the gradebook for the points; the empty one."
 )
 @click.option(
+    "--scale",
+    metavar="N",
+    help="What full marks are in the gradebooks, such as 10 or 100; the lab's points by default.",
+)
+@click.option(
+    "--match",
+    type=click.Choice(["id", "email"]),
+    help="By what students are found in tables of answers and in gradebooks; by default their ids"
+    " or, where a table has none, the e-mail addresses of the class list.",
+)
+@click.option(
     "--jobs",
     metavar="N",
     type=click.IntRange(1, 1024),
@@ -93,6 +109,8 @@ def grade(
     formats: str,
     gradebooks: tuple[Path, ...],
     column: str | None,
+    scale: str | None,
+    match: Match | None,
     jobs: int | None,
     released: tuple[str, ...],
     held: tuple[str, ...],
@@ -100,10 +118,11 @@ def grade(
 ) -> None:
     """Mark the answers of a class.
 
-    DIR is what graphkin variants wrote, ANSWERS a table.
+    DIR is what graphkin variants wrote, ANSWERS a table, a folder or a ZIP file.
 
     ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
-    v_D, omega_3, omega_3_sense, …), a row for each student; or a folder with a file for each.
+    v_D, omega_3, omega_3_sense, …), a row for each student; or a folder or a ZIP file with a file
+    for each, in folders of their own or not, as Moodle and Canvas deliver what was handed in.
     Decimal comma or point; a unit may be written; a sense is + or -, ccw or cw, or said in English,
     Romanian or Italian (în sens orar, anticlockwise); one that the sign of its own value
     contradicts earns nothing. An empty cell is not answered, an empty row not handed in. A cell
@@ -115,14 +134,21 @@ def grade(
     earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
     student, a report on the class, and fills in gradebooks.
 
+    You have the last word: REPORT/decisions.csv is yours, id;field;points;reason, and is never
+    overwritten. A row sets the points of a field, or of the whole form (total); without points the
+    mark stays; "?" keeps a student's request that is not decided. Mark again with --force, and
+    feedback, report and gradebook follow.
+
     Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
-    another's get no mark until you decide: mark again with --force and --release ID. The report
-    keeps whom you released, for every later marking, until --hold ID.
+    another's get no mark until you decide: a row of theirs in decisions.csv, or mark again with
+    --force and --release ID. The report keeps whom you released, for every later marking, until
+    --hold ID.
 
     \b
     Examples:
       graphkin grade class answers.csv -o report
       graphkin grade class answers.xlsx -o report --gradebook moodle.csv --column "Lab 3"
+      graphkin grade class submissions.zip -o report --gradebook moodle.csv --scale 10
       graphkin grade class answers.csv -o report --force
       graphkin grade class answers.csv -o report --force --release 0042 --release 0057
       graphkin grade class answers.csv -o report --force --hold 0057
@@ -133,7 +159,14 @@ def grade(
     from graphkin.classroom.grading.answers import read_answers
     from graphkin.classroom.grading.class_folder import open_class
     from graphkin.classroom.grading.class_marking import graded_class
-    from graphkin.classroom.grading.class_report import result_lines
+    from graphkin.classroom.grading.class_report import open_cells, result_lines
+    from graphkin.classroom.grading.decisions import (
+        DECISIONS,
+        EMPTY,
+        Deciding,
+        read_decisions,
+        settled,
+    )
     from graphkin.classroom.grading.releases import releases
     from graphkin.text import words as words_in
     from graphkin.writers.files import write_all
@@ -149,14 +182,22 @@ def grade(
         raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
     out = report or folder / "report"
     free = releases(out, tuple(ids), released, held)
-    codes = {code: who for who, code in ids.items()}
-    given = read_answers(answers, opened.book.form, ids, codes)
+    deciding = Deciding(opened.takers, opened.book.form, opened.book.lab.rubric, opened.signs)
+    decisions = read_decisions(out, deciding)
+    if both := ", ".join(who for who in held if who in settled(decisions)):
+        said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
+        raise click.UsageError(said, context)
+    given = read_answers(answers, opened.book.form, opened.signs, match or "")
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
-    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids)
+    found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
+    given.unread = open_cells(found.result, given.unread)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
+    if not (out / DECISIONS).exists():
+        files[DECISIONS] = EMPTY
     spoken = words_in(TERMINAL)
-    books = filled_books(gradebooks, column, found, spoken)
+    full = scale_of(scale, context)
+    books = filled_books(gradebooks, column, found, spoken, full, opened.signs, match or "")
     written = write_all(out, {**files, **books}, force)
     for line in result_lines(found.result, spoken):
         say(line)
@@ -213,18 +254,42 @@ def all_files(
     report: Path,
 ) -> dict[str, bytes]:
     """The files of the report; with what changed since the marks that are there."""
-    from graphkin.classroom.grading.grading_files import MARKS, ReportSettings, report_files
+    from graphkin.classroom.grading.grading_files import (
+        MARKS,
+        ReportSettings,
+        report_files,
+        returned,
+    )
 
     scene = opened.book.mechanism({}).scene
     title = scene.titles.get(words.language, scene.title)
     before = report / MARKS
     earlier = before.read_bytes() if before.is_file() else b""
     told = ReportSettings(title, words, given.unread, scene.titles)
-    return report_files(found, opened.edition.lab, told, kinds, earlier)
+    files = report_files(found, opened.edition.lab, told, kinds, earlier)
+    return files | returned(files, found.result.graded, given.senders, kinds)
+
+
+def scale_of(text: str | None, context: click.Context) -> Fraction | None:
+    """What full marks are; None where the points go in as they are."""
+    from fractions import Fraction
+
+    if text is None:
+        return None
+    written = text.strip().replace(",", ".")
+    if not AMOUNT.fullmatch(written) or not Fraction(written):
+        raise click.UsageError(f"--scale: {text} is no number above 0, such as 10", context)
+    return Fraction(written)
 
 
 def filled_books(
-    gradebooks: tuple[Path, ...], column: str | None, found: Class, words: Words
+    gradebooks: tuple[Path, ...],
+    column: str | None,
+    found: Class,
+    words: Words,
+    scale: Fraction | None,
+    signs: Signs,
+    match: Match,
 ) -> dict[str, bytes]:
     """The gradebooks with the points in them."""
     from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook
@@ -232,20 +297,21 @@ def filled_books(
     from graphkin.classroom.grading.marks_tables import number
 
     files: dict[str, bytes] = {}
-    ids = [each.taker.student.id for each in found.result.graded]
     graded = found.result.graded
     held = [each.taker.student.id for each in graded if each.held]
     waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
     for path in gradebooks:
-        book = filled_gradebook(path, points_by_id(found), column, ids)
+        book = filled_gradebook(path, points_by_id(found, scale), column, signs, match)
         files[gradebook_name(path)] = book.data
         filled = words("class.filled", file=path.name, count=book.count, column=book.column)
         say(filled)
-        points = max((each.points for each in found.result.graded), default=None)
-        if book.worth is not None and book.worth != points:
-            amounts = {"worth": number(book.worth), "points": number(points or 0)}
+        points = scale or max((each.points for each in graded), default=None)
+        if book.worth != points:
+            key = "class.worth_unknown" if book.worth is None else "class.worth"
+            amounts = {"worth": number(book.worth or 0), "points": number(points or 0)}
             amounts = {name: words.decimal(amount) for name, amount in amounts.items()}
-            complain(words("class.worth", file=path.name, column=book.column, **amounts))
+            if book.worth is not None or scale is None:
+                complain(words(key, file=path.name, column=book.column, **amounts))
         if book.replaced:
             amounts = {"count": str(book.replaced), "column": book.column}
             complain(words("class.replaced", file=path.name, **amounts))
@@ -282,6 +348,7 @@ def notes(opened: ClassFolder, given: Answers, words: Words) -> None:
 
     names = [taker.student for taker in opened.takers]
     tell_some(list(stranger_lines(given, words)), words)
+    tell_some([words("class.no_table", who=each.name) for each in given.empty], words)
     tell_some(list(language_lines(opened.takers, words)), words)
     tell_some(list(unread_lines(names, given.unread, words)), words)
 

@@ -16,6 +16,7 @@ from graphkin.classroom.grading.answers import read_answers
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.roster.student_signs import signs
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
 from tests.classroom.grading.students import LABS
@@ -134,6 +135,6 @@ def test_a_file_line_by_line_with_any_separator_is_an_answer(tmp_path):
         text = f"field{sign}value\r\nid{sign}0042\r\nv_D_mm{sign}{number}\r\nv_D{sign}\r\n"
         path = tmp_path / "0042-answers.csv"
         path.write_text(text, encoding="utf-8", newline="")
-        found = read_answers(path, fields, ["0042"])
+        found = read_answers(path, fields, signs(["0042"]))
         assert found.of["0042"]["v_D_mm"].value == 12.5
         assert found.of["0042"]["v_D"].is_blank

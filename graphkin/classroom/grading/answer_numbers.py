@@ -11,10 +11,15 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.quantities import TURNING
 
 NUMBER = re.compile(
-    r"(?P<sign>[+\-\u2212]?)(?P<digits>[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
+    r"(?:(?:[~∼≈≃≅]|cc?a\.|circa)\s?)?(?P<sign>[+\-\u2212]?)(?P<digits>[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)"
     r"(?:(?:[eE]|\s?[*x×·]\s?10\s?\^\s?)(?P<power>[+-]?[0-9]{1,3}))?"
 )
-"""A number in ASCII digits, with a point or a comma, perhaps with a power of ten."""
+"""A number in ASCII digits, with a point or a comma, perhaps with a power of ten.
+
+That it is said to be about right changes nothing.
+"""
+BLANKS = ("-", "–", "—", "--", "n/a", "n.a.", "na")
+"""What stands for no answer; a single - is a sense in a field of one."""
 MISTYPED = re.compile(
     r"^[\s()\[\]^*·/-]*[0-9_']|[.,]|^[oOlI]+(?:[0-9\s]|$)|[A-Za-z](?![23](?![0-9]))[0-9]"
 )
@@ -50,6 +55,9 @@ def read_answer(text: str, item: Item) -> Answer:
     """The answer that a cell states to a field: blank, a value in its unit, or unreadable."""
     stripped = text.strip()
     if not stripped:
+        return BLANK
+    is_sense = item.what == "sense" and sense_of(stripped, turning=item.quantity in TURNING)
+    if stripped.casefold() in BLANKS and not is_sense:
         return BLANK
     if item.what == "sense":
         return read_sense(text, stripped, item.quantity)

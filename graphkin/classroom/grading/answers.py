@@ -5,7 +5,7 @@ A cell that cannot be read is no error of the table: it is told, and does not co
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +14,7 @@ from msgspec import Struct, field
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.submissions import HandedIn, Sender, submissions
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.read_roster import NAMES
@@ -24,13 +25,12 @@ from graphkin.classroom.roster.spreadsheets import (
     TableProblems,
     columns,
     folded,
-    read_sheet,
+    sheet_in,
 )
+from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.scene.findings import nearest, visible
 from graphkin.text.errors import Problem
 
-KINDS = (".csv", ".txt", ".tsv", ".xlsx")
-"""Files of a folder that are read."""
 ABSENT = (
     "leave that row out; or put the student into the class list, run graphkin variants with"
     " --force into the same folder, and grade again"
@@ -39,12 +39,11 @@ FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "va
 """The heads of a file that holds one student's answers line by line."""
 LEAST, SHOWN = 1 / 3, 12
 """The share of the form below which a table may be another lab's; columns that are named then."""
-NO_CODES: Mapping[str, str] = {}
-HEADS = {"id": NAMES["id"]}
+HEADS = {"id": NAMES["id"], "email": EMAIL}
 BESIDE = {what: NAMES[what] for what in NAMES if what != "id"} | {"language": LANGUAGE}
 """Columns that a class list has as well, and that are none of the form's."""
 IDS = {folded(name) for name in ("id", *HEADS["id"])}
-OTHERS = {folded(name) for what, every in BESIDE.items() for name in (what, *every)}
+OTHERS = {folded(n) for w, every in (BESIDE | {"email": EMAIL}).items() for n in (w, *every)}
 """The same as they are compared."""
 
 
@@ -72,37 +71,39 @@ class Stranger(Struct, frozen=True):
 
 
 class Answers(Struct):
-    """The answers of each student by id, the notes about cells, and columns that are no fields."""
+    """The answers of each student by id, the notes about cells, and columns that are no fields.
+
+    ``senders`` is what a learning platform calls each, ``empty`` those who sent no table.
+    """
 
     of: dict[str, dict[str, Answer]] = field(default_factory=dict)
     places: dict[str, str] = field(default_factory=dict)
     unread: list[Unread] = field(default_factory=list)
     strangers: list[Stranger] = field(default_factory=list)
     missing: list[str] = field(default_factory=list)
+    senders: dict[str, Sender] = field(default_factory=dict)
+    empty: Sequence[Sender] = ()
 
 
-def read_answers(
-    path: Path, items: Sequence[Item], ids: Iterable[str], codes: Mapping[str, str] = NO_CODES
-) -> Answers:
-    """The answers in a table, or in each file of a folder. Raises RosterError, all at once.
+def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match = "") -> Answers:
+    """The answers in a table, or in each file of a folder or a ZIP file.
 
-    ``codes`` are opaque names of sheets by which a student may sign as well, each with the id.
+    ``match`` is by what students are found in a table. Raises RosterError, all at once.
     """
     known = {item.field: item for item in items}
     heads = ["id", *HEADS["id"], *known, *FIELD, *VALUE]
-    files = sorted(p for p in path.iterdir() if p.suffix.lower() in KINDS) if path.is_dir() else []
-    if path.is_dir() and not files:
-        found = "a folder without any table"
-        raise RosterError(Problem(str(path), found, f"files {', '.join(KINDS)}"))
-    reading = AnswerReading(known, {**codes, **{who: who for who in ids}}, TableProblems(path.name))
-    for file in files or [path]:
+    given = submissions(path)
+    reading = AnswerReading(known, signs, TableProblems(path.name), match)
+    for file in given.tables:
         try:
-            sheet = read_sheet(file, heads, None if files else reading.told)
+            told = reading.told if given.is_one else None
+            sheet = sheet_in(file.data, file.name, heads, told)
         except RosterError as error:
             reading.told.extend(error.problems)
             continue
-        reading.form(sheet, file.stem) if is_form(sheet) else reading.rows(sheet)
+        reading.form(sheet, file) if is_form(sheet) else reading.rows(sheet)
     reading.told.stop()
+    reading.answers.empty = given.empty
     refuse_other_lab(path.name, reading)
     reading.answers.missing = [name for name in known if name not in reading.seen]
     return reading.answers
@@ -130,13 +131,14 @@ def is_form(sheet: Spreadsheet) -> bool:
 
 
 class AnswerReading(Struct, dict=True):
-    """Tables being read: the fields that are ``known``, the ids by all that students sign with,
-    what was found, and which fields were ``seen``.
+    """Tables being read: the fields that are ``known``, what students sign with, by which of it
+    they are to be found, what was found, and which fields were ``seen``.
     """
 
     known: Mapping[str, Item]
-    ids: Mapping[str, str]
+    signs: Signs
     told: TableProblems
+    match: Match = ""
     answers: Answers = field(default_factory=Answers)
     seen: set[str] = field(default_factory=set)
 
@@ -150,10 +152,12 @@ class AnswerReading(Struct, dict=True):
         where = columns(sheet, HEADS | BESIDE)
         named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
         own = {i: name for i, name in named if name is not None}
-        if "id" not in where:
+        meant = [what for what in HEADS if what in where and self.match in ("", what)]
+        if not meant:
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
-            found = f"no column id; the head is {head}"
-            self.told.add(sheet.name, found, 'a column named "id"')
+            wanted = self.match or "id"
+            found = f"no column {wanted}; the head is {head}"
+            self.told.add(sheet.name, found, f'a column named "{wanted}"')
             return
         if not own:
             expected = f"columns such as {', '.join(list(self.known)[:4])}"
@@ -163,23 +167,30 @@ class AnswerReading(Struct, dict=True):
             return
         self.seen |= set(own.values())
         for i, cell in enumerate(sheet.head):
-            if i not in own and i not in where.values() and cell:
+            if i not in own and cell and folded(cell) not in IDS | OTHERS:
                 self.stranger(sheet, cell)
         for row in sheet.rows:
-            who = self.signed(sheet, row, sheet.head[where["id"]], row.cells[where["id"]])
+            column = where[meant[0]]
+            who = self.signed(sheet, row, sheet.head[column], row.cells[column])
             if who is not None:
                 cells = {name: self.cell(sheet, row, i, who, name) for i, name in own.items()}
                 self.answers.of[who] = cells
 
-    def form(self, sheet: Spreadsheet, stem: str) -> None:
+    def form(self, sheet: Spreadsheet, file: HandedIn) -> None:
         """One student's answers, a field in each row; the id is in a row of its own, or the name
-        of the file.
+        of the file, or the student's name is that under which a learning platform has the file.
         """
         stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
-        sign = stated[0].cells[1] if stated else stem
+        stated = [row for row in stated if row.cells[1]] or stated
+        sign = stated[0].cells[1] if stated else file.stem
+        sender = file.sender
+        if not sign or (not stated and self.signs.who(sign) is None):
+            sign = (self.signs.named(sender.name) if sender is not None else None) or sign
         who = self.signed(sheet, stated[0] if stated else SheetRow(1, ()), "id", sign)
         if who is None:
             return
+        if sender is not None:
+            self.answers.senders[who] = sender
         self.answers.of[who] = {}
         for row in sheet.rows:
             name = self.fields.get(folded(row.cells[0]))
@@ -195,12 +206,12 @@ class AnswerReading(Struct, dict=True):
     def signed(self, sheet: Spreadsheet, row: SheetRow, head: str, sign: str) -> str | None:
         """The student of the class who signs a row and has no answers yet; None, noted, if none."""
         place = sheet.place(row, head)
-        who = self.ids.get(sign)
+        who = self.signs.who(sign)
         if not sign:
             self.told.add(place, "is missing", "the student's id")
         elif who is None:
             found = f'"{visible(sign)}" is no student of this class'
-            near = nearest(sign, sorted(set(self.ids.values())))
+            near = nearest(sign, sorted(self.signs.ids))
             self.told.add(place, found, "", near or ABSENT)
         elif who in self.answers.of:
             found = f'"{visible(sign)}" has answers already, in {self.answers.places[who]}'

@@ -9,7 +9,11 @@ from msgspec import Struct
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Taker
 from graphkin.classroom.printing.edition import Edition, read_edition, tables
+from graphkin.classroom.roster.csv_text import safe
+from graphkin.classroom.roster.spreadsheets import columns, read_sheet
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.student_signs import EMAIL, Signs, signs
+from graphkin.classroom.variants.manifest import TABLE
 
 
 class ClassFolder(Struct, frozen=True):
@@ -19,11 +23,23 @@ class ClassFolder(Struct, frozen=True):
     book: Book
     takers: tuple[Taker, ...]
 
+    @property
+    def signs(self) -> Signs:
+        """By what its students are known in other tables."""
+        every = {taker.student.id: taker for taker in self.takers}
+        return signs(
+            every,
+            {who: taker.code for who, taker in every.items()},
+            {who: taker.email for who, taker in every.items()},
+            {who: taker.student.name for who, taker in every.items()},
+        )
+
 
 def open_class(folder: Path) -> ClassFolder:
     """The class in a folder. Raises SceneError with what is wrong with its manifest."""
     edition = read_edition(folder)
     rows = tables(folder)["students"]
+    mails = emails(folder)
     takers = tuple(
         Taker(
             Student(
@@ -37,10 +53,22 @@ def open_class(folder: Path) -> ClassFolder:
             variant.code,
             variant.compute,
             variant.language,
+            mails.get(safe(variant.id), ""),
         )
         for place, (variant, row) in enumerate(zip(edition.variants, rows, strict=True), 1)
     )
     return ClassFolder(edition, Book(edition.lab, edition.scene), takers)
+
+
+def emails(folder: Path) -> dict[str, str]:
+    """The e-mail addresses that the table of a class folder has, by id as it is written there."""
+    if not (folder / TABLE).exists():
+        return {}
+    sheet = read_sheet(folder / TABLE)
+    where = columns(sheet, {"id": (), "email": EMAIL})
+    if len(where) < 2:
+        return {}
+    return {row.cells[where["id"]]: row.cells[where["email"]] for row in sheet.rows}
 
 
 def whole(value: object) -> int | None:

@@ -11,7 +11,16 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import wrong_variants
-from graphkin.classroom.grading.graded import Answer, EarnedMark, Graded, Result, Status, Taker
+from graphkin.classroom.grading.decisions import by_student, decided, settled
+from graphkin.classroom.grading.graded import (
+    Answer,
+    Decision,
+    EarnedMark,
+    Graded,
+    Result,
+    Status,
+    Taker,
+)
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.same_digits import copies
 from graphkin.classroom.grading.standard import Expectation, standard
@@ -104,10 +113,12 @@ def graded_class(
     answers: Mapping[str, Given],
     jobs: int = 1,
     released: Collection[str] = (),
+    decisions: Sequence[Decision] = (),
 ) -> Class:
     """The marks of a whole class, by the ids of its students, with what only a class can tell.
 
-    Where the rubric holds marks, those of ``released`` are not held.
+    Where the rubric holds marks, those of ``released`` and of whom something was decided are not
+    held. Evidence is that of the answers, whatever was decided.
     """
     every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
     order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
@@ -119,7 +130,8 @@ def graded_class(
     twice = copies(graded, expected)
     fits = {each.students[0]: each.fields for each in others}
     flagged = {*fits, *(who for each in twice for who in each.students)}
-    held = flagged.difference(released) if book.lab.rubric.hold else set()
+    free = settled(decisions).union(released)
+    held = flagged.difference(free) if book.lab.rubric.hold else set()
     graded = [
         replace(
             unguessed(each, fits[who]) if (who := each.taker.student.id) in fits else each,
@@ -127,6 +139,8 @@ def graded_class(
         )
         for each in graded
     ]
+    own = by_student(decisions)
+    graded = [decided(each, own.get(each.taker.student.id, ())) for each in graded]
     result = Result(tuple(graded), others, twice, unsure(graded, expected))
     return Class(result, tuple(expected))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 from statistics import mean, median
 
 from graphkin.classroom.grading.answer_numbers import shown
@@ -11,7 +12,7 @@ from graphkin.classroom.grading.answers import Answers, Unread
 from graphkin.classroom.grading.class_pictures import pictures, slip_counts
 from graphkin.classroom.grading.feedback_rows import SLIPS, points_words
 from graphkin.classroom.grading.feedback_rows import unread as unread_words
-from graphkin.classroom.grading.graded import SURE, Graded, Result, Suspicion, Taker
+from graphkin.classroom.grading.graded import SURE, Decision, Graded, Result, Suspicion, Taker
 from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.student import Student
 from graphkin.text import Words
@@ -37,6 +38,8 @@ def class_report(result: Result, title: str, unread: Sequence[Unread], words: Wo
         wrong_variants=list(wrong_variant_lines(result, words)),
         copies=[copies_words(each, names, words) for each in result.copies],
         held=held_line(result, words),
+        decisions=list(decision_lines(result, words)),
+        requests=list(request_lines(result, words)),
         unread=list(unread_lines(students, unread, words)),
         absent=list(absent_lines(result)),
         unsure=list(unsure_lines(result, words)),
@@ -83,6 +86,7 @@ def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
         amounts = (each.earned, each.decided, each.spared)
         earned, points, spared = (points_words(amount, words) for amount in amounts)
         key = "class.held" if each.held else "class.stays"
+        key = "class.ruled" if any(not own.is_open for own in each.decisions) else key
         text += f"; {words(key, earned=earned, points=points)}"
         yield f"{text}, {words('class.spared', spared=spared)}" if each.spared else text
 
@@ -91,6 +95,35 @@ def held_line(result: Result, words: Words) -> str:
     """Whose marks are held, and how that is decided; empty where nobody's are."""
     held = [name_of(each) for each in result.graded if each.held]
     return words("class.held_row", who=words("list_mark").join(held)) if held else ""
+
+
+def decision_lines(result: Result, words: Words) -> Iterator[str]:
+    """What the lecturer decided: whose, of which field, from and to how many points, why."""
+    for graded, each in decisions_of(result, is_open=False):
+        amounts = {
+            "before": "–" if each.before is None else points_words(each.before, words),
+            "after": points_words(each.before or Fraction(), words),
+        }
+        key = "class.stands_row"
+        if each.points is not None:
+            key, amounts["after"] = "class.decided_row", points_words(each.points, words)
+        field = each.field or words("class.whole")
+        yield words(key, who=name_of(graded), field=field, reason=each.reason, **amounts)
+
+
+def request_lines(result: Result, words: Words) -> Iterator[str]:
+    """What was asked and is not decided yet."""
+    for graded, each in decisions_of(result, is_open=True):
+        field = each.field or words("class.whole")
+        yield words("class.request_row", who=name_of(graded), field=field, reason=each.reason)
+
+
+def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Decision]]:
+    """The lecturer's decisions, or the requests that are open, with the student of each."""
+    for graded in result.graded:
+        for each in graded.decisions:
+            if each.is_open == is_open:
+                yield graded, each
 
 
 def wrong_variant_words(found: Suspicion, names: dict[str, str], words: Words) -> str:
@@ -147,6 +180,17 @@ def unread_lines(
         )
 
 
+def open_cells(result: Result, unread: Iterable[Unread]) -> list[Unread]:
+    """The cells that cannot be read whose points nobody has decided."""
+    waiting = {
+        (graded.taker.student.id, mark.item.field)
+        for graded in result.graded
+        for mark in graded.marks
+        if mark.waits and (graded.pending or not mark.points)
+    }
+    return [cell for cell in unread if (cell.who, cell.field) in waiting]
+
+
 def stranger_lines(given: Answers, words: Words) -> Iterator[str]:
     """Columns that are no fields, and fields that have no column."""
     for each in given.strangers:
@@ -166,7 +210,7 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
 def absent_lines(result: Result) -> Iterator[str]:
     """Those who handed in nothing."""
     for each in result.graded:
-        if not each.present:
+        if not each.is_marked:
             yield name_of(each)
 
 
@@ -187,3 +231,6 @@ def result_lines(result: Result, words: Words) -> Iterator[str]:
     held = held_line(result, words)
     if held:
         yield held
+    counts = [len(list(decisions_of(result, is_open=is_open))) for is_open in (False, True)]
+    if any(counts):
+        yield words("class.decided", count=counts[0], open=counts[1])

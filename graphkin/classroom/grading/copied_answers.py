@@ -21,7 +21,7 @@ from graphkin.classroom.grading.standard import Expectation
 
 FEW = 3
 """Fewer fields tell nothing."""
-STRONG = 100.0
+STRONG = 1000.0
 """Odds from which a wrong variant is reported, all that was looked through counted."""
 EXPLAINED = 1000.0
 """Odds of a slip from which an answer is its own, and no evidence but where digits agree."""

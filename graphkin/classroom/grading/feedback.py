@@ -11,9 +11,9 @@ from graphkin.classroom.grading.feedback_rows import (
     COLUMNS,
     HEADS,
     FeedbackRow,
-    is_decided,
-    known_sign,
+    decision_words,
     points_words,
+    printable,
     rows,
     safe,
 )
@@ -55,8 +55,8 @@ def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> s
 
 
 def is_shown(graded: Graded) -> bool:
-    """Whether a student sees marks: something was handed in, and nothing is held."""
-    return graded.present and not graded.held
+    """Whether a student sees marks: there are some, and they are not held."""
+    return graded.is_marked and not graded.held
 
 
 def total(graded: Graded, words: Words) -> str:
@@ -70,19 +70,21 @@ def total(graded: Graded, words: Words) -> str:
 
 
 def notes(graded: Graded, words: Words) -> list[str]:
-    """What is said of the whole form: that there is none, or what waits for a decision."""
-    if not graded.present:
-        return [words("feedback.absent")]
+    """What is said of the whole form: that there is none, what was decided, what waits."""
+    told = [decision_words(graded.decision, words)] if graded.decision is not None else []
+    if not graded.is_marked:
+        return [words("feedback.absent"), *told]
     if graded.held:
-        return [words("feedback.held")]
-    waiting = [mark.item for mark in graded.marks if mark.points and not is_decided(mark)]
-    if not waiting:
-        return []
+        return [words("feedback.held"), *told]
+    waiting = [mark.item for mark in graded.marks if mark.points and mark.waits]
+    if not waiting or not graded.pending:
+        return told
     fields = ", ".join(
         f"{item.symbol} ({words('table.sense')})" if item.what == "sense" else item.symbol
         for item in waiting
     )
-    return [words("feedback.pending", pending=points_words(graded.pending, words), fields=fields)]
+    pending = points_words(graded.pending, words)
+    return [*told, words("feedback.pending", pending=pending, fields=fields)]
 
 
 def settings_words(graded: Graded, words: Words) -> str:
@@ -149,7 +151,7 @@ def name_of(graded: Graded) -> str:
     """A student's name and group, or the id, as markup with only signs that the lettering has."""
     student = graded.taker.student
     text = ", ".join(filter(None, (student.name or student.id, student.group)))
-    return escape("".join(sign if known_sign(sign) else "?" for sign in text))
+    return escape(printable(text))
 
 
 def fitting(markup: str) -> str:
@@ -173,8 +175,10 @@ def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> It
         yield text_block(note, LETTER)
     if not is_shown(graded):
         return
-    yield head_block(words)
-    for row in rows(graded, words):
+    told = rows(graded, words)
+    if told:
+        yield head_block(words)
+    for row in told:
         yield row_block(row, spacing)
     yield text_block(how(rubric, words), SMALL)
 

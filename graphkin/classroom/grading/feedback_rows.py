@@ -8,7 +8,7 @@ from math import isnan
 from msgspec import Struct
 
 from graphkin.classroom.grading.answer_numbers import shown
-from graphkin.classroom.grading.graded import EarnedMark, Graded, Status
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Status
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import TURNING
 from graphkin.drawing.glyphs import advance
@@ -68,8 +68,11 @@ class FeedbackRow(Struct, frozen=True):
 
 
 def rows(graded: Graded, words: Words) -> list[FeedbackRow]:
-    """What a student is told, a row for each field that earns points."""
-    return [row_of(graded, mark, words) for mark in graded.marks if mark.points]
+    """What a student is told, a row for each field that earns points; of who handed in nothing
+    only what the lecturer decided.
+    """
+    told = (mark for mark in graded.marks if graded.present or mark.decision is not None)
+    return [row_of(graded, mark, words) for mark in told if mark.points]
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
@@ -83,11 +86,14 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
         "" if open_yet else off_words(mark, words),
         words(
             "feedback.of_points",
-            earned=points_words(mark.earned, words) if is_decided(mark) else "?",
+            earned=points_words(mark.earned, words) if not mark.waits else "?",
             points=points_words(mark.points, words),
         ),
     )
-    return FeedbackRow(cells, why(graded, mark, words), mark.status)
+    told = why(graded, mark, words)
+    if mark.decision is not None:
+        told = f"{told}; {decision_words(mark.decision, words)}"
+    return FeedbackRow(cells, told, mark.status)
 
 
 def is_open(graded: Graded, mark: EarnedMark) -> bool:
@@ -95,7 +101,7 @@ def is_open(graded: Graded, mark: EarnedMark) -> bool:
     if mark.status is Status.RIGHT:
         return False
     mine = (mark.item.quantity, mark.item.of)
-    return any((m.item.quantity, m.item.of) == mine for m in graded.marks if not is_decided(m))
+    return any((m.item.quantity, m.item.of) == mine for m in graded.marks if m.waits)
 
 
 def answer_words(mark: EarnedMark, words: Words) -> str:
@@ -107,7 +113,12 @@ def answer_words(mark: EarnedMark, words: Words) -> str:
 
 def safe(text: str) -> str:
     """An answer as it was written, as far as a page can show it."""
-    return "".join(sign if known_sign(sign) else "?" for sign in shown(text.strip()))
+    return printable(shown(text.strip()))
+
+
+def printable(text: str) -> str:
+    """A text with only signs that the lettering has."""
+    return "".join(sign if known_sign(sign) else "?" for sign in text)
 
 
 def known_sign(sign: str) -> bool:
@@ -160,6 +171,8 @@ def off_words(mark: EarnedMark, words: Words) -> str:
 
 def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     """Why a field earned what it did, in a sentence."""
+    if mark.status is Status.UNREADABLE and mark.is_ruled:
+        return unread(mark.answer.problem, unit_markup(mark.item.unit), words)
     if mark.status is Status.UNREADABLE:
         reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words)
         return words("feedback.unreadable", why=reason)
@@ -206,9 +219,13 @@ def unread(problem: str, unit: str, words: Words) -> str:
     return words(UNREAD[problem], unit=unit)
 
 
-def is_decided(mark: EarnedMark) -> bool:
-    """Whether the points of a field are settled."""
-    return mark.status is not Status.UNREADABLE
+def decision_words(decision: Decision, words: Words) -> str:
+    """What the lecturer decided, and why, in a sentence."""
+    if decision.is_open:
+        key = "feedback.asked"
+    else:
+        key = "feedback.stands" if decision.points is None else "feedback.decided"
+    return words(key, reason=escape(printable(decision.reason)))
 
 
 def far(mark: EarnedMark, words: Words) -> str:

@@ -8,28 +8,34 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Protocol
 
 from msgspec import Struct
 
-from graphkin.classroom.roster.read_roster import NAMES
+from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
 from graphkin.classroom.roster.spreadsheets import folded
+from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
+from graphkin.classroom.roster.student_signs import signs as signs_of
 from graphkin.text.errors import GraphkinError, Problem
 
-POSSIBLE = "Points Possible"
-"""What Canvas writes, after four blanks, in the row below its head."""
 COMMA = re.compile(r"[0-9]+,[0-9]+")
 POINT = re.compile(r"[0-9]+\.[0-9]+")
 NUMERIC = re.compile(r"[-+]?[0-9]")
 """How points, dates and ids begin, and names do not."""
 EMPTY = ("", "-")
 """Cells without a mark."""
-EMAIL = ("email", "emailaddress", "adresadeemail", "indirizzoemail", "username", "sisloginid")
-PERSONS = {*EMAIL, *(folded(h) for what, every in NAMES.items() for h in (what, *every))}
+MAILS = {folded(name) for name in ("email", *EMAIL)}
+PERSONS = {*MAILS, *(folded(h) for what, every in NAMES.items() for h in (what, *every))}
 """Heads of columns that say who somebody is."""
 DECIMAL = re.compile(r"[0-9]+(?:\.[0-9]+)?", re.ASCII)
+MAXIMA = {
+    folded(name)
+    for name in ("maximum grade", "nota maximă", "valutazione massima", "voto massimo", "max grade")
+}
+"""Heads of the column in which Moodle's grading worksheet says what an assignment is worth."""
+NOBODY = Signs()
 
 
 class GradebookError(GraphkinError):
@@ -99,13 +105,16 @@ def filled(
     book: Gradebook,
     marks: Mapping[str, Fraction],
     column: str | None = None,
-    ids: Collection[str] = (),
+    signs: Signs = NOBODY,
+    match: Match = "",
 ) -> Filled:
-    """The gradebook with the marks in a column, students found by whatever column has their ids.
+    """The gradebook with the marks in a column, students found by whatever column has their ids,
+    or their e-mail addresses.
 
-    ``ids`` are those of the class who get no mark. Raises GradebookError where that cannot be told.
+    ``signs`` are those of the whole class, also of who gets no mark. Raises GradebookError where
+    that cannot be told.
     """
-    found = places(book, marks, column, ids)
+    found = places(book, marks, column, signs, match)
     comma = writes_comma(book, found.column)
     rows = list(book.rows)
     for line, who in found.lines.items():
@@ -125,18 +134,20 @@ def places(
     book: GradebookTable,
     marks: Mapping[str, Fraction],
     column: str | None,
-    ids: Collection[str] = (),
+    signs: Signs = NOBODY,
+    match: Match = "",
 ) -> MarkPlaces:
     """Where the marks go. Raises GradebookError where that cannot be told."""
-    where = id_column(book, {*marks, *ids})
+    signs = signs if signs.ids else signs_of(marks)
+    where = id_column(book, signs, match)
     target = mark_column(book, [each.text for each in book.rows[0]], column, where)
     refuse_names(book, target, where)
     lines: dict[int, str] = {}
     met: set[str] = set()
     twice: list[Problem] = []
     for line, row in enumerate(book.rows[1:], 1):
-        who = key_of(row, where, marks)
-        if who is None or is_possible(row):
+        who = signs.who(text_at(row, where))
+        if who not in marks or who is None or is_possible(row):
             continue
         if who in met:
             twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
@@ -179,16 +190,15 @@ def is_other(text: str, mark: Fraction) -> bool:
 
 
 def worth_of(book: GradebookTable, column: int) -> Fraction | None:
-    """The points that Canvas holds a column worth; None where nothing says so."""
+    """The points that a column is worth: Canvas has a row for them, Moodle's grading worksheet a
+    column; None where nothing says so."""
     row = next((row for row in book.rows[1:4] if is_possible(row)), ())
-    text = row[column].text.replace(",", ".") if column < len(row) else ""
+    texts = {text_at(row, column)}
+    for i, head in enumerate(book.rows[0]):
+        if folded(head.text) in MAXIMA:
+            texts = {text_at(row, i) for row in book.rows[1:] if text_at(row, i)}
+    text = texts.pop().replace(",", ".") if len(texts) == 1 else ""
     return Fraction(text) if DECIMAL.fullmatch(text) else None
-
-
-def key_of(row: Sequence[Cell], where: int, marks: Collection[str]) -> str | None:
-    """The student of a row; None for one of another class."""
-    text = row[where].text if where < len(row) else ""
-    return text if text in marks else None
 
 
 def is_possible(row: Sequence[Cell]) -> bool:
@@ -196,14 +206,35 @@ def is_possible(row: Sequence[Cell]) -> bool:
     return any(each.text == POSSIBLE for each in row[:1])
 
 
-def id_column(book: GradebookTable, marks: Collection[str]) -> int:
-    """The column in which most cells are ids of the class, in whatever language it is named."""
-    counts = Counter(i for row in book.rows[1:] for i, each in enumerate(row) if each.text in marks)
-    best = max(range(len(book.rows[0])), key=lambda i: counts[i])
-    if not counts[best]:
-        hint = "the ids of the class list must be those of one of its columns"
-        raise GradebookError(Problem(book.name, "no column holds ids of this class", "", hint))
-    return best
+def id_column(book: GradebookTable, signs: Signs, match: Match) -> int:
+    """The column in which most cells are ids of the class, in whatever language it is named; else
+    that of most e-mail addresses, or of ids without the zeros before them."""
+    counts = {
+        "id": known_cells(book, lambda text: text in signs.exact),
+        "email": known_cells(book, lambda text: text.casefold() in signs.emails),
+        "bare": known_cells(book, lambda text: text.isdecimal() and signs.who(text) is not None),
+    }
+    tried = {"id": ("id", "bare"), "email": ("email",)}.get(match, tuple(counts))
+    for what in tried:
+        best = max(range(len(book.rows[0])), key=lambda i: counts[what][i])
+        students = sum(bool(text_at(row, best)) for row in book.rows[1:])
+        if counts[what][best] and (what != "bare" or 2 * counts[what][best] > students):
+            return best
+    meant = {"id": "ids", "email": "e-mail addresses"}.get(match, "ids or e-mail addresses")
+    hint = f"the {meant} of the class list must be those of one of its columns"
+    if match != "id" and not signs.emails:
+        hint += "; the class list has no column e-mail"
+    raise GradebookError(Problem(book.name, f"no column holds {meant} of this class", "", hint))
+
+
+def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counter[int]:
+    """How many cells of each column say who somebody of the class is."""
+    return Counter(
+        i
+        for row in book.rows[1:]
+        for i, each in enumerate(row)
+        if each.text and is_known(each.text)
+    )
 
 
 def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from copy import copy
 from fractions import Fraction
 from pathlib import Path
@@ -19,6 +19,7 @@ from xml.parsers.expat import ExpatError
 from msgspec import Struct
 
 from graphkin.classroom.grading.gradebook import (
+    NOBODY,
     Cell,
     Filled,
     GradebookError,
@@ -30,6 +31,7 @@ from graphkin.classroom.grading.gradebook import (
 from graphkin.classroom.grading.gradebook_csv import read_gradebook
 from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.spreadsheets import bytes_of
+from graphkin.classroom.roster.student_signs import Match, Signs
 from graphkin.classroom.roster.xlsx import cell_text, full_rows, open_sheet, opened, unreadable
 from graphkin.text.errors import Problem
 
@@ -43,13 +45,14 @@ def filled_gradebook(
     path: Path,
     marks: Mapping[str, Fraction],
     column: str | None = None,
-    ids: Collection[str] = (),
+    signs: Signs = NOBODY,
+    match: Match = "",
 ) -> Filled:
     """An export, CSV or XLSX, with the marks in a column. Raises GradebookError."""
     data = bytes_of(path)
     if data.startswith(START):
-        return filled_workbook(read_workbook(data, path.name), marks, column, ids)
-    return filled(read_gradebook(path), marks, column, ids)
+        return filled_workbook(read_workbook(data, path.name), marks, column, signs, match)
+    return filled(read_gradebook(path), marks, column, signs, match)
 
 
 class Workbook(Struct, frozen=True):
@@ -93,10 +96,11 @@ def filled_workbook(
     book: Workbook,
     marks: Mapping[str, Fraction],
     column: str | None = None,
-    ids: Collection[str] = (),
+    signs: Signs = NOBODY,
+    match: Match = "",
 ) -> Filled:
     """The workbook with the marks in a column. Raises GradebookError where that cannot be told."""
-    found = places(book, marks, column, ids)
+    found = places(book, marks, column, signs, match)
     refuse_formulas(book, found)
     numbers = {
         (line + 1, found.column + 1): mark_text(marks[who], comma=False)

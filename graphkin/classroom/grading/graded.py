@@ -50,6 +50,21 @@ class Status(Enum):
     UNREADABLE = "unreadable"
 
 
+class Decision(Struct, frozen=True):
+    """What the lecturer decided of a student's ``field``, or of the whole form (no field), and why.
+
+    ``points`` is what it earns, None where the mark stays; ``is_open`` tells of a request that is
+    not decided yet; ``before`` is what was earned without it, None where that waited.
+    """
+
+    who: str
+    field: str
+    points: Fraction | None
+    reason: str
+    is_open: bool = False
+    before: Fraction | None = None
+
+
 class EarnedMark(Struct, frozen=True):
     """What one field earned, of ``points``, and why.
 
@@ -57,7 +72,8 @@ class EarnedMark(Struct, frozen=True):
     field's unit; ``source`` is the field from whose own value the answer follows, rightly where it
     is right but not by the key, or at which its slip was paid for; ``slip`` the name of the mistake
     that gives it, ``odds`` how much better that explains it than chance;
-    ``torn`` tells of a sense that the sign of its own value contradicts.
+    ``torn`` tells of a sense that the sign of its own value contradicts; ``decision`` is the
+    lecturer's.
     """
 
     item: Item
@@ -71,6 +87,17 @@ class EarnedMark(Struct, frozen=True):
     slip: str = ""
     odds: float = 0.0
     torn: bool = False
+    decision: Decision | None = None
+
+    @property
+    def is_ruled(self) -> bool:
+        """Whether the lecturer set its points."""
+        return self.decision is not None and self.decision.points is not None
+
+    @property
+    def waits(self) -> bool:
+        """Whether it cannot be read, and nobody has decided its points."""
+        return self.status is Status.UNREADABLE and not self.is_ruled
 
     @property
     def off(self) -> float | None:
@@ -86,7 +113,7 @@ class Taker(Struct, frozen=True):
     """A student who takes part: the parameters of the own variant, exact and as written.
 
     ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
-    opaque name on the sheets, ``language`` what the class list says of the student's.
+    opaque name on the sheets, ``language`` and ``email`` what the class list says of the student's.
     """
 
     student: Student
@@ -94,22 +121,38 @@ class Taker(Struct, frozen=True):
     code: str = ""
     compute: tuple[str, ...] = ()
     language: str = ""
+    email: str = ""
 
 
 class Graded(Struct, frozen=True):
     """A student with the mark of each field, in the order of the form.
 
-    ``held`` tells that they are kept back until the lecturer has decided whose answers these are.
+    ``held`` tells that they are kept back until the lecturer has decided whose answers these are;
+    ``decision`` is the lecturer's on the whole form.
     """
 
     taker: Taker
     marks: tuple[EarnedMark, ...]
     present: bool = True
     held: bool = False
+    decision: Decision | None = None
+
+    @property
+    def decisions(self) -> tuple[Decision, ...]:
+        """The lecturer's, of fields and of the whole."""
+        found = (*(mark.decision for mark in self.marks), self.decision)
+        return tuple(each for each in found if each is not None)
+
+    @property
+    def is_marked(self) -> bool:
+        """Whether there are marks: something was handed in, or the lecturer gave points."""
+        return self.present or any(each.points is not None for each in self.decisions)
 
     @property
     def earned(self) -> Fraction:
-        """The sum of what was earned."""
+        """What was earned: the sum, or what the lecturer decided for the whole."""
+        if self.decision is not None and self.decision.points is not None:
+            return self.decision.points
         return sum((mark.earned for mark in self.marks), Fraction())
 
     @property
@@ -120,7 +163,9 @@ class Graded(Struct, frozen=True):
     @property
     def pending(self) -> Fraction:
         """The points of answers that cannot be read, which a person has still to decide."""
-        waiting = (mark.points for mark in self.marks if mark.status is Status.UNREADABLE)
+        if self.decision is not None and self.decision.points is not None:
+            return Fraction()
+        waiting = (mark.points for mark in self.marks if mark.waits)
         return sum(waiting, Fraction())
 
     @property
@@ -132,12 +177,13 @@ class Graded(Struct, frozen=True):
     def spared(self) -> Fraction:
         """What wrong answers earned all the same, by what follows or by slips."""
         known = (Status.FOLLOWS, Status.SLIP)
-        return sum((mark.earned for mark in self.marks if mark.status in known), Fraction())
+        found = (m.earned for m in self.marks if m.status in known and not m.is_ruled)
+        return sum(found, Fraction())
 
     @property
     def share(self) -> Fraction | None:
         """What was earned, in parts of the points that are decided; None without any."""
-        return self.earned / self.decided if self.present and self.decided else None
+        return self.earned / self.decided if self.is_marked and self.decided else None
 
     def mark(self, name: str) -> EarnedMark:
         """The mark of a field."""

@@ -19,6 +19,7 @@ from graphkin.classroom.grading.marks_tables import (
     marks_table,
     tolerances_table,
 )
+from graphkin.classroom.grading.submissions import Sender, packed_feedback
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.language_names import language_in
@@ -31,6 +32,8 @@ MARKS, TOLERANCES, REPORT, CHANGES = (
     "class.html",
     "differences.csv",
 )
+RETURNED = "feedback-moodle.zip"
+"""The feedback as Moodle takes it back."""
 FEEDBACK = "feedback"
 """The folder with a page for each student."""
 
@@ -95,10 +98,31 @@ def gradebook_name(path: Path) -> str:
     return f"gradebook-{path.name}"
 
 
-def points_by_id(found: Class) -> dict[str, Fraction]:
-    """The points of those who handed in and for whom nothing waits or is held, for a gradebook."""
+def returned(
+    files: Mapping[str, bytes],
+    graded: Sequence[Graded],
+    senders: Mapping[str, Sender],
+    formats: Sequence[str],
+) -> dict[str, bytes]:
+    """The ZIP file in which Moodle takes feedback back, where it was Moodle that sent answers."""
+    kind = next((kind for kind in ("pdf", "html") if kind in formats), "")
+    backs = {who: sender.back for who, sender in senders.items() if sender.back}
+    if not kind or not backs:
+        return {}
+    students = [each.taker.student.id for each in graded]
+    names = stems(students, [each.taker.code for each in graded])
+    pages = {
+        who: files[f"{FEEDBACK}/{name}.{kind}"] for who, name in zip(students, names, strict=True)
+    }
+    return {RETURNED: packed_feedback(backs, pages, kind)}
+
+
+def points_by_id(found: Class, scale: Fraction | None = None) -> dict[str, Fraction]:
+    """The points of those who handed in and for whom nothing waits or is held, for a gradebook; on
+    a scale the share of all points that they are.
+    """
     return {
-        each.taker.student.id: each.earned
+        each.taker.student.id: each.earned if scale is None else each.earned * scale / each.points
         for each in found.result.graded
-        if each.present and not each.pending and not each.held
+        if each.is_marked and not each.pending and not each.held and (scale is None or each.points)
     }

@@ -9,12 +9,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from graphkin.classroom.grading.graded import EarnedMark, Graded, Result, Status
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.text import Words
 
-BEFORE = ("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence")
+BEFORE = (
+    *("row", "number", "id", "name", "group", "points", "of", "percent", "pending", "evidence"),
+    "decision",
+)
 WHY = " why"
 FIRST = 5
 """Changes that a terminal shows."""
@@ -36,7 +39,8 @@ def marks_table(result: Result) -> bytes:
 
     ``of`` and ``percent`` are of the points that are decided; ``pending`` are those that wait;
     ``evidence`` names whose data the answers fit better than the own, and who has the same values;
-    points and percent of who is held are empty, those of each field stay for the decision.
+    points and percent of who is held are empty, those of each field stay for the decision;
+    ``decision`` is the lecturer's on the whole form, those on fields stand with their reasons.
     """
     graded = result.graded
     fits: dict[str, list[str]] = defaultdict(list)
@@ -55,25 +59,37 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
     share = None if graded.held else graded.share
+    told = {name for name in fields if graded.present or marks[name].decision is not None}
     return [
         str(student.row),
         "" if student.number is None else str(student.number),
         student.id,
         student.name,
         student.group,
-        number(graded.earned) if graded.present and not graded.held else "",
+        number(graded.earned) if graded.is_marked and not graded.held else "",
         number(graded.decided),
         f"{float(100 * share):.1f}" if share is not None else "",
         number(graded.pending) if graded.pending else "",
         "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
-        *(points_cell(marks[name]) if graded.present else "" for name in fields),
-        *(reason(graded, name) if graded.present else "" for name in fields),
+        ruling(graded.decision) if graded.decision is not None else "",
+        *(points_cell(marks[name]) if name in told else "" for name in fields),
+        *(reason(graded, name) if name in told else "" for name in fields),
     ]
 
 
 def points_cell(mark: EarnedMark) -> str:
     """The points of a field; empty while an answer that cannot be read waits for a decision."""
-    return number(mark.earned) if mark.status is not Status.UNREADABLE else ""
+    return number(mark.earned) if not mark.waits else ""
+
+
+def ruling(decision: Decision) -> str:
+    """What the lecturer decided, in plain words: decided, was 0: why; stands: why; asked: why."""
+    if decision.is_open:
+        return f"asked: {decision.reason}"
+    if decision.points is None:
+        return f"stands: {decision.reason}"
+    before = "open" if decision.before is None else number(decision.before)
+    return f"decided, was {before}: {decision.reason}"
 
 
 def reason(graded: Graded, name: str) -> str:
@@ -88,7 +104,8 @@ def reason(graded: Graded, name: str) -> str:
         source, paid = "", f"paid at {source}"
     torn = "contradicts its sign" if mark.torn else ""
     parts = (mark.status.value, source, mark.slip, paid, torn)
-    return " ".join(part for part in parts if part)
+    found = " ".join(part for part in parts if part)
+    return found if mark.decision is None else f"{found}; {ruling(mark.decision)}"
 
 
 def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) -> bytes:

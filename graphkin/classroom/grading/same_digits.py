@@ -1,8 +1,9 @@
 """Evidence for the lecturer: two students who handed in the same digits.
 
 How likely is it that either of them wrote just these digits alone? From the own drawing, with
-any pencil, a crank laid off badly, lengths read to whole or half millimetres, mistakes; in fields
-where both are wrong from a misunderstanding that both have, which is held certain. Which of the
+any pencil, a crank laid off badly, lengths read to whole or half millimetres, mistakes; or by
+computing all, or drawing with a computer, next to which any pencil is coarse; in fields where both
+are wrong from a misunderstanding that both have, which is held certain. Which of the
 fields agree is counted as a choice, and so is the pair among all pairs with the same data, or with
 other data.
 """
@@ -16,10 +17,11 @@ from math import comb, inf, log, pi
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
-from graphkin.classroom.grading.likelihood import PENCILS, fit, told_odds
+from graphkin.classroom.grading.likelihood import PENCILS, Key, fit, told_odds
 from graphkin.classroom.grading.standard import Expectation
 
 FEW = 3
@@ -34,6 +36,8 @@ ASTRAY = 0.02
 """The share of students who draw another's data."""
 FINE = 1e-6
 """No number is written more finely than this part of it."""
+COMPUTING, FINER = 0.1, 0.05
+"""The share of students who compute or draw with a computer; how much finer that is than a hand."""
 CROWD = 12
 """So many with one value are no evidence of copies."""
 Pair = tuple[int, int]
@@ -163,11 +167,26 @@ def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, res
 
 
 def likelihood(each: AnswerSheet, keys: Keys, variant: int, read: Any) -> float:
-    """How likely some of a student's answers are by the data of a variant, as a logarithm."""
+    """How likely some of a student's answers are by the data of a variant, as a logarithm: drawn
+    by hand, or computed.
+    """
+    import numpy as np
+
     if not read.any():
         return 0.0
+    given = each.answers[read], each.rounding[read]
+    by_hand, computed = (fit(*given, key).likelihood for key in tools(keys, variant, read))
+    odds = (by_hand + log(1 - COMPUTING), computed + log(COMPUTING))
+    return float(np.logaddexp(*odds))
+
+
+def tools(keys: Keys, variant: int, read: Any) -> tuple[Key, Key]:
+    """A key with the errors of a hand, and of a computer, by which no crank is laid off badly."""
     key = keys.key(variant, read)
-    return float(fit(each.answers[read], each.rounding[read], key).likelihood)
+    fine = replace(
+        key, spread=FINER**2 * key.spread, computed=FINER * key.computed, cranks=0.0 * key.cranks
+    )
+    return key, fine
 
 
 def misunderstood(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any) -> float:
@@ -188,12 +207,16 @@ def misunderstood(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any) -
 
 
 def pencil_of(each: AnswerSheet, keys: Keys) -> float:
-    """How coarse a student's pencil is by what is right; the finest where little is."""
+    """How coarse a student's pencil is by what is right, as fine as a computer's where that is as
+    likely; the finest by hand where little is right.
+    """
     read = each.is_read & ~each.wrong
     if read.sum() < FEW:
         return PENCILS[0]
-    key = keys.key(each.variant, read)
-    return fit(each.answers[read], each.rounding[read], key).pencil
+    given = each.answers[read], each.rounding[read]
+    drawn, computed = (fit(*given, key) for key in tools(keys, each.variant, read))
+    is_finer = computed.likelihood + log(COMPUTING) > drawn.likelihood + log(1 - COMPUTING)
+    return FINER * computed.pencil if is_finer else drawn.pencil
 
 
 def named(

@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from graphkin.classroom.lab.meanings import fields_of, slips
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import Problem, SceneError
 from graphkin.writers.files import RESERVED, write_all
 
@@ -23,5 +26,30 @@ def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
         hint = "-o DIR says in which folder it is made"
         raise SceneError(Problem(f'"{name}"', "is no name for a lab", expected, hint))
     texts = {file: (START / file).read_text(encoding="utf-8") for file in FILES}
+    texts["lab.toml"] = explained(
+        texts["lab.toml"], Mechanism(read_text(texts["scene.toml"], name))
+    )
     files = {file: text.replace("NAME", name).encode("utf-8") for file, text in texts.items()}
     return write_all(folder / name, files, force)
+
+
+def explained(text: str, mechanism: Mechanism) -> str:
+    """A rubric with every field of a mechanism and every slip, and what each means."""
+    fields = fields_of(mechanism)
+    stated = {line.partition(" =")[0] for line in text.splitlines()}
+    lines = []
+    for line in text.splitlines():
+        name = line.partition(" =")[0]
+        if line == "# FIELDS":
+            more = ((f"# {each} = 1", told) for each, told in fields.items() if each not in stated)
+            lines += [beside(*pair) for pair in more]
+        elif line == "# SLIPS":
+            lines += [beside(f"# {each} = 0.5", told) for each, told in slips().items()]
+        else:
+            lines.append(beside(line, fields[name]) if name in fields else line)
+    return "\n".join(lines) + "\n"
+
+
+def beside(line: str, told: str) -> str:
+    """A line with what it means beside it."""
+    return f"{line:32} # {told}"

@@ -10,9 +10,17 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
+from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.sheet_rows import SheetRow
-from graphkin.classroom.roster.spreadsheets import Spreadsheet, TableProblems, columns, read_sheet
+from graphkin.classroom.roster.spreadsheets import (
+    Spreadsheet,
+    TableProblems,
+    columns,
+    folded,
+    read_sheet,
+)
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.student_signs import EMAIL
 from graphkin.scene.findings import nearest, shown, visible
 from graphkin.text.errors import Problem
 
@@ -55,6 +63,9 @@ NAMES = {
         "id studente",
         "identificator",
         "identificativo",
+        "code",
+        "student code",
+        "codice studente",
     ),
     "name": (
         "full name",
@@ -70,9 +81,40 @@ NAMES = {
         "cognome e nome",
         "nominativo",
         "studente",
+        "numele studentului",
+        "numele și prenumele studentului",
+        "numele complet",
+        "nume complet",
+        "nume student",
+        "nome completo",
+        "nome studente",
+        "nome dello studente",
+        "nome cognome",
+        "cognome nome",
+        "name and surname",
+        "surname and name",
     ),
-    "first": ("first name", "given name", "prenume", "prenumele", "forename"),
-    "last": ("surname", "last name", "family name", "nume de familie", "cognome"),
+    "first": (
+        "first name",
+        "first names",
+        "given name",
+        "given names",
+        "forename",
+        "prenume",
+        "prenumele",
+        "prenume student",
+        "prenumele studentului",
+    ),
+    "last": (
+        "surname",
+        "last name",
+        "family name",
+        "nume de familie",
+        "numele de familie",
+        "cognome",
+        "cognome studente",
+        "cognome dello studente",
+    ),
     "group": (
         "class",
         "section",
@@ -96,6 +138,8 @@ MOST_DIGITS = 9
 Tell = Callable[[str], object]
 """Tells a note that is no mistake."""
 LONGEST_ID, LONGEST_NAME = 100, 200
+POSSIBLE = "Points Possible"
+"""The first cell of the row in which an export of Canvas has the points of each assignment."""
 WHOLE = re.compile(r"[0-9]+")
 DECIMAL_ZERO = re.compile(r"([0-9]+)[.,]0+")
 
@@ -110,7 +154,8 @@ def read_roster(
     """The students of a class list, in its order; RosterError with every problem, row by row.
 
     ``numbered`` demands a number of each; ``check`` says what else is wrong with one who has it;
-    ``tell`` gets a note where ids may have lost their leading zeros.
+    ``tell`` gets a note where ids may have lost their leading zeros, and of columns that are not
+    understood.
     """
     told = TableProblems(Path(path).name)
     sheet = read_sheet(
@@ -120,6 +165,8 @@ def read_roster(
     students: list[Student] = []
     first: dict[str, Student] = {}
     for row in sheet.rows:
+        if POSSIBLE in row.cells[:1]:
+            continue
         one = student(sheet, row, where, told, numbered)
         students.append(one)
         refuse_twin(sheet, one, first, head_of(sheet, where, "id"), told)
@@ -128,10 +175,24 @@ def read_roster(
     if not sheet.rows and not told.problems:
         told.add(sheet.name, "no student below the head", "a row for each student")
     told.stop()
-    note = lost_zeros(sheet, where["id"])
-    if note and tell is not None:
-        tell(note)
+    for note in (lost_zeros(sheet, where["id"]), not_understood(sheet, where)):
+        if note and tell is not None:
+            tell(note)
     return students
+
+
+def not_understood(sheet: Spreadsheet, where: Mapping[str, int]) -> str:
+    """A note of columns that mean nothing here, and are kept as they are; else nothing."""
+    known = {folded(name) for name in ("email", *EMAIL, *LANGUAGE)}
+    heads = [
+        f'"{visible(head)}"'
+        for i, head in enumerate(sheet.head)
+        if head and i not in where.values() and folded(head) not in known
+    ]
+    if not heads:
+        return ""
+    nameless = "; none holds the names" if not NAMED & where.keys() else ""
+    return f"{sheet.name}: columns not understood, kept as they are: {', '.join(heads)}{nameless}"
 
 
 def lost_zeros(sheet: Spreadsheet, column: int) -> str:

@@ -9,7 +9,8 @@ import csv
 import io
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain, islice
 from pathlib import Path
 
 from msgspec import Struct
@@ -26,13 +27,19 @@ from graphkin.classroom.roster.sheet_rows import (
 )
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import Findings, visible
-from graphkin.text.errors import Problem
+from graphkin.text.errors import MOST, Problem
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 ROW = re.compile(r", row (\d+)")
 """How a problem names its row."""
+VALUES = re.compile(r'"[^"]*"|\d+')
+"""What differs from row to row in problems that have one cause."""
+FEW, TOLD = 3, 4
+"""Rows of one cause that are told one by one; rows that are named with the first of more."""
+TITLES = 20
+"""Rows, empty ones not counted, within which the head of a table is looked for."""
 ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 """First bytes of an XLSX, which is a ZIP file, and of an XLS."""
 
@@ -55,16 +62,49 @@ class Spreadsheet(Struct, frozen=True):
 
 
 class TableProblems(Findings):
-    """Problems of a table, gathered so that all are told at once."""
+    """Problems of a table, gathered so that all are told at once, those of one cause together."""
 
     def __init__(self, name: str) -> None:
         super().__init__()
         self.name = name
+        self.causes: dict[tuple[str, ...], dict[tuple[str, str], Problem]] = {}
+
+    def extend(self, problems: Iterable[Problem]) -> None:
+        """Note problems that are new; with more causes than an error carries, stop."""
+        for problem in problems:
+            alike = self.causes.setdefault(cause_of(problem), {})
+            alike.setdefault((problem.place, problem.found), problem)
+            if len(alike) == 1:
+                self.problems.append(problem)
+            if len(self.causes) > MOST:
+                self.stop()
 
     def stop(self) -> None:
         """Raise RosterError when anything was found, in the order of the rows."""
         if self.problems:
-            raise RosterError(sorted(self.problems, key=row_of))
+            told = [line for alike in self.causes.values() for line in together(alike.values())]
+            raise RosterError(sorted(told, key=row_of))
+
+
+def cause_of(problem: Problem) -> tuple[str, ...]:
+    """What problems share that differ in their rows and values alone."""
+    if not ROW.search(problem.place):
+        return (problem.place, problem.found, problem.expected, problem.hint)
+    texts = (problem.found, problem.expected, problem.hint)
+    return (ROW.sub("", problem.place), *(VALUES.sub("", text) for text in texts))
+
+
+def together(alike: Iterable[Problem]) -> list[Problem]:
+    """Problems of one cause: each where they are few, else the first with the others' rows."""
+    every = list(alike)
+    rows = list(dict.fromkeys(row_of(problem) for problem in every))[1:]
+    if len(rows) < FEW:
+        return every
+    named = ", ".join(map(str, rows[:TOLD]))
+    more = f" and {len(rows) - TOLD} more" if len(rows) > TOLD else ""
+    hint = f"the same in rows {named}{more}"
+    hint = f"{every[0].hint}; {hint}" if every[0].hint else hint
+    return [Problem(every[0].place, every[0].found, every[0].expected, hint)]
 
 
 def row_of(problem: Problem) -> int:
@@ -82,22 +122,27 @@ def read_sheet(
     Rows that cannot be read are left out and noted in ``told``, if there is one: the caller finds
     the other problems, and then stops.
     """
-    path = Path(path)
-    data = bytes_of(path)
-    own, told = told is None, told or TableProblems(path.name)
+    return sheet_in(bytes_of(Path(path)), Path(path).name, heads, told)
+
+
+def sheet_in(
+    data: bytes, name: str, heads: Sequence[str] = (), told: TableProblems | None = None
+) -> Spreadsheet:
+    """The same of the bytes of a file, by the name that errors give it."""
+    own, told = told is None, told or TableProblems(name)
     rows: Iterable[SheetRow]
     if data.startswith(OLD_EXCEL):
         hint = "save it as .xlsx or as CSV UTF-8"
-        raise RosterError(Problem(path.name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
+        raise RosterError(Problem(name, "is an old Excel file (.xls)", "CSV or XLSX", hint))
     if data.startswith(ZIP):
         from graphkin.classroom.roster.xlsx import xlsx_rows
 
-        rows, separator = list(xlsx_rows(data, path.name)), "\t"
+        rows, separator = list(xlsx_rows(data, name)), "\t"
     else:
-        text = text_of(data, path.name)
+        text = text_of(data, name)
         separator = separator_of(text, heads)
         rows = csv_rows(text, separator, told)
-    sheet = sheet_of(path.name, rows, separator, told)
+    sheet = sheet_of(name, rows, separator, told, heads)
     if own:
         told.stop()
     return sheet
@@ -135,16 +180,24 @@ def text_of(data: bytes, name: str) -> str:
 
 
 def separator_of(text: str, heads: Sequence[str] = ()) -> str:
-    """What stands between the cells, by the head: the sign that makes most known columns of it."""
-    first = next((line for line in io.StringIO(text, newline="") if line.strip(" ,;\t\r\n")), "")
-    first = first[: csv.field_size_limit()]
+    """What stands between the cells, by the head: the sign that makes most known columns of it.
+
+    Where titles may stand above it, each of the first lines may be the head.
+    """
+    full = (line for line in io.StringIO(text, newline="") if line.strip(" ,;\t\r\n"))
+    lines = [line[: csv.field_size_limit()] for line in islice(full, TITLES if heads else 1)]
     known = {folded(head) for head in heads}
 
     def worth(separator: str) -> tuple[int, int]:
-        cells = next(csv.reader([first], delimiter=separator), [])
-        return sum(bool(cell) and folded(cell) in known for cell in cells), len(cells)
+        rows = [next(csv.reader([line], delimiter=separator), []) for line in lines]
+        return max((known_in(row, known) for row in rows), default=0), len(rows[0]) if rows else 0
 
     return max(SEPARATORS, key=worth)
+
+
+def known_in(cells: Iterable[str], known: Collection[str]) -> int:
+    """How many cells of a row are known names of columns."""
+    return sum(bool(cell) and folded(cell) in known for cell in cells)
 
 
 def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRow]:
@@ -183,11 +236,14 @@ def broken(message: str) -> tuple[str, str, str]:
 
 
 def sheet_of(
-    name: str, rows: Iterable[SheetRow], separator: str, told: TableProblems
+    name: str,
+    rows: Iterable[SheetRow],
+    separator: str,
+    told: TableProblems,
+    heads: Sequence[str] = (),
 ) -> Spreadsheet:
-    """A table of rows: the first that is not empty is its head, empty ones are left out."""
-    body = (row for row in map(tidied, rows) if row.cells)
-    head = next(body, None)
+    """A table of rows, empty ones left out: its head, and what is below it."""
+    head, body = below_titles((row for row in map(tidied, rows) if row.cells), heads)
     if head is None:
         told.stop()
         raise RosterError(
@@ -217,6 +273,22 @@ def sheet_of(
         whole = cells + ("",) * (width - len(cells))
         rows_found.append(SheetRow(row.line, whole, row.numbers))
     return Spreadsheet(name, head.cells, tuple(rows_found), separator)
+
+
+def below_titles(
+    rows: Iterator[SheetRow], heads: Sequence[str]
+) -> tuple[SheetRow | None, Iterator[SheetRow]]:
+    """The head of a table and the rows below it: the first row, unless one that follows soon, below
+    titles, has more known names of columns, two at least.
+    """
+    known = {folded(head) for head in heads}
+    first = list(islice(rows, TITLES))
+    counts = [known_in(row.cells, known) for row in first]
+    best = max(range(len(first)), key=lambda i: (counts[i] if counts[i] > 1 else 0, -i), default=0)
+    if not first:
+        return None, iter(())
+    best = best if counts[best] > counts[0] else 0
+    return first[best], chain(first[best + 1 :], rows)
 
 
 def tidied(row: SheetRow) -> SheetRow:
@@ -255,11 +327,14 @@ def folded(head: str) -> str:
 
 
 def columns(sheet: Spreadsheet, names: Mapping[str, Sequence[str]]) -> dict[str, int]:
-    """Which column holds what, by the names that each may bear in any language."""
-    known = {folded(name): what for what, every in names.items() for name in (what, *every)}
+    """Which column holds what, by the names that each may bear in any language: of several the one
+    whose name stands first.
+    """
     found: dict[str, int] = {}
-    for i, cell in enumerate(sheet.head):
-        what = known.get(folded(cell)) if folded(cell) else None
-        if what is not None:
-            found.setdefault(what, i)
+    cells = {folded(cell): i for i, cell in reversed(list(enumerate(sheet.head))) if folded(cell)}
+    for what, every in names.items():
+        heads = (cells.get(folded(name)) for name in (what, *every))
+        place = next((i for i in heads if i is not None), None)
+        if place is not None:
+            found[what] = place
     return found

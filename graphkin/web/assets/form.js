@@ -24,7 +24,7 @@ const id = () => told.id || clean(own.value);
 // What is wrong with an answer, as graphkin.classroom.grading.answer_numbers says it; empty where it is read.
 function wrong(text, unit) {
   const stripped = clean(text);
-  if (!stripped) return "";
+  if (!stripped || told.blanks.includes(stripped.toLowerCase())) return "";
   const found = stripped.length <= told.longest ? NUMBER.exec(stripped) : null;
   if (!found) return say("no_number", { text: shown(stripped) });
   const rest = stripped.slice(found[0].length);

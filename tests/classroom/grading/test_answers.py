@@ -11,6 +11,7 @@ from graphkin.classroom.grading.feedback_rows import unread
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
 
 LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
@@ -42,6 +43,9 @@ IDS = ("001", "002", "ĂÎ-3")
         ("27,6 1/s", RATE, 27.6),
         ("27,6 s^-1", RATE, 27.6),
         ("27.6 (rad/s)", RATE, 27.6),
+        ("≈ 3,8", SPEED, 3.8),
+        ("~3.8 m/s", SPEED, 3.8),
+        ("ca. -5", LENGTH, -5.0),
     ],
 )
 def test_numbers_are_read_with_point_or_comma_and_unit(text, item, value):
@@ -93,7 +97,7 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
     text = (
         "\ufeffMatricol;V_D_MM;v_D;omega_3_sense;comment\n001;19,75;3,8;orar;=1+1\nĂÎ-3;;abc;+;\n"
     )
-    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
     assert found.of["ĂÎ-3"]["v_D_mm"].is_blank
@@ -104,10 +108,12 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
 
 def test_a_student_may_sign_with_the_code_on_the_sheets(tmp_path):
     text = "id,v_D\nQWERTYUIOP,3.8\n002,1\n"
-    found = read_answers(written(tmp_path, "a.csv", text), FORM, IDS, {"QWERTYUIOP": "001"})
+    found = read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS, {"001": "QWERTYUIOP"}))
     assert found.of["001"]["v_D"].value == 3.8
     with pytest.raises(RosterError, match="has answers already"):
-        read_answers(written(tmp_path, "a.csv", text + "001,2\n"), FORM, IDS, {"QWERTYUIOP": "001"})
+        read_answers(
+            written(tmp_path, "a.csv", text + "001,2\n"), FORM, signs(IDS, {"001": "QWERTYUIOP"})
+        )
 
 
 @pytest.mark.parametrize(
@@ -131,7 +137,7 @@ def test_every_broken_file_of_a_folder_is_told(tmp_path):
     written(tmp_path, "003.csv", "field,value\nv_D,1\n")
     (tmp_path / "002.csv").write_bytes(b"field,value\nv_D,\xff\n")
     with pytest.raises(RosterError) as error:
-        read_answers(tmp_path, FORM, IDS)
+        read_answers(tmp_path, FORM, signs(IDS))
     told = "\n".join(str(problem) for problem in error.value.problems)
     assert all(f"00{n}" in told for n in (1, 2, 3))
 
@@ -146,28 +152,30 @@ def test_a_number_is_rounded_by_half_a_unit_of_its_last_digit(text, share):
 def test_everything_wrong_with_the_rows_is_told_at_once(tmp_path):
     text = "id,v_D\n001,1\n1,2\n001,3\n,4\n"
     with pytest.raises(RosterError) as error:
-        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+        read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
     places = [problem.place for problem in error.value.problems]
     assert places == [f'a.csv, row {row}, column "id"' for row in (3, 4, 5)]
     assert "answers already, in a.csv, row 2" in str(error.value)
 
 
-def test_leading_zeros_count(tmp_path):
-    with pytest.raises(RosterError, match="no student of this class; did you mean 001"):
-        read_answers(written(tmp_path, "a.csv", "id,v_D\n01,1\n"), FORM, IDS)
+def test_zeros_that_a_spreadsheet_took_away_count_only_where_two_ids_differ_by_them(tmp_path):
+    path = written(tmp_path, "a.csv", "id,v_D\n1,2\n")
+    assert read_answers(path, FORM, signs(IDS)).of["001"]["v_D"].value == 2
+    with pytest.raises(RosterError, match=r"no student of this class; did you mean 0*1"):
+        read_answers(path, FORM, signs([*IDS, "0001"]))
 
 
 @pytest.mark.parametrize("text", ["name,v_D\nA,1\n", "id,colour\n001,red\n"])
 def test_a_table_without_ids_or_fields_is_refused(tmp_path, text):
     with pytest.raises(RosterError, match="no column"):
-        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+        read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
 
 
 def test_a_folder_with_a_file_for_each_student(tmp_path):
     written(tmp_path, "001.csv", "field;value\nv_D_mm;19,75\nomega_3_sense;ccw\n")
     written(tmp_path, "x.csv", "câmp,valoare\nmatricol,002\nv_D,3.8 m/s\nv_DD,1\n")
     written(tmp_path, "notes.md", "nothing")
-    found = read_answers(tmp_path, FORM, IDS)
+    found = read_answers(tmp_path, FORM, signs(IDS))
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["002"]["v_D"].value == 3.8
     assert [each.name for each in found.strangers] == ["v_DD"]
@@ -176,7 +184,7 @@ def test_a_folder_with_a_file_for_each_student(tmp_path):
 
 def test_a_folder_without_tables_is_refused(tmp_path):
     with pytest.raises(RosterError, match="without any table"):
-        read_answers(tmp_path, FORM, IDS)
+        read_answers(tmp_path, FORM, signs(IDS))
 
 
 def test_answers_in_a_spreadsheet(tmp_path):
@@ -184,7 +192,7 @@ def test_answers_in_a_spreadsheet(tmp_path):
     for line in (("id", "v_D_mm", "omega_3_sense"), ("001", 19.75, "cw")):
         book.active.append(line)
     book.save(tmp_path / "a.xlsx")
-    found = read_answers(tmp_path / "a.xlsx", FORM, IDS)
+    found = read_answers(tmp_path / "a.xlsx", FORM, signs(IDS))
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
 
@@ -192,10 +200,10 @@ def test_answers_in_a_spreadsheet(tmp_path):
 def test_the_answers_to_another_lab_are_refused_with_their_columns(tmp_path):
     text = "id,v_D,v_Q,a_Q,omega_9\n001,3.8,1,2,3\n"
     with pytest.raises(RosterError, match="only 1 of the form's 4 fields") as refused:
-        read_answers(written(tmp_path, "a.csv", text), FORM, IDS)
+        read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
     assert "v_Q, a_Q, omega_9" in str(refused.value)
     with pytest.raises(RosterError, match=r"no column is a field of the form.*v_Q"):
-        read_answers(written(tmp_path, "b.csv", "id,v_Q,a_Q\n001,1,2\n"), FORM, IDS)
+        read_answers(written(tmp_path, "b.csv", "id,v_Q,a_Q\n001,1,2\n"), FORM, signs(IDS))
 
 
 @pytest.mark.parametrize(
@@ -218,3 +226,14 @@ def test_a_unit_of_something_else_is_no_mistyped_number(text):
 def test_letters_among_the_digits_are_told_as_no_number(language, said):
     answer = read_answer("5o0", HARD)
     assert unread(answer.problem, HARD.unit, words(language)) == said
+
+
+@pytest.mark.parametrize("text", ["-", "–", " n/a ", "N.A.", "na", "--"])
+def test_what_stands_for_no_answer_is_none(text):
+    assert read_answer(text, SPEED).is_blank
+    sense = read_answer(text, SENSE)
+    assert sense.is_blank or (text in "-–" and sense.value == -1)
+
+
+def test_a_number_that_is_about_right_is_as_rough_as_its_digits():
+    assert rounding(read_answer("≈ 3,8", SPEED)) == rounding(read_answer("3,8", SPEED))

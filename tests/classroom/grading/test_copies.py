@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.graded import SURE, Status
 from graphkin.classroom.grading.same_digits import copies
+from tests.chosen import EVERY
 from tests.classroom.grading.classes import (
     COPYING,
     HONEST,
@@ -25,16 +26,51 @@ from tests.classroom.grading.classes import (
     written,
 )
 
-ORDINARY = HONEST[1]
+CAREFUL, ORDINARY, COMPUTED = HONEST[0], HONEST[1], HONEST[6]
 
 
-@pytest.mark.parametrize(("place", "kind"), list(enumerate(HONEST))[::3], ids=str)
-def test_nobody_of_an_honest_class_is_named(place, kind):
+@pytest.mark.parametrize("seed", range(10 if EVERY else 1))
+@pytest.mark.parametrize("place", range(len(HONEST)), ids=lambda place: HONEST[place].name)
+def test_nobody_of_an_honest_class_is_named(place, seed):
     """Careful, weak and sloppy ones, each with one of three labs in turn."""
-    lab = LABS[place % len(LABS)]
-    result = marked(lab, kind, 0, honest_class(lab, kind, 0))
+    kind, lab = HONEST[place], LABS[(place + seed) % len(LABS)]
+    result = marked(lab, kind, seed, honest_class(lab, kind, seed))
     assert len([each for each in result.graded if each.present]) == 120
     assert named(result) == []
+
+
+@pytest.mark.parametrize(("lab", "seed"), list(zip(LABS, (2, 4, 7), strict=True)))
+def test_who_computes_instead_of_drawing_agrees_with_others_to_the_digits(lab, seed):
+    """Classes in which two have the same data and the same slip, and write the same uncopied."""
+    answers = honest_class(lab, COMPUTED, seed)
+    texts = [tuple(each.text for each in row.values()) for row in answers.values()]
+    assert len(set(texts)) < len(texts)
+    assert named(marked(lab, COMPUTED, seed, answers)) == []
+
+
+def test_of_what_careful_hands_draw_hardly_a_hundredth_is_judged_wrong():
+    """Three classes, each student with a quarter of a millimetre: every field that is not right."""
+    found = [
+        (lab, mark.item.field, mark.status)
+        for lab in LABS
+        for graded in marked(lab, CAREFUL, 1, honest_class(lab, CAREFUL, 1)).graded
+        for mark in graded.marks
+        if mark.points and not mark.answer.is_blank
+    ]
+    wrong = [each for each in found if each[2] is not Status.RIGHT]
+    assert len(found) > 5000
+    assert len(wrong) <= 0.01 * len(found), wrong
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_nine_of_ten_who_hand_in_another_s_answers_are_found(lab):
+    """Twelve of a hundred and twenty who have data of their own; all the others are honest."""
+    kind = HONEST[3] if lab == LABS[0] else ORDINARY
+    answers, pairs = copied_class(lab, kind, 2, COPYING[0])
+    result = marked(lab, kind, 2, answers)
+    assert sum(is_found(result, pair) for pair in pairs) >= 0.9 * len(pairs)
+    copied = {who for pair in pairs for who in pair}
+    assert all(copied.issuperset(group) for group in named(result))
 
 
 @pytest.mark.parametrize(("lab", "way", "least"), [

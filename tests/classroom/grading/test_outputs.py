@@ -22,6 +22,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading import class_report, gradebook_csv
 from graphkin.classroom.grading.class_marking import Class, graded_class
 from graphkin.classroom.grading.class_pictures import pictures
+from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
 from graphkin.classroom.grading.gradebook import GradebookError, filled
 from graphkin.classroom.grading.gradebook_csv import read_gradebook
@@ -284,7 +285,7 @@ def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
         assert (folder / "out" / name).is_file()
     text = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
     assert f"A,{table['0001']['points']},88.5" in text
-    assert "“Lab 3 (4711)” is worth 24 points there, the lab 20.5" in found.output
+    assert "“Lab 3 (4711)” is worth 24 points there, full marks are 20.5" in found.output
     assert "stefan,A,," in text
 
 
@@ -343,6 +344,29 @@ def test_a_held_mark_goes_into_no_gradebook_until_it_is_released(folder):
     assert "every later marking" not in taken.output
     assert (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8") == CANVAS
     assert "the mark of 0001 is held" in run(folder, *book, "--force").output
+
+
+def test_decisions_survive_a_new_marking_and_reach_the_gradebook(folder):
+    assert run(folder, *NO_PAGES).exit_code == 0
+    path = folder / "out" / "decisions.csv"
+    assert path.read_bytes() == EMPTY
+    path.write_text("id;field;points;reason\n0001;v_D_mm;0,5;drawn twice\n", encoding="utf-8")
+    own = path.read_bytes()
+    for _ in range(2):
+        found = run(folder, "--force", "--gradebook", str(folder / "canvas.csv"), "--lang", "en")
+        assert found.exit_code == 0, found.output
+        assert "decisions.csv: 1 decided, 0 still open" in found.output
+        assert path.read_bytes() == own
+        assert "A,19,88.5" in (folder / "out" / "gradebook-canvas.csv").read_text("utf-8")
+        assert "drawn twice" in (folder / "out/feedback/0001.html").read_text("utf-8")
+    refused = run(folder, "--force", "--hold", "0001")
+    assert refused.exit_code == 2 and "take the row out of it" in refused.output
+    before = (folder / "out" / "marks.csv").read_bytes()
+    path.write_text("id;field;points;reason\n0001;v_Q;9;\n9;total;2;why\n", encoding="utf-8")
+    refused = run(folder, "--force")
+    assert refused.exit_code == 2
+    assert "row 2" in refused.output and "row 3" in refused.output
+    assert (folder / "out" / "marks.csv").read_bytes() == before
 
 
 def test_whom_to_release_is_said_clearly(folder):

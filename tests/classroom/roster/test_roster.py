@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as some
 
+from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster import spreadsheets, xlsx
 from graphkin.classroom.roster.csv_text import NUMBER, csv_text, safe
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
@@ -21,6 +22,7 @@ from graphkin.classroom.roster.sheet_rows import MOST_CELLS
 from graphkin.classroom.roster.spreadsheets import SEPARATORS, folded
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.xlsx import xlsx_rows
+from graphkin.classroom.variants.assign import check_of
 
 PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
 READ = [
@@ -100,14 +102,100 @@ def test_leading_zeros_diacritics_commas_and_apostrophes_stay(saved):
 
 def test_a_moodle_and_a_canvas_export_are_class_lists(saved):
     moodle = "First name,Surname,ID number,Email address\nAnn,Lee,0042,a@b.c\n"
-    canvas = 'Student,ID,SIS User ID,Section\n"Lee, Ann",9,0042,A\n'
+    canvas = 'Student,ID,SIS User ID,Section\n    Points Possible,,,\n"Lee, Ann",9,0042,A\n'
     assert read_roster(saved(moodle))[0] == Student(
         2, "0042", None, "Ann Lee", "", {"Email address": "a@b.c"}
     )
     assert read_roster(saved(canvas))[0].name == "Lee, Ann"
 
 
+TITLED = "Universitatea, Facultatea de Inginerie\nGrupa 321;;;\n\nNr.;Matricol;Nume;Grupa\n"
+
+
+@pytest.mark.parametrize("separator", SEPARATORS)
+def test_the_head_is_found_below_titles(saved, separator):
+    text = TITLED.replace(";", separator) + separator.join(["7", "0042", "Ann Lee", "A"])
+    assert read_roster(saved(text), numbered=True) == [Student(5, "0042", 7, "Ann Lee", "A")]
+
+
+def test_the_head_of_a_workbook_is_found_below_titles(book):
+    rows = [
+        ["Lista studenților 2026"],
+        [],
+        ["An II"],
+        ["Nr.", "Matricol"],
+        *[[i, i] for i in (1, 2)],
+    ]
+    assert [(s.row, s.id) for s in read_roster(book(rows), numbered=True)] == [(5, "1"), (6, "2")]
+
+
+def test_a_head_with_one_known_name_stays_the_head_above_rows_that_look_like_one(saved):
+    (one, two) = read_roster(saved("id,x\n7,id\n8,name\n"))
+    assert (one.extra, two.extra) == ({"x": "id"}, {"x": "name"})
+
+
+@pytest.mark.parametrize(
+    ("head", "row", "name"),
+    [
+        ("Nume,Prenume", "Popa,Ana Maria", "Popa Ana Maria"),
+        ("Numele studentului;Prenumele", "Popa;Ana", "Popa Ana"),
+        ("Prenumele studentului,Nume de familie", "Ana,Popa", "Ana Popa"),
+        ("First name,Surname", "Ann,Lee", "Ann Lee"),
+        ("Family name,Given names", "Lee,Ann", "Lee Ann"),
+        ("Cognome,Nome", "Rossi,Anna", "Rossi Anna"),
+        ("Nome,Cognome", "Anna,De Rossi", "Anna De Rossi"),
+    ],
+)
+def test_names_in_two_columns_are_joined_in_their_order(saved, head, row, name):
+    separator = ";" if ";" in head else ","
+    (one,) = read_roster(saved(f"id{separator}{head}\n1{separator}{row}\n"))
+    assert one.name == name and not one.extra
+
+
+def test_a_column_code_holds_ids_unless_another_is_called_id(saved):
+    (one,) = read_roster(saved("Code,Name\nX1,Ann\n"))
+    assert one.id == "X1"
+    (one,) = read_roster(saved("Code,ID,Name\nX1,0042,Ann\n"))
+    assert (one.id, one.extra) == ("0042", {"Code": "X1"})
+
+
+def test_columns_that_are_not_understood_are_named(saved):
+    said: list[str] = []
+    read_roster(saved("id,Cine,Obs.,e-mail,limba\n1,Ana,x,a@b.c,ro\n"), tell=said.append)
+    assert said == [
+        'roster.csv: columns not understood, kept as they are: "Cine", "Obs."; none holds the names'
+    ]
+    read_roster(saved("id,name,Obs.\n1,Ana,x\n"), tell=said.append)
+    assert said[1].endswith('as they are: "Obs."')
+    read_roster(saved("id,name,e-mail\n1,Ana,a@b.c\n"), tell=said.append)
+    assert len(said) == 2
+
+
 # --------------------------------------------------------------------------- what is refused
+
+
+@pytest.mark.parametrize("count", [4, 90, 3000])
+def test_one_cause_is_one_line_however_many_rows(saved, count):
+    (found,) = problems(saved("id\n" + "a,b,c\n" * count), numbered=False)
+    assert found.startswith("roster.csv, row 2: 3 cells, and the head has 1")
+    more = f" and {count - 5} more" if count > 5 else ""
+    assert found.endswith(
+        f"the same in rows {', '.join(map(str, range(3, 3 + min(4, count - 1))))}{more}"
+    )
+    found = problems(saved("nr,id\n" + "".join(f"x{i},{i}\n" for i in range(count)) + "5,\n"))
+    assert len(found) == 2
+    assert '"x0" is no whole number' in found[0] and f"row {count + 2}" in found[1]
+
+
+def test_a_class_beyond_the_range_of_a_lab_is_one_line(saved):
+    lab = read_lab("pump")
+    text = "nr,id\n" + "".join(f"{n},s{n}\n" for n in range(1, 121))
+    with pytest.raises(RosterError) as caught:
+        read_roster(saved(text), numbered=True, check=check_of(lab))
+    (found,) = map(str, caught.value.problems)
+    assert found.startswith("roster.csv, row 32: number 31 gives")
+    assert found.endswith("the same in rows 33, 34, 35, 36 and 85 more")
+
 
 HOSTILE = {
     "": "the table is empty",

@@ -1,0 +1,183 @@
+"""What a lecturer decides beside the marking: a table in the report's folder, never overwritten."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Taker
+from graphkin.classroom.lab.asking import asked_of, worth
+from graphkin.classroom.lab.lab_model import Item, Rubric
+from graphkin.classroom.roster.read_roster import NAMES
+from graphkin.classroom.roster.sheet_rows import SheetRow
+from graphkin.classroom.roster.spreadsheets import (
+    Spreadsheet,
+    TableProblems,
+    columns,
+    folded,
+    read_sheet,
+)
+from graphkin.classroom.roster.student_signs import Signs
+from graphkin.scene.findings import nearest, shown
+
+DECISIONS = "decisions.csv"
+"""The file of a report folder that holds them."""
+EMPTY = b"\xef\xbb\xbfid;field;points;reason\r\n"
+"""The file without any."""
+HEADS: Mapping[str, Sequence[str]] = {
+    "id": NAMES["id"],
+    "field": ("câmp", "mărime", "campo", "quantity"),
+    "points": ("puncte", "punctaj", "punti", "punteggio"),
+    "reason": ("why", "motiv", "motivul", "motivo"),
+}
+"""What its columns may be called."""
+WHOLE = ("total", "totale")
+"""What stands for the whole form in the place of a field."""
+ASKED = "?"
+"""What stands for the points while a request is not decided."""
+AMOUNT = re.compile(r"[0-9]{1,6}(?:[.,][0-9]{1,6})?", re.ASCII)
+LONGEST = 400
+"""Characters of a reason."""
+
+
+class Deciding(Struct, frozen=True):
+    """By whom and on what it can be decided: the students, the form, and what its fields earn."""
+
+    takers: Sequence[Taker]
+    form: Sequence[Item]
+    rubric: Rubric
+    signs: Signs
+
+    def worth_of(self, taker: Taker) -> Mapping[str, Fraction]:
+        """The points of each field of a student's own form that is worth any."""
+        items, _ = asked_of(self.form, self.rubric.points, taker.compute)
+        found = {i.field: worth(i, self.rubric.points, taker.compute) for i in items}
+        return {field: points for field, points in found.items() if points}
+
+
+def read_decisions(report: Path, on: Deciding) -> tuple[Decision, ...]:
+    """The decisions in a report's folder; none where there is no file.
+
+    Raises RosterError with everything that is wrong, row by row.
+    """
+    path = report / DECISIONS
+    if not path.is_file():
+        return ()
+    told = TableProblems(DECISIONS)
+    sheet = read_sheet(path, [name for w, every in HEADS.items() for name in (w, *every)], told)
+    where = columns(sheet, HEADS)
+    missing = [what for what in HEADS if what not in where]
+    if missing:
+        found = f"no column {', '.join(missing)}"
+        told.add(DECISIONS, found, "the head id;field;points;reason")
+        told.stop()
+    read = [decision(sheet, row, where, on, told) for row in sheet.rows]
+    seen: dict[tuple[str, str], int] = {}
+    for row, each in zip(sheet.rows, read, strict=True):
+        first = seen.setdefault((each.who, each.field), row.line) if each else row.line
+        if each and first != row.line:
+            found = f"{each.who}, {each.field or 'total'} is decided in row {first} already"
+            told.add(sheet.place(row), found, "one row for each")
+    told.stop()
+    return tuple(each for each in read if each is not None)
+
+
+def decision(
+    sheet: Spreadsheet,
+    row: SheetRow,
+    where: Mapping[str, int],
+    on: Deciding,
+    told: TableProblems,
+) -> Decision | None:
+    """One row; None, with what is wrong noted, where it decides nothing."""
+    cells = {what: row.cells[column] for what, column in where.items()}
+    places = {what: sheet.place(row, sheet.head[column]) for what, column in where.items()}
+    before = len(told.problems)
+    who = on.signs.who(cells["id"])
+    taker = next((each for each in on.takers if each.student.id == who), None)
+    if taker is None:
+        found = f"{shown(cells['id'])} is no student of this class" if cells["id"] else "is missing"
+        told.add(places["id"], found, "an id of the class list", nearest(cells["id"], on.signs.ids))
+    worths = on.worth_of(taker) if taker is not None else {}
+    field, most = field_in(cells, places["field"], worths, told, taker is not None)
+    points = points_in(cells["points"], places["points"], most, told)
+    if not cells["reason"] or len(cells["reason"]) > LONGEST:
+        found = f"{len(cells['reason'])} characters" if cells["reason"] else "is missing"
+        told.add(places["reason"], found, f"why, in at most {LONGEST} characters")
+    if len(told.problems) > before or taker is None:
+        return None
+    is_open = cells["points"] == ASKED
+    return Decision(taker.student.id, field, points, cells["reason"], is_open)
+
+
+def field_in(
+    cells: Mapping[str, str],
+    place: str,
+    worths: Mapping[str, Fraction],
+    told: TableProblems,
+    known: bool,
+) -> tuple[str, Fraction | None]:
+    """The field of a row, empty for the whole form, and the most that can be earned by it."""
+    text = cells["field"]
+    if folded(text) in WHOLE or (not text and not AMOUNT.fullmatch(cells["points"])):
+        return "", sum(worths.values(), Fraction()) if known else None
+    names = {folded(name): name for name in worths}
+    field = names.get(folded(text), "")
+    if known and not field:
+        found = f"{shown(text)} is no field of this student's form" if text else "is missing"
+        expected = f'"total", or a field such as {", ".join(list(worths)[:3])}'
+        told.add(place, found, expected, nearest(text, worths) if text else "")
+    return field, worths.get(field)
+
+
+def points_in(text: str, place: str, most: Fraction | None, told: TableProblems) -> Fraction | None:
+    """The points of a row; None where they stay as they are."""
+    if text in ("", "-", ASKED):
+        return None
+    points = Fraction(text.replace(",", ".")) if AMOUNT.fullmatch(text) else None
+    if points is None or (most is not None and points > most):
+        limit = f"0 to {float(most):g}" if most is not None else "points"
+        expected = f'{limit}; nothing where the mark stays, "?" while that is open'
+        told.add(place, shown(text), expected)
+    return points
+
+
+def settled(decisions: Iterable[Decision]) -> set[str]:
+    """Those of whom something is decided, whose marks are held no more."""
+    return {each.who for each in decisions if not each.is_open}
+
+
+def by_student(decisions: Iterable[Decision]) -> Mapping[str, Sequence[Decision]]:
+    """The decisions of each student."""
+    found: dict[str, list[Decision]] = defaultdict(list)
+    for each in decisions:
+        found[each.who].append(each)
+    return found
+
+
+def decided(graded: Graded, decisions: Sequence[Decision]) -> Graded:
+    """A student's marks as the lecturer decided: fields first, then the whole form."""
+    if not decisions:
+        return graded
+    own = {each.field: each for each in decisions}
+    marks = tuple(ruled(mark, own.get(mark.item.field)) for mark in graded.marks)
+    found = replace(graded, marks=marks)
+    whole = own.get("")
+    if whole is None:
+        return found
+    return replace(found, decision=replace(whole, before=found.earned if graded.present else None))
+
+
+def ruled(mark: EarnedMark, decision: Decision | None) -> EarnedMark:
+    """A mark as it was decided, if it was."""
+    if decision is None:
+        return mark
+    earned = mark.earned if decision.points is None else decision.points
+    before = None if mark.waits else mark.earned
+    return replace(mark, earned=earned, decision=replace(decision, before=before))

@@ -1,0 +1,158 @@
+"""Files as a class hands them in: a table, a folder, or the ZIP file of a learning platform.
+
+Moodle puts each student's files into a folder "Name_12345_assignsubmission_file" (before 4.1 with
+another _ at its end), or begins the names of the files so; Canvas calls them
+"name_12345_67890_answers.csv". The numbers are the platform's own: who it is the name tells, where
+the file itself does not. Feedback goes back into Moodle under the very names that it gave.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path, PurePosixPath
+
+from msgspec import Struct
+
+from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.classroom.roster.spreadsheets import LARGEST, bytes_of
+from graphkin.scene.file_limits import file_bytes
+from graphkin.text.errors import Problem
+
+KINDS = (".csv", ".txt", ".tsv", ".xlsx")
+"""Files that are read."""
+PACKED = ".zip"
+MOST_BYTES, MOST_FILES = 512 << 20, 100_000
+"""Bytes of a ZIP file, packed and unpacked, and files in it."""
+MOODLE = re.compile(r"(?P<name>[^_]+)_(?P<number>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
+CANVAS = re.compile(r"(?P<name>[^_]+)_(?:LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)")
+DATE = (1980, 1, 1, 0, 0, 0)
+"""The time of a file in a ZIP file of ours: none, so that the same marks give the same bytes."""
+
+
+class Sender(Struct, frozen=True):
+    """Whose a learning platform says that a file is.
+
+    ``name`` is the full name as the platform has it; ``back`` what the path of a feedback to it
+    begins with, empty where the platform takes none.
+    """
+
+    name: str
+    back: str = ""
+
+
+class HandedIn(Struct, frozen=True):
+    """A table that was handed in: its path within all that was, its bytes, and whose it is."""
+
+    name: str
+    data: bytes
+    sender: Sender | None = None
+
+    @property
+    def stem(self) -> str:
+        """The name of the file itself, which may be an id."""
+        return PurePosixPath(self.name).stem
+
+
+class Submissions(Struct, frozen=True):
+    """Everything that was handed in; ``empty`` are senders without any table.
+
+    ``is_one`` tells that it is a single table.
+    """
+
+    tables: tuple[HandedIn, ...]
+    empty: tuple[Sender, ...] = ()
+    is_one: bool = False
+
+
+def submissions(path: Path) -> Submissions:
+    """What stands at a path: a table, a folder with all that is below it, or a ZIP file.
+
+    Raises RosterError where there is no table.
+    """
+    if path.is_dir():
+        found = dict(in_folder(path))
+    elif path.suffix.lower() == PACKED:
+        found = in_zip(path)
+    else:
+        return Submissions((HandedIn(path.name, bytes_of(path)),), is_one=True)
+    tables = tuple(
+        HandedIn(name, data, sender(name)) for name, data in found.items() if data is not None
+    )
+    if not tables:
+        what = "a folder" if path.is_dir() else "a ZIP file"
+        raise RosterError(
+            Problem(str(path), f"{what} without any table", f"files {', '.join(KINDS)}")
+        )
+    told = {each.sender.name for each in tables if each.sender is not None}
+    every = [each for each in map(sender, found) if each is not None]
+    empty = {each.name: each for each in every if each.name not in told}
+    return Submissions(tables, tuple(empty.values()))
+
+
+def is_table(path: PurePosixPath) -> bool:
+    """Whether a file is a table to be read, and none that a system leaves beside it."""
+    hidden = any(part.startswith((".", "~", "__MACOSX")) for part in path.parts)
+    return path.suffix.lower() in KINDS and not hidden
+
+
+def in_folder(folder: Path) -> Iterator[tuple[str, bytes | None]]:
+    """The files below a folder by their paths in it; without bytes what is no table."""
+    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
+        name = path.relative_to(folder).as_posix()
+        yield name, bytes_of(path) if is_table(PurePosixPath(name)) else None
+
+
+def in_zip(path: Path) -> dict[str, bytes | None]:
+    """The files of a ZIP file by their paths in it; nothing is unpacked onto the disk.
+
+    Raises RosterError where it is none, or holds too much.
+    """
+    expected = f"at most {MOST_FILES} files, {MOST_BYTES >> 20} MiB, {LARGEST >> 20} MiB each"
+    found: dict[str, bytes | None] = {}
+    try:
+        data = file_bytes(path, MOST_BYTES + 1)
+        with zipfile.ZipFile(io.BytesIO(data)) as packed:
+            parts = [part for part in packed.infolist() if not part.is_dir()]
+            tables = [part for part in parts if is_table(PurePosixPath(part.filename))]
+            large = [part for part in tables if part.file_size > LARGEST]
+            size = sum(part.file_size for part in tables)
+            if max(len(data), size) > MOST_BYTES or len(parts) > MOST_FILES or large:
+                where = f"{path.name}, {large[0].filename}" if large else path.name
+                raise RosterError(Problem(where, "is too large", expected))
+            for part in parts:
+                found[part.filename] = packed.read(part) if part in tables else None
+    except OSError as error:
+        reason = error.strerror or "cannot be opened"
+        raise RosterError(Problem(str(path), f"cannot be read: {reason}")) from None
+    except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, EOFError) as error:
+        hint = "download it again, or unpack it and name the folder"
+        raise RosterError(Problem(path.name, "cannot be read as a ZIP file", "", hint)) from error
+    return dict(sorted(found.items()))
+
+
+def sender(name: str) -> Sender | None:
+    """Whose a file is by its path, as a learning platform writes it."""
+    parts = PurePosixPath(name).parts
+    for i, part in enumerate(parts):
+        found = MOODLE.fullmatch(part)
+        if found:
+            is_file = i == len(parts) - 1
+            back = part[: found.start("file")] if is_file and found["file"] else f"{part}/"
+            return Sender(found["name"], back)
+    found = CANVAS.fullmatch(parts[-1])
+    return Sender(found["name"]) if found else None
+
+
+def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: str) -> bytes:
+    """Moodle's ZIP file of feedback: for each student with a name there the page of that kind.
+
+    ``backs`` are the beginnings of the paths, ``pages`` the files, both by id.
+    """
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as packed:
+        for back, page in sorted((backs[who], page) for who, page in pages.items() if who in backs):
+            packed.writestr(zipfile.ZipInfo(f"{back}feedback.{kind}", DATE), page)
+    return data.getvalue()

@@ -1,0 +1,1 @@
+"""A lab as questions of a learning platform."""

@@ -1,0 +1,175 @@
+"""A lab as a bank of questions for Moodle (its XML format): a category for each variant.
+
+A question holds the task as pictures, its sheets as a PDF to be printed, and a gap for each field.
+A quiz that takes a random question of each student's category, or of all, marks by the tolerances
+of that variant.
+"""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import partial
+from html import escape
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from markupsafe import Markup
+from msgspec import Struct
+
+from graphkin.classroom.form_page import KINDS, first_pivot
+from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.grading.feedback import how
+from graphkin.classroom.lab.lab_model import Formula, Lab
+from graphkin.classroom.lab.lab_trial import by_numbers
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.printing.answer_form import advice
+from graphkin.classroom.printing.edition import Variant
+from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.classroom.printing.workers import chunks, engine, results
+from graphkin.classroom.quiz.cloze import SIGNS, cloze, weights
+from graphkin.classroom.quiz.gaps import gaps
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import Assigned, assigned
+from graphkin.drawing.richtext import plain
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_scene
+from graphkin.text import Words
+from graphkin.writers.templates import filled
+
+MOST = 1000
+"""Numbers of students that are looked at."""
+PRINTED = "task.pdf"
+"""The sheets of a variant within its question."""
+
+
+class Question(Struct, frozen=True):
+    """A variant as a question: its name, its text with the gaps, and the files that this shows."""
+
+    name: str
+    text: str
+    remark: str
+    files: tuple[tuple[str, bytes], ...]
+
+
+def students_of(lab: Lab, count: int) -> list[Student]:
+    """As many students as a rule has variants for: the numbers that the scene allows, or ids."""
+    if isinstance(lab.rule, Formula):
+        numbers = by_numbers(lab, Mechanism(read_scene(lab.scene)), MOST)
+        return [Student(int(number), number, int(number)) for number, _ in numbers][:count]
+    return [Student(i, f"{i:04d}") for i in range(1, count + 1)]
+
+
+def variants_of(lab: Lab, count: int) -> tuple[list[Assigned], list[Assigned]]:
+    """The variants of a lab, each once: those that are fair, and those that are not."""
+    every = {
+        tuple(sorted(each.settings.items())): each
+        for each in assigned(lab, students_of(lab, count))
+    }
+    fair = [each for each in every.values() if each.fair]
+    return fair, [each for each in every.values() if not each.fair]
+
+
+def questions(order: PrintOrder, variants: Sequence[Assigned], jobs: int) -> list[Question]:
+    """The question of each variant, by some processes."""
+    parts = chunks(list(enumerate(variants)), jobs)
+    found: list[tuple[int, Question]] = []
+    with engine(jobs) as (pool, workers):
+        for some in results(pool, workers, partial(asked, order), parts):
+            found += some
+    return [question for _, question in sorted(found, key=lambda pair: pair[0])]
+
+
+def asked(
+    order: PrintOrder, variants: Sequence[tuple[int, Assigned]]
+) -> list[tuple[int, Question]]:
+    """The questions of some variants with their places."""
+    book = Book(order.lab, order.scene)
+    return [(place, question(order, book, each)) for place, each in variants]
+
+
+def question(order: PrintOrder, book: Book, each: Assigned) -> Question:
+    """The question of one variant."""
+    settings = {name: exact_text(value) for name, value in each.settings.items()}
+    told = ", ".join(f"{name} = {value}" for name, value in settings.items())
+    sheets = Sheets(order, Variant(told, told, settings, told, "", each.computed))
+    words = sheets.words
+    marker = book.marker(settings, each.computed)
+    _, points = sheets.asked()
+    found = gaps(marker, points, words)
+    heavy, _ = weights(gap.points for gap in found)
+    files = tuple(files_of(sheets, order))
+    scene = sheets.mechanism.scene
+    items = [gap.item for gap in found]
+    rows = [
+        (gap.item.symbol, said(gap.item.what, words), Markup(cloze(gap, weight)), gap.item.unit)
+        for gap, weight in zip(found, heavy, strict=True)
+    ]
+    text = filled(
+        "classroom/templates/quiz.html",
+        title=harmless(scene.titles.get(words.language, scene.title)),
+        variant=harmless(told),
+        printed=PRINTED,
+        pictures=[name for name, _ in files if name != PRINTED],
+        advice=advice(items, words, first_pivot(sheets.mechanism)),
+        gaps=rows,
+        words=words,
+    )
+    return Question(told, str(text), plain(how(order.lab.rubric, words)), files)
+
+
+def said(what: str, words: Words) -> str:
+    """What is said of a field beside its symbol."""
+    return words(KINDS[what]) if what in KINDS else words("table.sense")
+
+
+def harmless(text: str) -> Markup:
+    """A text beside gaps that is not taken for one."""
+    return Markup(escape(text).replace("{", SIGNS["{"]))
+
+
+def files_of(sheets: Sheets, order: PrintOrder) -> list[tuple[str, bytes]]:
+    """The task sheets of a variant: a PDF to be printed, and pictures to be seen."""
+    from graphkin.writers.pdf import write_pdf
+    from graphkin.writers.svg import write_svg
+
+    drawn = [sheet for sheet in sheets.of("task") if sheet.kind != FORM]
+    pages = [page for sheet in drawn for page in sheet.pages]
+    files = [(PRINTED, write_pdf(pages, order.ink, title=sheets.whose.name))]
+    for sheet in drawn:
+        for number, page in enumerate(sheet.pages, 1):
+            tail = f"-{number}" if len(sheet.pages) > 1 else ""
+            files.append(
+                (f"task-{sheet.kind}{tail}.svg", write_svg(page, order.ink).encode("utf-8"))
+            )
+    return files
+
+
+# --- Moodle's XML -------------------------------------------------------------------------------
+
+
+def bank(title: str, every: Sequence[Question]) -> bytes:
+    """The questions as a file that Moodle imports, a category for each."""
+    quiz = Element("quiz")
+    for each in every:
+        category = SubElement(quiz, "question", type="category")
+        path = "/".join(part.replace("/", "//") for part in (title, each.name))
+        texted(SubElement(category, "category"), f"$course$/top/{path}")
+        asking = SubElement(quiz, "question", type="cloze")
+        texted(SubElement(asking, "name"), f"{title}, {each.name}")
+        body = texted(SubElement(asking, "questiontext", format="html"), each.text)
+        for name, data in each.files:
+            file = SubElement(body, "file", name=name, path="/", encoding="base64")
+            file.text = b64encode(data).decode("ascii")
+        texted(SubElement(asking, "generalfeedback", format="html"), escape(each.remark))
+        for name, number in (("penalty", Fraction()), ("hidden", Fraction())):
+            SubElement(asking, name).text = str(number)
+    indent(quiz)
+    written: bytes = tostring(quiz, encoding="utf-8", xml_declaration=True)
+    return written + b"\n"
+
+
+def texted(element: Element, text: str) -> Element:
+    """An element with a text, as Moodle nests it."""
+    SubElement(element, "text").text = text
+    return element

@@ -1,0 +1,75 @@
+"""Every field and every slip is named with its meaning, in the README and in a new lab's rubric."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import pytest
+
+from graphkin.classroom.lab.items import all_fields
+from graphkin.classroom.lab.meanings import QUANTITY, fields_of, kinds, slips
+from graphkin.classroom.lab.new_lab import new_lab
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.lab.slip_names import NAMES
+from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, SLIDING, VECTORS
+from graphkin.mechanism import load
+from graphkin.text import words
+from tests.classroom.lab.singles import LABS, ROOT
+
+README = ROOT / "README.md"
+
+
+def table(heads: tuple[str, str], rows: Mapping[str, str]) -> str:
+    """What the README says, in its form."""
+    lines = [f"| {heads[0]} | {heads[1]} |", "|---|---|"]
+    return "\n".join([*lines, *(f"| `{name}` | {told} |" for name, told in rows.items())]) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("heads", "rows"),
+    [(("field", "what it is"), kinds()), (("slip", "what the student did"), slips())],
+    ids=["fields", "slips"],
+)
+def test_the_readme_has_all_of_them(heads, rows):
+    text = README.read_text(encoding="utf-8")
+    assert table(heads, rows) in text, f"write this into README.md:\n{table(heads, rows)}"
+
+
+def test_every_quantity_of_a_form_has_a_meaning():
+    asked = [*VECTORS, *RATES, *CENTRES, *(SLIDING[sheet] for sheet in SHEETS)]
+    assert set(QUANTITY) == {each.target for each in asked}
+
+
+def test_every_slip_has_one():
+    assert tuple(slips()) == NAMES
+    assert all(told and "*" not in told for told in slips().values())
+    assert set(NAMES) == {
+        key.removeprefix("feedback.slip_")
+        for key in words("en").sentences
+        if key.startswith("feedback.slip_")
+    }
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_every_field_of_a_lab_is_of_a_kind_that_has_one(name):
+    mechanism = load(name)
+    told = fields_of(mechanism)
+    assert list(told) == list(all_fields(mechanism))
+    assert all(told.values())
+
+
+def test_the_rubric_of_a_new_lab_has_every_field_and_every_slip(tmp_path):
+    """With all of them taken in the rubric is read, and none is missing."""
+    new_lab("mine", tmp_path)
+    path = tmp_path / "mine" / "lab.toml"
+    text = path.read_text(encoding="utf-8")
+    before = read_lab(tmp_path / "mine")
+    path.write_text(re.sub(r"(?m)^# (\w+ = [\d.]+ )", r"\1", text), encoding="utf-8")
+    lab = read_lab(tmp_path / "mine")
+    fields = fields_of(load(lab.scene))
+    assert set(lab.rubric.points) == set(fields)
+    assert set(lab.rubric.slips) == set(NAMES)
+    assert before.rubric.slips == {}
+    for name, told in (fields | slips()).items():
+        assert re.search(rf"(?m)^(# )?{name} = [\d.]+ +# {re.escape(told)}$", text), name
