@@ -30,8 +30,8 @@ from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.velocity import driven_rate, line_of
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 
 
 def frame(pen: Pen) -> None:

@@ -21,8 +21,8 @@ from graphkin.structure.groups import (
     TriedLink,
     Unresolved,
 )
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 

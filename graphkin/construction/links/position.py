@@ -25,8 +25,8 @@ from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.construction.rolling import rolling
 from graphkin.scene.model import Apart, Link
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 FITS = 1e-6

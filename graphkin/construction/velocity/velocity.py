@@ -23,8 +23,8 @@ from graphkin.construction.velocity.perpendicular_through import perpendicular_t
 from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 
 
 def frame(pen: Pen) -> None:
