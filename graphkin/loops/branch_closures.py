@@ -99,8 +99,8 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
 
     They are looked for by Newton's method from many starts with all but the group held as it
     ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
-    link, ties by the next. Where wheels roll, an angle that only pins tell is counted within half
-    a turn of its start.
+    link, ties by the next. Where wheels count turns, an angle that only pins tell is counted within
+    half a turn of its start.
     """
     moving = moved_by(part, group)
     size, turned = len(group.links), turns_of_wheels(part, moving)
@@ -188,9 +188,8 @@ def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: i
 
 def tracks(loops: Equations, moving: Mask) -> list[int]:
     """The straight tracks along which a group's wheels move."""
-    return [
-        j for j, each in enumerate(loops.guides) if each.rolls and moving[loops.turning_count + j]
-    ]
+    guides = zip(loops.guides, moving[loops.turning_count :], strict=True)
+    return [j for j, (guide, moves) in enumerate(guides) if moves and not guide.turns_alike]
 
 
 def turns_of_wheels(loops: Equations, moving: Mask) -> float:
@@ -215,7 +214,7 @@ def reach(loops: Equations) -> float:
 
 
 def wrapped(loops: Equations, change: Reals) -> Reals:
-    """A change of unknowns in their sizes, angles within half a turn where no wheel rolls."""
+    """A change of unknowns in their sizes, angles within half a turn where no wheel counts them."""
     turns = change[:, : loops.turning_count]
     angles = np.angle(np.exp(1j * turns))
     for k in loops.slips.counted:

@@ -42,7 +42,7 @@ class Joint(Struct, frozen=True):
     links: tuple[str, ...]
     pin: str = ""
     slide: int = -1
-    rolls: bool = False
+    turns_alike: bool = False
     drives: bool = False
 
     @property
@@ -73,7 +73,7 @@ class Group(Struct, frozen=True):
         """Two links, one pin or slide between them and one from each outwards, and no more."""
         pairs = (*self.inner, *self.outer)
         ends = [joint for joint in self.outer if self.links[0] in joint.links]
-        plain = not self.ties and not any(joint.rolls for joint in pairs)
+        plain = not self.ties and all(joint.pin or joint.turns_alike for joint in pairs)
         three = len(self.inner) == len(ends) == 1 and len(self.outer) == 2
         return plain and len(self.links) == 2 and three
 
@@ -83,7 +83,7 @@ class Group(Struct, frozen=True):
         return (
             len(self.links) == len(self.outer) == len(self.ties) == 1
             and self.ties[0].drives
-            and not self.outer[0].rolls
+            and bool(self.outer[0].pin or self.outer[0].turns_alike)
         )
 
 
@@ -132,7 +132,7 @@ def joints(loops: Equations) -> tuple[Joint, ...]:
         if point in bodies[q]
     ]
     slides = [
-        Joint((guide.block, guide.on), slide=j, rolls=guide.rolls)
+        Joint((guide.block, guide.on), slide=j, turns_alike=guide.turns_alike)
         for j, guide in enumerate(loops.guides)
     ]
     return (*pins, *slides)
@@ -140,7 +140,7 @@ def joints(loops: Equations) -> tuple[Joint, ...]:
 
 def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
     """Wheels that touch with their arm, and drivers: they tie coordinates of links alone."""
-    wheels = [Joint((*gear.links, gear.arm), rolls=True) for gear in loops.gears]
+    wheels = [Joint((*gear.links, gear.arm)) for gear in loops.gears]
     drivers = [Joint((each.link, each.against), drives=True) for each in scene.drivers]
     return (*wheels, *drivers)
 

@@ -48,7 +48,7 @@ class Velocities:
         return row
 
     def together(self, one: str, other: str, place: complex) -> Reals:
-        """Two links move alike at a place: a pin, or a contact without slip."""
+        """Two links move alike at a place: a pin, or where wheels touch without slip."""
         return np.array(
             [self.row([(one, place, way, 0.0), (other, place, -way, 0.0)]) for way in (1 + 0j, 1j)]
         )
@@ -71,13 +71,13 @@ class Velocities:
             on, block = guide.on, guide.block
             along = complex(self.motion.heading[0, self.motion.index[on]]) * complex(guide.along)
             place = self.head(block, guide.point)
-            if guide.rolls:
-                touch = place - 1j * along * float(guide.offset)
-                rows, name = self.together(block, on, touch), f"track of {block} on {on}"
-            else:
+            if guide.turns_alike:
                 level = self.row([(block, place, 1j * along, 0.0), (on, place, -1j * along, 0.0)])
                 turn = self.row([(block, place, 0j, 1.0), (on, place, 0j, -1.0)])
                 rows, name = np.array([level, turn]), f"slide of {block} on {on}"
+            else:
+                touch = place - 1j * along * float(guide.offset)
+                rows, name = self.together(block, on, touch), f"track of {block} on {on}"
             found.append(Constraint(name, (block, on), rows))
         return found
 

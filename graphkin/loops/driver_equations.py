@@ -1,4 +1,4 @@
-"""The drivers as equations: a turning, sliding or rolling coordinate less its given value."""
+"""The drivers as equations: an angle, or a coordinate along a line, less its given value."""
 
 from __future__ import annotations
 
@@ -96,16 +96,15 @@ def driven_line(driver: Driver, bodies: Mapping[str, Body]) -> Any:
 
 def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
     """Which slide or track coordinate is driven."""
-    rolls = driver.kind == "roll"
     for index, guide in enumerate(guides):
-        if (guide.block, guide.on, guide.rolls) == (driver.link, driver.against, rolls):
+        if (guide.block, guide.on, guide.moved_by) == (driver.link, driver.against, driver.kind):
             return index
     raise StructureError(
         Problem(
             f"drivers.{number + 1}",
             f"link {driver.link} does not {driver.kind} on link {driver.against}",
-            "a wheel and the link that carries its straight track"
-            if rolls
-            else "a block and the link that carries its guide",
+            "a block and the link that carries its guide"
+            if driver.kind == "slide"
+            else "a wheel and the link that carries its straight track",
         )
     )

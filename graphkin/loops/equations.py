@@ -79,7 +79,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @property
     def equation_count(self) -> int:
-        """How many equations there are: two a closed chain, one a rolling pair or a driver."""
+        """How many equations there are: two a closed chain, one a row of no slip or a driver."""
         return 2 * len(self.closing) + len(self.slips.links) + len(self.drives.turns)
 
     @cached_property
@@ -114,7 +114,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         return np.concatenate([self.closures(linear.place), self.linear(unknowns)], axis=1)
 
     def linear(self, unknowns: Reals) -> Reals:
-        """The equations that are linear in the unknowns, rolling pairs and drivers: (N, R + D)."""
+        """The equations that are linear in the unknowns, of no slip and of drivers: (N, R + D)."""
         slipped = self.slips.residual(unknowns)
         return np.concatenate([slipped, self.drives.residual(unknowns)], axis=1)
 

@@ -1,8 +1,8 @@
-"""Full turns: which of the angles that differ by whole turns is meant, where wheels roll.
+"""Full turns: which of the angles that differ by whole turns is meant, where wheels depend on it.
 
-A driver's angle counts as written and a wheel's as its rolling leads it there; an angle that only
-pins tell is counted from its start, within half a turn. Where rolling ties several of those, that
-of the arm, or of the track's link, is counted, else that of the largest wheel, and rolling leads
+A driver's angle counts as written and a wheel's as its track leads it there; an angle that only
+pins tell is counted from its start, within half a turn. Where wheels tie several of those, that
+of the arm, or of the track's link, is counted, else that of the largest wheel, and the wheels lead
 the others: no order of links decides, and the wheels that turn faster are found all round.
 """
 
@@ -56,7 +56,7 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
 
 
 def precedence(loops: Equations, k: int) -> tuple[bool, float]:
-    """Which of several angles that rolling ties is counted: an arm's, else the largest wheel's."""
+    """Which of several angles that wheels tie is counted: an arm's, else the largest wheel's."""
     arms = {loops.turned.of[links[-1]] for links in loops.slips.links}
     return k + 1 not in arms, -float(np.abs(loops.slips.rows[0, :, k]).max(initial=0))
 

@@ -284,11 +284,11 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
 
 
 def widest(loops: Equations, unknowns: Reals) -> str:
-    """What is farthest from closing: a joint, a rolling contact or a driver."""
+    """What is farthest from closing: a joint, a place where wheels touch, or a driver."""
     gaps = np.abs(scaled(loops, unknowns)[0][0])
     chains = len(loops.closing)
     joints = np.hypot(gaps[:chains], gaps[chains : 2 * chains])
-    rolls = [f"the contact of link {links[0]} with {links[1]}" for links in loops.slips.links]
     drivers = [f"driver {number}" for number in range(1, len(loops.drives.turns) + 1)]
     every = np.concatenate([joints, gaps[2 * chains :]])
-    return [*loops.closing, *rolls, *drivers][int(np.argmax(np.nan_to_num(every, nan=np.inf)))]
+    words = [*loops.closing, *loops.slips.words, *drivers]
+    return words[int(np.argmax(np.nan_to_num(every, nan=np.inf)))]

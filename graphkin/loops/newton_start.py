@@ -29,8 +29,8 @@ def start_values(
     """Unknowns from positions of points (m) and slide coordinates by block (m).
 
     An angle comes from the longest known bar of its turning, else from a block known on its guide,
-    else from a driver; then further points of its links are known. Where wheels roll, full turns
-    are counted as the scene means them. What no position tells is zero.
+    else from a driver; then further points of its links are known. Where wheels depend on it, full
+    turns are counted as the scene means them. What no position tells is zero.
     """
     numbers = loops.numbers
     known = {name: numbers.complexes(z) - loops.home for name, z in places.items()}

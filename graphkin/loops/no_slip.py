@@ -66,6 +66,11 @@ class Slips(Struct, frozen=True, eq=False):
     links: tuple[tuple[str, ...], ...]
     counted: Mapping[int, tuple[int, Reals]]
 
+    @property
+    def words(self) -> list[str]:
+        """What each row is called."""
+        return [f"the contact of link {wheel} with {on}" for wheel, on, *_ in self.links]
+
     def residual(self, unknowns: Reals) -> Reals:
         """Way slipped (m): shape (N, R)."""
         return np.asarray((self.rows @ unknowns[:, :, None])[:, :, 0] + self.constant)
@@ -161,7 +166,7 @@ def tracks_of(
                 continue
             line = written_line(rolling, bodies[rolling.on], starts[rolling.on], numbers)
             first = not any(guide.block == link.name for guide in guides)
-            plain = Guide(link.name, rolling.on, *line, 0.0, first, "", number, rolls=True)
+            plain = Guide(link.name, rolling.on, *line, 0.0, first, "", number, "roll")
             found = [
                 replace(plain, offset=rolling.side * radius(wheel, numbers), point=wheel.centre)
                 for wheel in link.wheels

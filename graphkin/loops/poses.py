@@ -10,7 +10,7 @@ import numpy as np
 from graphkin.loops.equations import Equations
 from graphkin.loops.rigid_bodies import Guide, Reals
 
-Spot = tuple[str, int, bool]
+Spot = tuple[str, int, str]
 """A guide by its block, its number there, and whether it is a track."""
 
 
@@ -23,7 +23,7 @@ class Pose(NamedTuple):
 
 def spot(guide: Guide) -> Spot:
     """What a guide is known by."""
-    return guide.block, guide.number, guide.rolls
+    return guide.block, guide.number, guide.moved_by
 
 
 def setting_of(loops: Equations, n: int) -> dict[str, Any]:

@@ -21,11 +21,11 @@ from graphkin.scene.model import (
     Angled,
     Apart,
     At,
+    GuideOrTrack,
     Link,
     OnLine,
     Placing,
     Polar,
-    Rolling,
     Scene,
     Slide,
     Triangle,
@@ -79,12 +79,13 @@ class Numbers(Struct, frozen=True):
 
 
 class Guide(Struct, frozen=True):
-    """A sliding pair, or the straight way of a rolling wheel's centre.
+    """A sliding pair, or the straight way of a wheel's centre along its track.
 
     The ``point`` of ``block`` stands at through + (s + i·offset)·along, with ``through`` and the
     unit vector ``along`` in the axes of the link ``on``. ``number`` is its place among the slides
     or tracks of the block; ``first`` tells the one reported under the block's name, which, where
-    it is a slide, also sets the block's x axis along the guide.
+    it is a slide, also sets the block's x axis along the guide. ``moved_by`` is the kind of driver
+    that moves the block along it.
     """
 
     block: str
@@ -95,7 +96,17 @@ class Guide(Struct, frozen=True):
     first: bool
     point: str
     number: int
-    rolls: bool = False
+    moved_by: str = "slide"
+
+    @property
+    def turns_alike(self) -> bool:
+        """Whether its two links turn alike, as on all but a track."""
+        return self.moved_by == "slide"
+
+    @property
+    def word(self) -> str:
+        """What it is called."""
+        return "guide" if self.turns_alike else "track"
 
 
 def bodies_of(scene: Scene, numbers: Numbers) -> tuple[dict[str, Body], dict[str, Point]]:
@@ -205,7 +216,7 @@ def guide_line(slide: Slide, body: Body, start: Point, numbers: Numbers) -> tupl
 
 
 def written_line(
-    line: Slide | Rolling, body: Body, start: Point, numbers: Numbers
+    line: GuideOrTrack, body: Body, start: Point, numbers: Numbers
 ) -> tuple[Point, Point]:
     """A point and the unit vector of a line written by ``through`` and ``angle``."""
     along = 1.0 + 0j if line.angle is None else numbers.direction(line.angle)

@@ -283,8 +283,8 @@ def straight(loops: Equations, values: Reals) -> Reals:
 
 def touching(loops: Equations, loads: Loads, places: Reals) -> Reals:
     """What the rounding of the points where wheels touch adds to the rates of those equations."""
-    rolling = (abs(loops.slips.rows) > 0)[:, :, : loops.turning_count]
-    slips = (rolling @ (loads.turned * places)[:, 1:, None])[:, :, 0]
+    turned = (abs(loops.slips.rows) > 0)[:, :, : loops.turning_count]
+    slips = (turned @ (loads.turned * places)[:, 1:, None])[:, :, 0]
     return np.concatenate([slips, np.zeros((len(slips), len(loops.drives.turns)))], axis=1)
 
 

@@ -59,7 +59,7 @@ Found = tuple[dict[str, int], dict[str, Point], dict[str, Real]]
 
 def turnings(links: Sequence[str], guides: Sequence[Guide]) -> Turnings:
     """Gather the links that slide on one another; a block's x axis lies along its first guide."""
-    tied = [guide for guide in guides if guide.first and not guide.rolls]
+    tied = [guide for guide in guides if guide.first and guide.turns_alike]
     of: dict[str, int] = {}
     lean: dict[str, Point] = {}
     angle: dict[str, Real] = {}
@@ -76,7 +76,7 @@ def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
     How far the second link leans against the block the scene does not say.
     """
     for guide in guides:
-        if not guide.rolls and turned.of[guide.block] != turned.of[guide.on]:
+        if guide.turns_alike and turned.of[guide.block] != turned.of[guide.on]:
             raise StructureError(
                 Problem(
                     f"links.{guide.block}.slides",
@@ -175,7 +175,6 @@ class Tree:
             if index not in self.passed:
                 stand = self.on_guide(index).along(index, 1)
                 head = self.step(self.origins[guide.block], guide.block, self.head(index))
-                kind = "track" if guide.rolls else "guide"
-                words = f"{kind} {guide.number + 1} of link {guide.block} on link {guide.on}"
+                words = f"{guide.word} {guide.number + 1} of link {guide.block} on link {guide.on}"
                 found[words] = head.minus(stand)
         return found

@@ -14,7 +14,7 @@ from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.mobility import count
-from graphkin.structure.pairs import Sliding, contacts, pairs, sharers
+from graphkin.structure.pairs import Pin, all_pairs, sharers
 from graphkin.text.errors import Problem, StructureError
 
 RANK = "the rank of the constraints"
@@ -212,9 +212,8 @@ def lone_points(scene: Scene) -> list[str]:
     points of the frame that nothing uses.
     """
     owners = sharers(scene)
-    slides = [pair for pair in pairs(scene) if isinstance(pair, Sliding)]
-    joined = Counter(link for pair in slides for link in pair.links)
-    joined.update(link for contact in contacts(scene) for link in contact.links)
+    led = [pair for pair in all_pairs(scene) if not isinstance(pair, Pin)]
+    joined = Counter(link for pair in led for link in pair.links)
     joined.update(link for links in owners.values() if len(links) > 1 for link in links)
     driven = {driver.link for driver in scene.drivers}
     ends = {name for name in scene.links if joined[name] < 2 and name not in driven}

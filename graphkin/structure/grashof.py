@@ -14,9 +14,9 @@ from msgspec import Struct
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.joints import Joint, Joints
+from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Joint, Pin, Sliding
 
 EVEN = 1e-9
 """Share of the lengths below which two sums count as equal."""

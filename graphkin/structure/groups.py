@@ -6,10 +6,9 @@ from msgspec import Struct
 
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.assur import assur_class
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Joint, Leading, Pin, Sliding
 
-LETTERS = {Pin: "R", Sliding: "P", Contact: "W"}
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
@@ -38,7 +37,12 @@ class Driven(Struct, frozen=True):
 
     driver: Driver
     link: str
-    pair: Sliding | Contact
+    pair: Leading
+
+    @property
+    def outer(self) -> tuple[Joint]:
+        """Its pair with what is known."""
+        return (self.pair,)
 
     @property
     def links(self) -> tuple[str]:
@@ -50,7 +54,7 @@ class Driven(Struct, frozen=True):
         """What it is called."""
         against = other_of(self.driver, self.link)
         beside = "frame" if against == FRAME else f"link {against}"
-        return f"driven, {'sliding' if isinstance(self.pair, Sliding) else 'rolling'} on {beside}"
+        return f"driven, {self.pair.moving} on {beside}"
 
 
 class Dyad(Struct, frozen=True):
@@ -62,9 +66,14 @@ class Dyad(Struct, frozen=True):
     right: Joint
 
     @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.left, self.right
+
+    @property
     def type(self) -> str:
         """R for a pin, P for a slide, W for a wheel, from one outer pair to the other."""
-        return "".join(LETTERS[type(pair)] for pair in (self.left, self.inner, self.right))
+        return "".join(pair.symbol for pair in (self.left, self.inner, self.right))
 
     @property
     def title(self) -> str:
@@ -106,6 +115,11 @@ class Geared(Struct, frozen=True):
     contact: Contact
 
     @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.pair, self.contact
+
+    @property
     def links(self) -> tuple[str]:
         """The one link."""
         return (self.link,)
@@ -143,6 +157,11 @@ class Tie(Struct, frozen=True):
     link: str
     first: Joint
     second: Joint
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.first, self.second
 
     @property
     def links(self) -> tuple[str]:

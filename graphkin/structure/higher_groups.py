@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.model import Driver, Scene
 from graphkin.structure.groups import Geared, Group, Higher, Tie, TriedLink
-from graphkin.structure.joints import Joint, Joints, partner, taken
+from graphkin.structure.joints import Joints
 from graphkin.structure.next_group import (
     next_driven,
     next_group,
@@ -19,8 +19,7 @@ from graphkin.structure.next_group import (
     next_tie,
     settle,
 )
-from graphkin.structure.pairs import Contact, Pin
-from graphkin.structure.touching_wheels import radius
+from graphkin.structure.pairs import Joint, Pin, turned_by_smaller
 
 
 def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Higher | None:
@@ -47,13 +46,8 @@ def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -
 
 def speeding(scene: Scene, group: Higher) -> int:
     """How many wheels of a group are turned by smaller ones."""
-    geared = [(each.link, each.contact) for each in group.chain if isinstance(each, Geared)]
-    count = 0
-    for link, contact in geared:
-        if contact.track is not None:
-            own, other = radius(scene, contact.wheel), radius(scene, contact.track)
-            count += own > other if contact.links[0] == link else other > own
-    return count
+    geared = [each for each in group.chain if isinstance(each, Geared)]
+    return sum(turned_by_smaller(scene, each.contact, each.link) for each in geared)
 
 
 def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
@@ -61,7 +55,7 @@ def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
     joined = [
         (link, pair) for link in joints.unknown(known) for pair in joints.between(link, known)
     ]
-    joined = [(link, pair) for link, pair in joined if taken(pair) == 2]
+    joined = [(link, pair) for link, pair in joined if pair.taken == 2]
     for kind in (Pin, object):
         for link, pair in joined:
             if isinstance(pair, kind) and (kind is Pin or not isinstance(pair, Pin)):
@@ -110,15 +104,7 @@ def over_given(
 
 def supports(group: Group) -> set[str]:
     """The links on which a group hangs."""
-    pairs: list[Joint] = []
-    match group:
-        case Tie(link, first, second):
-            return {partner(first, link), partner(second, link)}
-        case _:
-            for name in ("left", "right", "pair", "contact"):
-                if hasattr(group, name):
-                    pairs.append(getattr(group, name))
-    found = {link for pair in pairs for link in pair.links}
+    found = {link for pair in getattr(group, "outer", ()) for link in pair.links}
     if hasattr(group, "driver"):
         found |= {group.driver.link, group.driver.against}
     return found - set(group.links)
@@ -153,7 +139,7 @@ def pairs_of(
     """The inner pairs of a group as pairs of links, and the link of each outer pair."""
     links, inner, outer = group.links, list[tuple[str, str]](), list[str]()
     for i, link in enumerate(links):
-        outer += [link for pair in joints.between(link, known) if pair_counts(pair)]
+        outer += [link for pair in joints.between(link, known) if pair.taken == 2]
         for j, other in enumerate(links[i + 1 :], i + 1):
             held = joints.inner(link, other, known)
             inner += [(link, other) for pair in held if is_next(joints, pair, links[i + 1 : j])]
@@ -163,8 +149,3 @@ def pairs_of(
 def is_next(joints: Joints, pair: Joint, between: Collection[str]) -> bool:
     """Whether none of some links has the pin too: a pin of k links is k - 1 pairs, in a row."""
     return not isinstance(pair, Pin) or set(between).isdisjoint(joints.owners[pair.point])
-
-
-def pair_counts(pair: Joint) -> bool:
-    """Whether a pair counts for class and order: contacts that take one freedom do not."""
-    return not isinstance(pair, Contact) or pair.taken == 2

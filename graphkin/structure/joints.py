@@ -6,11 +6,7 @@ from collections.abc import Collection, Iterable, Iterator
 from copy import copy
 
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import Contact, Pair, Pin, Sliding, contacts, sharers
-from graphkin.text.errors import Problem, StructureError
-
-Joint = Pair | Contact
-"""A pair that joins two links: a pin, a slide or a rolling contact."""
+from graphkin.structure.pairs import Joint, Leading, Pin, all_pairs, refuse_loose, sharers
 
 
 class Joints:
@@ -21,19 +17,15 @@ class Joints:
         self.owners = sharers(scene)
         self.order = {name: i for i, name in enumerate((FRAME, *scene.links))}
         self.names: tuple[str, ...] = tuple(scene.links)
-        self.others: dict[str, list[Sliding | Contact]] = {name: [] for name in self.order}
-        for link in scene.links.values():
-            for slide in link.slides:
-                self._put(Sliding(slide, (link.name, slide.on)))
-        for contact in contacts(scene):
-            refuse_loose(contact)
-            self._put(contact)
+        self.others: dict[str, list[Leading]] = {name: [] for name in self.order}
+        every = all_pairs(scene)
+        refuse_loose(every)
+        for pair in every:
+            if not isinstance(pair, Pin):
+                for link in pair.links:
+                    self.others[link].append(pair)
         self.beside = {name: self._beside(name) for name in self.order}
         self.found: dict[tuple[str, frozenset[str]], tuple[Joint, ...]] = {}
-
-    def _put(self, pair: Sliding | Contact) -> None:
-        for link in pair.links:
-            self.others[link].append(pair)
 
     def _beside(self, link: str) -> frozenset[str]:
         found = {o for point in self.scene.link(link).points for o in self.owners[point]}
@@ -93,26 +85,6 @@ class Joints:
             yield part
 
 
-def refuse_loose(contact: Contact) -> None:
-    """Raise StructureError for wheels that roll on one another with no arm between them."""
-    if contact.track is None or contact.arm is not None:
-        return
-    centres = f"{contact.track.centre} and {contact.wheel.centre}"
-    raise StructureError(
-        Problem(
-            f"links.{contact.links[0]}.rolls",
-            f"no link carries both centres, {centres}",
-            f"an arm: a link with {contact.track.centre}-{contact.wheel.centre} = …",
-            "the arm keeps the wheels together; its weight and shape do not matter",
-        )
-    )
-
-
 def partner(pair: Joint, link: str) -> str:
     """The other link of a pair."""
     return pair.links[1] if pair.links[0] == link else pair.links[0]
-
-
-def taken(pair: Joint) -> int:
-    """The freedoms that a pair takes: two, or one where other links keep the distance."""
-    return pair.taken if isinstance(pair, Contact) else 2

@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from msgspec import Struct
 
 from graphkin.scene.model import Scene
-from graphkin.structure.pairs import contacts, pairs
+from graphkin.structure.pairs import all_pairs
 
 
 class Count(Struct, frozen=True):
     """Moving links, pairs that take two freedoms, and those that take one.
 
-    ``pairs`` are pins, slides, and rolling pairs that alone keep their distance; ``singles`` are
-    rolling pairs whose distance an arm keeps already, teeth and tracks.
+    ``pairs`` are pins, slides, and wheels that their track alone keeps; ``singles`` are wheels that
+    touch at a distance which an arm keeps already, teeth and tracks.
     """
 
     moving: int
@@ -41,11 +41,11 @@ class Count(Struct, frozen=True):
 def count(scene: Scene) -> Count:
     """Gruebler's count of a scene, a pin of k links counted as k - 1 pairs.
 
-    Raises StructureError for wheels that do not touch what they roll on.
+    Raises StructureError for wheels that do not touch.
     """
-    rolling = contacts(scene)
-    singles = sum(contact.taken == 1 for contact in rolling)
-    return Count(len(scene.links), len(pairs(scene)) + len(rolling) - singles, singles)
+    every = all_pairs(scene)
+    singles = sum(pair.taken == 1 for pair in every)
+    return Count(len(scene.links), len(every) - singles, singles)
 
 
 def gruebler(moving: int, lower: int, higher: int = 0) -> int:

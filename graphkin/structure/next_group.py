@@ -16,8 +16,8 @@ from graphkin.structure.groups import (
     Tie,
     Train,
 )
-from graphkin.structure.joints import Joint, Joints, partner, taken
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import Joints, partner
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 
 
 def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
@@ -51,10 +51,10 @@ def driven_by(
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
         return Crank(driver, link, pins[0].point) if pins else turned_wheel(joints, driver, link)
-    wanted = Sliding if driver.kind == "slide" else Contact
     for pair in joints.between(link, (against,)):
-        if isinstance(pair, wanted) and pair.links[0] == driver.link:
-            assert not isinstance(pair, Pin)
+        if isinstance(pair, Pin) or pair.moved_by != driver.kind:
+            continue
+        if pair.links[0] == driver.link:
             return Driven(driver, link, pair)
     return None
 
@@ -105,7 +105,7 @@ def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> G
     A contact settles a turning once the arm that keeps its distance is known too.
     """
     ones = [pair for pair in joined if isinstance(pair, Contact) and pair.arm in known]
-    twos = [pair for pair in joined if taken(pair) == 2]
+    twos = [pair for pair in joined if pair.taken == 2]
     return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
 
 
@@ -113,14 +113,14 @@ def dyad_with(
     joints: Joints, known: Collection[str], first: str, left: tuple[Joint, ...]
 ) -> Dyad | None:
     """The dyad of a link with the first of its neighbours that is joined to known links too."""
-    if len(left) != 1 or taken(left[0]) != 2:
+    if len(left) != 1 or left[0].taken != 2:
         return None
     for second in joints.neighbours(first):
         if second in known:
             continue
         inner = joints.inner(first, second, known)
         right = joints.between(second, known)
-        if len(inner) == len(right) == 1 and taken(inner[0]) == taken(right[0]) == 2:
+        if len(inner) == len(right) == 1 and inner[0].taken == right[0].taken == 2:
             dyad = Dyad((first, second), left[0], inner[0], right[0])
             if can_close(dyad):
                 return in_order(dyad)
@@ -192,7 +192,7 @@ def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
     """
     for link in joints.unknown(known):
         pairs = joints.between(link, known)
-        if len(pairs) == 2 and all(taken(pair) == 2 for pair in pairs):
+        if len(pairs) == 2 and all(pair.taken == 2 for pair in pairs):
             first, second = sorted(pairs, key=lambda pair: not isinstance(pair, Pin))
             on_two = isinstance(first, Pin) or partner(first, link) != partner(second, link)
             if on_two and not isinstance(first, Contact) and not isinstance(second, Contact):

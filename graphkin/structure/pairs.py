@@ -2,40 +2,56 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
+from typing import ClassVar
 
 from msgspec import Struct
 
 from graphkin.scene.contact_letters import contact_letters
 from graphkin.scene.model import FRAME, Rolling, Scene, Slide, Wheel
-from graphkin.structure.touching_wheels import touching
+from graphkin.structure.touching_wheels import radius, touching
 from graphkin.structure.turning import guides_under, turns
+from graphkin.text.errors import Problem, StructureError
 
 __all__ = [
     "Contact",
+    "Joint",
+    "Leading",
     "Pair",
     "Pin",
     "Sliding",
+    "all_pairs",
     "contacts",
     "contacts_between",
     "guides_under",
     "meshes",
     "pairs",
     "pairs_between",
+    "refuse_loose",
     "sharers",
+    "turned_by_smaller",
     "turns",
 ]
 
 
 class Pin(Struct, frozen=True):
-    """A turning pair: two links share a point."""
+    """A turning pair: two links share a point. Its letter in a dyad's type, and freedoms taken."""
+
+    symbol: ClassVar[str] = "R"
+    taken: ClassVar[int] = 2
 
     point: str
     links: tuple[str, str]
 
 
 class Sliding(Struct, frozen=True):
-    """A sliding pair: a block on a guide of another link."""
+    """A sliding pair: a block on a guide of another link; what a driver does to it, as written."""
+
+    symbol: ClassVar[str] = "P"
+    moved_by: ClassVar[str] = "slide"
+    moving: ClassVar[str] = "sliding"
+    taken: ClassVar[int] = 2
 
     slide: Slide
     links: tuple[str, str]
@@ -45,6 +61,10 @@ class Sliding(Struct, frozen=True):
         """The link that slides."""
         return self.links[0]
 
+    def led_point(self, scene: Scene, link: str) -> str:
+        """The point of one of its links that it leads along a line."""
+        return scene.link(link).points[0]
+
 
 class Contact(Struct, frozen=True):
     """A wheel that rolls without slip on a straight track or on a wheel of another link.
@@ -53,6 +73,10 @@ class Contact(Struct, frozen=True):
     track. ``arm`` is the link that keeps the two together already, None where only the contact
     does. ``letter`` names the place where they touch.
     """
+
+    symbol: ClassVar[str] = "W"
+    moved_by: ClassVar[str] = "roll"
+    moving: ClassVar[str] = "rolling"
 
     rolling: Rolling
     links: tuple[str, str]
@@ -66,8 +90,16 @@ class Contact(Struct, frozen=True):
         """Freedoms that it takes: the slip, and the distance unless an arm keeps that."""
         return 2 if self.arm is None else 1
 
+    def led_point(self, scene: Scene, link: str) -> str:
+        """The point of one of its links that it leads along a line: a wheel's centre."""
+        return self.wheel.centre if self.links[0] == link else scene.link(link).points[0]
+
 
 Pair = Pin | Sliding
+Leading = Sliding | Contact
+"""A pair that leads a point of one link along a line of the other."""
+Joint = Pair | Contact
+"""A pair that joins two links: a pin, a slide or a rolling contact."""
 
 
 def meshes(scene: Scene, contact: Contact) -> bool:
@@ -87,6 +119,35 @@ def pairs(scene: Scene) -> tuple[Pair, ...]:
     for link in scene.links.values():
         found += [Sliding(slide, (link.name, slide.on)) for slide in link.slides]
     return tuple(found)
+
+
+def all_pairs(scene: Scene) -> tuple[Joint, ...]:
+    """All pairs: pins, slides, then rolling pairs. StructureError: wheels that do not touch."""
+    return (*pairs(scene), *contacts(scene))
+
+
+def refuse_loose(joints: Sequence[Joint]) -> None:
+    """Raise StructureError for wheels that roll on one another with no arm between them."""
+    for contact in joints:
+        if not isinstance(contact, Contact) or contact.track is None or contact.arm is not None:
+            continue
+        centres = f"{contact.track.centre} and {contact.wheel.centre}"
+        raise StructureError(
+            Problem(
+                f"links.{contact.links[0]}.rolls",
+                f"no link carries both centres, {centres}",
+                f"an arm: a link with {contact.track.centre}-{contact.wheel.centre} = …",
+                "the arm keeps the wheels together; its weight and shape do not matter",
+            )
+        )
+
+
+def turned_by_smaller(scene: Scene, contact: Contact, link: str) -> bool:
+    """Whether a wheel touches a smaller one, which then turns faster."""
+    if contact.track is None:
+        return False
+    own, other = radius(scene, contact.wheel), radius(scene, contact.track)
+    return own > other if contact.links[0] == link else other > own
 
 
 def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:

@@ -16,6 +16,7 @@ from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
+from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.normal_component.klein import crank_of, klein_component
@@ -23,15 +24,14 @@ from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
 )
-from graphkin.construction.rolling import wheel_images
 from graphkin.construction.velocity.crossed_image import crossed_image
 from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.translated_image import translated_image
-from graphkin.construction.velocity.velocity import driven_rate, line_of
+from graphkin.construction.velocity.velocity import driven_rate
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
 
 
 def frame(pen: Pen) -> None:
@@ -62,18 +62,15 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False)
 
 def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
     """Second image of a driven slider or wheel: along its guide from what is known of it."""
-    if isinstance(group.pair, Contact):
-        rate = wheel_images.given_speed(pen, group.driver, group.pair, "acceleration")
-    else:
-        rate = pen.drive(group.driver).acceleration
+    rate = led_by(group.pair).driven(pen, group.driver, "acceleration")
     slide_on(pen, shapes, group.pair, group.link, rate)
 
 
-def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, rate: int) -> None:
-    """Second image of the point of a link that slides, or rolls, with a rate along its guide."""
+def slide_on(pen: Pen, shapes: LinkShapes, pair: Leading, link: str, rate: int) -> None:
+    """Second image of the point of a link that is led along its line at a rate."""
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
-    line = line_of(pen, shapes, pair, link, point)
+    line = led_by(pair).direction(pen, shapes)
     vector = turning_component(pen, pair, link, point, point)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         corner = lay_off_component(pen, pair, link, point, point, vector)
@@ -83,8 +80,7 @@ def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, r
         slide_arrow(pen, corner, found, known, point)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
-    if isinstance(pair, Contact):
-        wheel_images.second_touch(pen, pair)
+    led_by(pair).second_touch(pen)
 
 
 def sliding_effect(pen: Pen, rate: int) -> Effect | None:
@@ -123,7 +119,8 @@ def cross(
                 lines.append(tangential_direction(pen, pair.point, name, corner))
             else:
                 corner = lay_off_component(pen, pair, link, name, point, slides[pair.links])
-                lines.append(along(pen, shapes, pair, link, point, corner))
+                line = led_by(pair).direction(pen, shapes)
+                lines.append(parallel_through(pen, corner, line, pair.links[0]))
             corners.append(corner)
         found = crossed_image(pen, *lines, name=second_image(name), of=name)
         for (pair, link), corner in zip(sides, corners, strict=True):
@@ -137,15 +134,8 @@ def cross(
     if "@" not in name:
         acceleration_arrow(pen, name)
     for pair, _ in sides:
-        if isinstance(pair, Contact):
-            wheel_images.second_touch(pen, pair)
-
-
-def along(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, point: str, corner: int) -> int:
-    """Through the end of what is known of a sliding acceleration the parallel to its guide."""
-    assert not isinstance(pair, Pin)
-    line = line_of(pen, shapes, pair, link, point)
-    return parallel_through(pen, corner, line, pair.links[0])
+        if not isinstance(pair, Pin):
+            led_by(pair).second_touch(pen)
 
 
 def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:

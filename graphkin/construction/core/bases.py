@@ -21,8 +21,8 @@ from graphkin.structure.groups import (
     TriedLink,
     Unresolved,
 )
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -71,7 +71,7 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
         case Crank(link=link, pivot=pivot):
             return (base_of(scene, link, pivot, crank_tip(scene, group)),)
         case Driven(link=link, pair=pair):
-            return (led_base(scene, link, led_point(scene, link, pair), pair),)
+            return (led_base(scene, link, pair.led_point(scene, link), pair),)
         case Dyad():
             return dyad_bases(scene, group)
         case Stretched(near=near, pin=pin, dyad=dyad):
@@ -136,15 +136,8 @@ def trial_base(scene: Scene, trial: TriedLink) -> Base:
         pivot = trial.pair.point
         tip = next((p for p in scene.link(trial.link).points if p != pivot), None)
         return base_of(scene, trial.link, pivot, tip)
-    point = led_point(scene, trial.link, trial.pair)
+    point = trial.pair.led_point(scene, trial.link)
     return led_base(scene, trial.link, point, trial.pair)
-
-
-def led_point(scene: Scene, link: str, pair: Joint) -> str:
-    """The point of a link that a slide or a track leads on a line."""
-    if isinstance(pair, Contact) and pair.links[0] == link:
-        return pair.wheel.centre
-    return scene.link(link).points[0]
 
 
 def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:

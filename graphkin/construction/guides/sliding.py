@@ -20,7 +20,8 @@ from graphkin.construction.coriolis.coriolis import (
 from graphkin.construction.guides.coincident_points import image_under, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.structure.joints import Joint, partner
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Joint
 
 
 def turning_component(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:

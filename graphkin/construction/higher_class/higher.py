@@ -16,20 +16,19 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
-from graphkin.construction.guides.guides import axis, known_guide, path_of, standing_guide
+from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.links.driven_crank import turn_about
+from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import plate_points
-from graphkin.construction.links.position import set_on_guide
-from graphkin.construction.rolling import rolling
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, TriedLink
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding
 
 Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
@@ -157,12 +156,8 @@ def place_trial(pen: Pen, shapes: LinkShapes, group: Higher, tried: int) -> None
         case Pin(point=pivot):
             with pen.on(Part.POSITION, Plane.MECHANISM):
                 turn_about(pen, shapes, trial.link, (pivot, base.end), (), tried)
-        case Sliding() as pair:
-            pen.leads[trial.link] = partner(pair, trial.link)
-            set_on_guide(pen, shapes, pair, trial.link, tried)
         case pair:
-            assert isinstance(pair, Contact)
-            rolling.set_on_track(pen, shapes, pair, base.start, tried)
+            led_by(pair).set_at(pen, shapes, trial.link, tried)
     plate_points(pen, shapes, base)
 
 
@@ -182,7 +177,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
         reach = None if turns else reach_of(fork, shapes, group)
-        rim = rolling.radius_of(fork, pair) if isinstance(pair, Contact) else None
+        rim = None if isinstance(pair, Pin) else led_by(pair).rim(fork)
     traced = tuple(fork.the("position", point) for point in traced_points(pen, group.last))
     fork.keep_inputs(fit.size, fit.locus, fit.facing, *axes, reach, rim, *traced)
     trying = Trying(
@@ -290,11 +285,7 @@ def reach_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
     """How far along its guide the tried link may have to be looked for: what lengths allow."""
     pair = group.trial.pair
     assert not isinstance(pair, Pin)
-    line = (
-        rolling.track_of(pen, shapes, pair)
-        if isinstance(pair, Contact)
-        else known_guide(pen, shapes, pair)
-    )
+    line = led_by(pair).line(pen, shapes)
     lengths = [
         shapes.length(name, points[0], point)
         for name in group.links

@@ -326,7 +326,7 @@ def trial_value(pen: Pen, group: Higher, kind: TrialQuantity) -> int:
 
 
 def slid_rate(pen: Pen, group: Higher, bar: int) -> int:
-    """How fast the tried link slides or rolls on what is known, in bars a second."""
+    """How fast the tried link moves along the line that leads it, in bars a second."""
     pair, point = group.trial.pair, pen.bases[group.trial.link].start
     assert not isinstance(pair, Pin)
     under = image_under(pen, partner(pair, group.trial.link), point)

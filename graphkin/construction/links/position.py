@@ -2,31 +2,22 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.bases import crank_tip, led_point
+from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.dyad_by_arc_and_guide import cut_line
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guide_line import cross_guides
-from graphkin.construction.guides.guides import (
-    axis,
-    direction_on,
-    known_guide,
-    local_line,
-    path_of,
-    turned_with,
-)
-from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
+from graphkin.construction.guides.guides import axis, direction_on, path_of, turned_with
 from graphkin.construction.guides.swung_guide import swing_guide
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import meet_arcs
+from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes, place
 from graphkin.construction.links.plate_points import arc, plate_points
-from graphkin.construction.rolling import rolling
 from graphkin.scene.model import Apart, Link
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 FITS = 1e-6
@@ -69,28 +60,8 @@ def axis_line(link: Link) -> tuple[str, ...]:
 
 def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
     """A point of a driven slider, or the centre of a driven wheel, at its coordinate."""
-    link, pair = group.link, group.pair
-    if isinstance(pair, Contact):
-        way = rolling.driven_way(pen, group.driver, pair)
-        rolling.set_on_track(pen, shapes, pair, led_point(pen.scene, link, pair), way)
-    else:
-        set_on_guide(pen, shapes, pair, link, pen.drive(group.driver).position)
-
-
-def set_on_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, where: int) -> None:
-    """A point of a link at a coordinate of the guide on which it slides, or which it carries."""
-    point = pen.bases[link].start
-    sides = link, partner(pair, link)
-    line = path_of(pen, shapes, pair, link, point)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        if pair.block == link:
-            found = set_point(pen, point, sides, line, where)
-        else:
-            zero = known_guide(pen, shapes, pair, link)
-            through = local_line(pen, shapes, pair.slide, link)[0]
-            ends = shapes.local(link, point), through, axis(pen, shapes, link)
-            found = set_carrier(pen, point, sides, zero, where, *ends)
-    pen.want("position", point, found)
+    led = led_by(group.pair)
+    led.set_at(pen, shapes, group.link, led.driven(pen, group.driver, "position"))
 
 
 # --- dyads and ties ------------------------------------------------------------------------------
@@ -138,14 +109,15 @@ def two_bars(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
 def bar_and_guide(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
     """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
+    assert not isinstance(group.right, Pin)
     left, pin, link = group.left.point.partition("@")[0], group.inner.point, group.links[1]
-    path = led_path(pen, shapes, group.right, link, pin)
+    led = led_by(group.right)
+    path = led.path(pen, shapes, link, pin)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         way, extra = pen.choice(group)
         found = cut_line(pen, pin, left, (path, near), *way, sign=extra)
     pen.want("position", pin, found)
-    if isinstance(group.right, Contact):
-        rolling.touch_and_turn(pen, shapes, group.right)
+    led.finish(pen, shapes)
 
 
 def first_arc(pen: Pen, shapes: LinkShapes, group: Dyad) -> int:
@@ -155,19 +127,15 @@ def first_arc(pen: Pen, shapes: LinkShapes, group: Dyad) -> int:
         return arc(pen, shapes, group.links[0], group.left.point, group.inner.point)
 
 
-def led_path(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, point: str) -> int:
-    """The line on which a slide or a track with a known link leads a point."""
-    if isinstance(pair, Sliding):
-        return path_of(pen, shapes, pair, link, point)
-    assert isinstance(pair, Contact)
-    return rolling.path_of_centre(pen, shapes, pair)
-
-
 def two_guides(
     pen: Pen, shapes: LinkShapes, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]
 ) -> None:
     """A point that two guides lead: where their lines cross."""
-    paths = [led_path(pen, shapes, *each, point) for each in zip(pairs, links, strict=True)]
+    paths = [
+        led_by(pair).path(pen, shapes, link, point)
+        for pair, link in zip(pairs, links, strict=True)
+        if not isinstance(pair, Pin)
+    ]
     with pen.on(Part.POSITION, Plane.MECHANISM):
         found = cross_guides(pen, point, *paths)
     pen.want("position", point, found)

@@ -36,8 +36,7 @@ from graphkin.numbers.arithmetic import Point, Real, smaller
 from graphkin.numbers.plane import Circle, Line, circles_sine, dot, line_meets_line
 from graphkin.scene.model import FRAME
 from graphkin.structure.groups import other_of
-from graphkin.structure.joints import Joint
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 if TYPE_CHECKING:

@@ -12,10 +12,9 @@ from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.drivers.summed_rate import summed_rate
 from graphkin.construction.guides.coincident_points import image_under, omega_of, source_of
 from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
-from graphkin.construction.links.position import led_path
-from graphkin.construction.rolling import wheel_images
 from graphkin.construction.velocity.crossed_image import crossed_image
 from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.parallel_through import parallel_through
@@ -23,8 +22,8 @@ from graphkin.construction.velocity.perpendicular_through import perpendicular_t
 from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
-from graphkin.structure.joints import Joint, partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
 
 
 def frame(pen: Pen) -> None:
@@ -73,18 +72,16 @@ def turn_tip(pen: Pen, link: str, pivot: str, tip: str) -> None:
 
 def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
     """Image of a driven slider, or of a driven wheel's centre: the given speed on its guide."""
-    if isinstance(group.pair, Contact):
-        speed = wheel_images.given_speed(pen, group.driver, group.pair, "speed")
-    else:
-        speed = pen.drive(group.driver).speed
+    speed = led_by(group.pair).driven(pen, group.driver, "speed")
     slide_on(pen, shapes, group.pair, group.link, speed)
 
 
-def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, speed: int) -> None:
-    """Image of the point of a link that slides, or rolls, at a speed along its guide."""
+def slide_on(pen: Pen, shapes: LinkShapes, pair: Leading, link: str, speed: int) -> None:
+    """Image of the point of a link that is led at a speed along its line."""
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
-    line = line_of(pen, shapes, pair, link, point)
+    led = led_by(pair)
+    line = led.direction(pen, shapes)
     start = image_under(pen, known, point)
     with pen.on(Part.VELOCITY, Plane.VELOCITIES):
         steps = start, line, speed
@@ -92,15 +89,7 @@ def slide_on(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, s
     pen.want("velocity", point, found)
     velocity_arrows(pen, point, None)
     slide_arrow(pen, pair, link, point)
-    if isinstance(pair, Contact):
-        wheel_images.touch(pen, pair)
-
-
-def line_of(pen: Pen, shapes: LinkShapes, pair: Sliding | Contact, link: str, point: str) -> int:
-    """The line of a guide, or of the way of a wheel's centre, in the plane."""
-    if isinstance(pair, Contact):
-        return led_path(pen, shapes, pair, link, point)
-    return known_guide(pen, shapes, pair)
+    led.touch(pen)
 
 
 # --- dyads and ties ------------------------------------------------------------------------------
@@ -123,8 +112,8 @@ def cross(
         velocity_arrows(pen, name, source(pair, name))
         if isinstance(pair, Sliding) and "@" not in name:
             slide_arrow(pen, pair, link, name)
-        if isinstance(pair, Contact):
-            wheel_images.touch(pen, pair)
+        if not isinstance(pair, Pin):
+            led_by(pair).touch(pen)
 
 
 def source(pair: Joint, point: str) -> str | None:
@@ -138,7 +127,7 @@ def ray(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, name: str, point: 
     """The line on which a pair of a link leaves the image of a point free."""
     if isinstance(pair, Pin):
         return perpendicular_through(pen, pair.point, name)
-    line, known = line_of(pen, shapes, pair, link, point), partner(pair, link)
+    line, known = led_by(pair).direction(pen, shapes), partner(pair, link)
     own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
     start = pen.the("velocity", point) if own else image_under(pen, known, point)
     return parallel_through(pen, start, line, pair.links[0])

@@ -1,0 +1,65 @@
+"""What a sliding pair with a known link gives a point of the other link in each drawing."""
+
+from __future__ import annotations
+
+from msgspec import Struct
+
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.guides.guides import axis, known_guide, local_line, path_of
+from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.scene.model import Driver
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Sliding
+
+
+class LedBlock(Struct, frozen=True):
+    """A block on the guide of a known link, or the link of a guide on a known block."""
+
+    pair: Sliding
+
+    def line(self, pen: Pen, shapes: LinkShapes) -> int:
+        """The line of the guide."""
+        return known_guide(pen, shapes, self.pair)
+
+    def path(self, pen: Pen, shapes: LinkShapes, link: str, point: str) -> int:
+        """The line on which a point of the link is led."""
+        return path_of(pen, shapes, self.pair, link, point)
+
+    def direction(self, pen: Pen, shapes: LinkShapes) -> int:
+        """A line along which the link moves against the known one."""
+        return known_guide(pen, shapes, self.pair)
+
+    def driven(self, pen: Pen, driver: Driver, which: str) -> int:
+        """What a driver gives along the guide: position, speed or acceleration."""
+        return int(getattr(pen.drive(driver), which))
+
+    def set_at(self, pen: Pen, shapes: LinkShapes, link: str, where: int) -> None:
+        """The link with its led point at a coordinate of the guide; it turns with the guide."""
+        pair, point = self.pair, pen.bases[link].start
+        sides = link, partner(pair, link)
+        pen.leads[link] = sides[1]
+        line = path_of(pen, shapes, pair, link, point)
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            if pair.block == link:
+                found = set_point(pen, point, sides, line, where)
+            else:
+                zero = known_guide(pen, shapes, pair, link)
+                through = local_line(pen, shapes, pair.slide, link)[0]
+                ends = shapes.local(link, point), through, axis(pen, shapes, link)
+                found = set_carrier(pen, point, sides, zero, where, *ends)
+        pen.want("position", point, found)
+
+    def finish(self, pen: Pen, shapes: LinkShapes) -> None:
+        """Nothing more is to be found once the led point stands."""
+
+    def touch(self, pen: Pen) -> None:
+        """Nothing touches."""
+
+    def second_touch(self, pen: Pen) -> None:
+        """Nothing touches."""
+
+    def rim(self, pen: Pen) -> int | None:
+        """No radius ties its turning to its coordinate."""
+        return None
