@@ -28,6 +28,8 @@ from graphkin.web.reasons import NO_STEP
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import STEP_PAGE, together
 from graphkin.web.slider import slider
+from graphkin.web.your_turn import palette, your_turn
+from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
 from graphkin.writers.templates import filled
@@ -82,6 +84,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     sheets = screen_sheets(mechanism, language)
     told = telling(sheets)
     moves = slider(mechanism, sheets)
+    turn = your_turn(sheets, told)
     drawing = sheets[0].drawing
     pieces = given(drawing)
     body = filled(
@@ -103,12 +106,14 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
         steps=len(told.said),
         stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
         moves=moves,
+        palette=palette(turn, sheets[0].drawing.words),
+        turning=data_block("turning", turn_record(sheets, told, turn)),
         run=data_block("run", record(sheets, told)),
     )
     scripts = [together(STEP_PAGE)]
     if moves.source:
         scripts.insert(0, moves.source)
-    return written(sheets, body, ink, [part("steps.css")], scripts)
+    return written(sheets, body, ink, [part("steps.css"), part("your_turn.css")], scripts)
 
 
 def task_page(
