@@ -22,6 +22,9 @@ STEP_PAGE = (
     "address.js",
     "playing.js",
     "palette.js",
+    "turn_state.js",
+    "picking.js",
+    "checking.js",
     "your_turn.js",
     "keys.js",
 )

@@ -148,7 +148,8 @@ class YourTurn(Struct, frozen=True):
     """All moves of some sheets, all that can be picked, and the moves behind what comes along.
 
     ``places`` are the steps of the points of the mechanism that have an image of a plan, ``shares``
-    the steps by which the lines of two trials are divided, with the moves that each needs.
+    the steps by which the lines of two trials are divided, with the moves that each needs;
+    ``alike`` tells whether a link has a third point, whose image is similar to it.
     """
 
     moves: Mapping[int, PaletteMove]
@@ -158,6 +159,7 @@ class YourTurn(Struct, frozen=True):
     shares: Mapping[int, tuple[int, ...]]
     values: Mapping[int, Any]
     planes: Mapping[int, Plane]
+    alike: bool
 
 
 class MoveFinder:
@@ -196,7 +198,13 @@ class MoveFinder:
         shares = {share: self.needs([share]) for share in map(self.share, divided)}
         planes = {number: self.steps[number].plane for number in self.values}
         planes |= {self.share(number): self.steps[number].plane for number in divided}
-        return YourTurn(self.moves, self.picks, along, self.places, shares, self.values, planes)
+        alike = any(
+            self.steps[n].action is similar_point and self.steps[n].plane in PLANES[1:3]
+            for n in self.moves
+        )
+        return YourTurn(
+            self.moves, self.picks, along, self.places, shares, self.values, planes, alike
+        )
 
     # --- what hangs on what ----------------------------------------------------------------------
 
@@ -634,6 +642,8 @@ def your_turn(sheets: Sequence[ScreenSheet], told: PageProtocol) -> YourTurn:
 def palette(turn: YourTurn, words: Words) -> list[tuple[str, list[str]]]:
     """The actions that a construction has use for, each with the words for its inputs."""
     used = {move.action for move in turn.moves.values()}
+    if turn.alike:
+        used.add("similar")
     return [
         (action, [words(f"turn.slot.{slot}") for slot, _ in slots])
         for action, slots in PALETTE.items()

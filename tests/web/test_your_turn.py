@@ -25,9 +25,9 @@ ALL = (*LABS, *SCENES)
 PLANS = (Plane.VELOCITIES, Plane.ACCELERATIONS)
 NEAR = 1e-9
 RESULTS = """([source, record]) => {
-  const { results } = new Function(source + ';return palette_of')()(record, () => true);
+  const { results_of } = new Function(source + ';return palette_of')()(record, () => true);
   return Object.fromEntries(Object.entries(record.moves).map(([step, { action, inputs }]) =>
-    [step, results(action, inputs.map(key => record.picks[key].by || key))]));
+    [step, results_of(action, inputs.map(key => record.picks[key].by || key))]));
 }"""
 
 
