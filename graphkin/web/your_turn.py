@@ -82,6 +82,8 @@ PALETTE: Mapping[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
 }
 """The actions of the palette, each with what it is drawn from: the word for it, and its kinds."""
 
+NAMED_BY_INPUTS = ("perpendicular", "parallel", "compass", "join", "transfer")
+"""Actions whose results are called by what they are drawn from."""
 SAID = "turn.say."
 """Where the sentences begin that the script says."""
 PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
@@ -466,8 +468,9 @@ class MoveFinder:
         elif not name:
             letters = self.picks[ends[0]].name + self.picks[ends[1]].name
             name = vector_of(self.drawing(tip), tail, tip, letters)
-        key, plane = f"{tail}>{tip}", self.steps[tip].plane
-        pick = Pick("arrow", name, plane, self.needs([tail, tip]), None, (tail, tip))
+        key, plane = ">".join(ends), self.steps[tip].plane
+        on = int(ends[0]), int(ends[1])
+        pick = Pick("arrow", name, plane, self.needs(on), None, on)
         self.picks.setdefault(key, pick)
         return key
 
@@ -607,7 +610,7 @@ class MoveFinder:
             sign = "⊥" if action == "perpendicular" else "∥"
             return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
         if action == "compass":
-            name = drawing.words("turn.arc", p=names[0], bar=names[1])
+            name = drawing.words("turn.say.arc", p=names[0], bar=names[1])
             return name, name
         if action == "join":
             name = "".join(names)
@@ -658,8 +661,8 @@ def record(sheets: Sequence[ScreenSheet], told: PageProtocol, turn: YourTurn) ->
     said = [key for key in words.sentences if key.startswith(SAID)]
     return {
         "palette": {action: [kinds for _, kinds in PALETTE[action]] for action in used},
-        "moves": {move.step: written_move(turn, told, move) for move in turn.moves.values()},
-        "picks": {name: written_pick(pick) for name, pick in turn.picks.items()},
+        "moves": {move.step: written_move(turn, move) for move in turn.moves.values()},
+        "picks": {key: written_pick(turn, key, pick) for key, pick in turn.picks.items()},
         "along": turn.along,
         "places": turn.places,
         "shares": [
@@ -701,33 +704,35 @@ def frame(field: Field) -> list[float]:
     return [*field.at, field.middle.real, field.middle.imag, field.mm]
 
 
-def written_move(turn: YourTurn, told: PageProtocol, move: PaletteMove) -> dict[str, object]:
-    """A move as data."""
+def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
+    """A move as data; the script finds by itself what its inputs say of it."""
     found: dict[str, object] = {
         "action": move.action,
         "inputs": move.inputs,
-        "name": marked_up(move.name),
         "at": move.at,
-        "sheet": told.said[move.at - 1].sheet,
-        "needs": move.needs,
         "plane": PLANES.index(turn.planes[move.step]),
         "value": written(turn.values[move.step]),
     }
-    if move.about != move.name:
+    if move.action not in NAMED_BY_INPUTS:
+        found["name"] = marked_up(move.name)
+    if move.about != move.name and move.action != "lay_off":
         found["about"] = marked_up(move.about)
+    if move.action == "divide":
+        found["needs"] = move.needs
     if move.goal:
         found["goal"] = 1
     return found
 
 
-def written_pick(pick: Pick) -> dict[str, object]:
-    """Something to be picked as data; what a move gives has its value there."""
-    found: dict[str, object] = {
-        "kind": pick.kind,
-        "name": marked_up(pick.name),
-        "plane": PLANES.index(pick.plane),
-        "needs": pick.needs,
-    }
+def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
+    """Something to be picked as data; what a move gives, or two points do, is told by these."""
+    found: dict[str, object] = {"kind": pick.kind}
+    if key.isdigit() and int(key) in turn.moves:
+        return found
+    if pick.kind != "bar":
+        found |= {"name": marked_up(pick.name), "plane": PLANES.index(pick.plane)}
+    if pick.kind not in ("bar", "arrow"):
+        found["needs"] = pick.needs
     if pick.value is not None:
         found["value"] = written(pick.value)
     if pick.on:

@@ -10,7 +10,10 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.text import words
+from graphkin.web.protocol import telling
+from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page
+from graphkin.web.your_turn import your_turn
 from tests.browser.opening import Opened, barred
 from tests.browser.test_page import DESKTOP, PHONE
 from tests.documents.sheet_tools import mechanism_named
@@ -23,9 +26,9 @@ SCENES = {
 }
 """Bars and a slider, a slotted lever with Coriolis, a planet in a ring, a group of class III."""
 EN = words("en")
-RECORD = "JSON.parse(document.getElementById('turning').textContent)"
 CENTRE = """letter => {
-  const named = [...document.querySelectorAll(`.sheet:not([hidden]) circle[data-name='${letter}']`)];
+  const sheet = document.querySelector('.sheet:not([hidden])');
+  const named = [...sheet.querySelectorAll(`circle[data-name='${letter}']`)];
   const { x, y, width, height } = named.at(-1).getBoundingClientRect();
   return [x + width / 2, y + height / 2];
 }"""
@@ -86,7 +89,7 @@ def by_mouse(page: Any, action: str, *inputs: tuple[str, ...]) -> str:
     return said(page)
 
 
-# --- the pump's velocity plan ------------------------------------------------------------------------
+# --- the pump's velocity plan ---------------------------------------------------------------------
 
 
 def test_the_velocity_plan_of_the_pump_by_right_choices(opened: Opened, pages: Path):
@@ -131,7 +134,8 @@ def test_by_mouse_on_the_drawing(opened: Opened, pages: Path):
     lines = page.evaluate("""() => Object.keys({48: 0, 49: 0}).map(step => {
       const line = document.querySelector(`.sheet:not([hidden]) line[data-of='${step}']`);
       const { x, y, width, height } = line.getBoundingClientRect();
-      const down = (line.y2.baseVal.value - line.y1.baseVal.value) * (line.x2.baseVal.value - line.x1.baseVal.value) > 0;
+      const [x1, y1, x2, y2] = ['x1', 'y1', 'x2', 'y2'].map(name => line[name].baseVal.value);
+      const down = (y2 - y1) * (x2 - x1) > 0;
       return [x + width / 8, y + (down ? height / 8 : height * 7 / 8)];
     })""")
     for x, y in lines:
@@ -237,23 +241,24 @@ def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):
     assert by_mouse(page, "perpendicular", ("a",), ("A", "B")) == "⊥ AB (a): right."
 
 
-# --- every kind of scene -----------------------------------------------------------------------------
+# --- every kind of scene --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_each_scene_from_its_first_step_in_any_order(opened: Opened, pages: Path, name: str):
     """All that the record holds, in an order of chance that it allows, draws all that there is."""
     page = begun(opened, pages, name, 1)
-    record, chance = page.evaluate(RECORD), random.Random(name)
-    moves, done = record["moves"], set[str]()
+    sheets = screen_sheets(SCENES[name](), "en")
+    turn, chance = your_turn(sheets, telling(sheets)), random.Random(name)
+    moves, done = turn.moves, set[int]()
     picked = page.locator("#inputs select")
     while len(done) < len(moves):
-        ready = [s for s in moves if s not in done and {*map(str, moves[s]["needs"])} <= done]
+        ready = [step for step in moves if step not in done and done.issuperset(moves[step].needs)]
         step = chance.choice(ready)
         for which in (0, 1):
-            take(page, moves[step]["action"])
-            for place, key in enumerate(moves[step]["inputs"]):
-                picked.nth(place).select_option(value=record["picks"][key].get("by", key))
+            take(page, moves[step].action)
+            for place, key in enumerate(moves[step].inputs):
+                picked.nth(place).select_option(value=turn.picks[key].by or key)
             page.locator("#turn-draw").click()
             if page.locator("#which").is_visible():
                 page.locator("#which button").nth(which).click()

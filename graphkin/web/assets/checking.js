@@ -73,8 +73,7 @@ function leads_to(curve, plane, open) {
 /** A line that no sentence tells of, but that leads to a point: it is kept, and can be picked. */
 function keep_own(action, given, value, plane, step) {
   const key = `own${++turn.own}`, names = given.map(one => picks[one].name);
-  const sign = { perpendicular: "⊥ ", parallel: "∥ " }[action] ?? "";
-  const name = action === "join" ? names.join("") : `${sign}${names[1]} (${names[0]})`;
+  const name = named_from(action, names, turning.words);
   picks[key] = { kind: shape_of(action) === "circle" ? "circle" : "locus", name, plane, needs: [], value, sheet: here() };
   turn.fresh = [];
   forget_inputs();

@@ -1,7 +1,36 @@
 // What the actions of the palette give: complex numbers as [x, y], lines as [point, way], circles as { c, r }.
 
+/** What an action gives is called by the names of what it is drawn from; nothing where it has one of its own. */
+function named_from(action, names, words) {
+  if (action === "compass") return words.arc.replace("{p}", names[0]).replace("{bar}", names[1]);
+  if (action === "join") return names.join("");
+  if (action === "transfer") return names[0];
+  return `${{ perpendicular: "⊥", parallel: "∥" }[action]} ${names[1]} (${names[0]})`;
+}
+
+/** A record with what follows in it: a move's own pick, bars and vectors by their ends, names and needs by inputs. */
+function followed({ moves, picks, words }) {
+  const of_ends = key => {
+    const pick = picks[key];
+    const ends = ["bar", "arrow"].includes(pick.kind) ? pick.on.map(end => picks[end]) : [];
+    if (pick.kind === "bar") Object.assign(pick, { name: ends.map(({ name }) => name).join(""), plane: 0 });
+    if (ends.length) pick.needs = [...new Set(ends.flatMap(({ needs }) => needs))];
+  };
+  for (const [step, move] of Object.entries(moves)) { // in the order of the program
+    for (const key of move.inputs) of_ends(key);
+    const names = move.inputs.map(key => picks[key].name);
+    move.name ??= named_from(move.action, names, words);
+    if (move.action === "lay_off") move.about ??= names[1];
+    move.needs ??= [...new Set(move.inputs.flatMap(key => picks[key].needs))];
+    if (picks[step]) Object.assign(picks[step], { name: move.name, plane: move.plane, needs: [Number(step)] });
+  }
+  for (const key of Object.keys(picks)) of_ends(key);
+}
+
 /** The actions of a construction by its record; `all_done` tells whether some moves are made. */
-function palette_of({ moves, picks, places, shares, seconds }, all_done) {
+function palette_of(record, all_done) {
+  followed(record);
+  const { moves, picks, places, shares, seconds } = record;
   const SAME = 1e-7; // parts of a drawing within which two values are one
   const LINES = ["perpendicular", "parallel", "join"], ALONE = 3; // planes: mechanism, velocities, accelerations, and numbers
   const steps = Object.keys(moves).map(Number);

@@ -131,8 +131,8 @@ function take_at(event) {
     if (slot === undefined || turn.inputs.includes(key) && turn.action !== "similar") continue;
     const drawn = shown_at(key);
     if (!drawn || drawn.side !== side) continue;
-    const far = far_from([x, y], drawn), bias = drawn.at && drawn.r === undefined ? 0.5 : 1; // points before lines
-    if (far < near && (!best || far * bias < best.far)) best = { key, slot, far: far * bias };
+    const far = far_from([x, y], drawn), ahead = drawn.at && drawn.r === undefined ? 0.6 * near : 0; // points before lines
+    if (far < near && (!best || far - ahead < best.far)) best = { key, slot, far: far - ahead };
   }
   if (!best) return;
   turn.inputs[best.slot] = best.key;

@@ -4,6 +4,7 @@ const NEAR = { mouse: 14, touch: 26 }; // dots about a point that is meant
 const ORDER = Object.keys(moves).map(Number).sort((a, b) => moves[a].at - moves[b].at || a - b);
 
 const { plus, minus, scaled, dot, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
+for (const move of Object.values(moves)) move.sheet = data.bounds.findIndex(([, end]) => move.at <= end);
 const CHOICE = ["cut", "lay_off"]; // where the reader says which of two is meant
 
 let turn = null; // the turn: what is done, how, and what is picked
