@@ -186,13 +186,26 @@ def test_a_hint_lights_where_a_step_starts(opened: Opened, pages: Path):
     assert said(page) == "Perpendicular: a, AB"
     assert page.locator(".sheet:not([hidden]) .halo .new").count() == 2
     by_lists(page, "perpendicular", "a", "AB")
+    assert page.locator(".sheet:not([hidden]) line.open").count() == 1
     page.locator("#draw-it").click()
-    assert page.locator(".sheet:not([hidden]) line[data-of='49']").first.is_visible()
+    assert page.locator(".sheet:not([hidden]) line.open").count() == 2
     page.locator("#turn-score").click()
     assert page.locator("#score li").all_inner_texts() == [
         "⊥ AB (a): with a hint",
         "⊥ O2B (o): drawn by the page",
     ]
+
+
+def test_a_line_does_not_show_where_the_point_on_it_lies(opened: Opened, pages: Path):
+    """It is drawn through the whole field until the point is found, then as far as on paper."""
+    page = begun(opened, pages, "pump", 6)
+    ends = page.locator(".sheet:not([hidden]) line[data-of='48']").first
+    by_lists(page, "perpendicular", "a", "AB")
+    assert not ends.is_visible()
+    by_lists(page, "perpendicular", "o", "O2B")
+    by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)")
+    assert ends.is_visible()
+    assert page.locator(".sheet:not([hidden]) line.open").count() == 0
 
 
 def test_keys_alone_draw(opened: Opened, pages: Path):

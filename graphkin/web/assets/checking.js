@@ -27,7 +27,7 @@ function settle_which(which) {
 }
 
 /** Whether the keys are at the lists: they are to stay there. */
-const keys_within = () => byId("turn-form").contains(document.activeElement) || byId("which").contains(document.activeElement);
+const keys_within = () => byId("turn-form").contains(document.activeElement);
 
 /** The move that gives one of some values, those that are still to be made before others. */
 function giving(action, given, found, plane, among) {

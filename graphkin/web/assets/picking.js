@@ -33,7 +33,7 @@ function show_inputs() {
     list.append(...options);
     list.value = turn.inputs[i] ?? "";
     list.dataset.slot = i;
-    list.addEventListener("change", () => { turn.inputs[i] = list.value; turn.asked = null; light_up(); show_ready(); });
+    list.addEventListener("change", () => { turn.inputs[i] = list.value; turn.asked = null; byId("which").hidden = true; light_up(); show_ready(); });
     label.append(words[i] ?? "", list);
     return label;
   }));
@@ -42,7 +42,7 @@ function show_inputs() {
 }
 
 function show_ready() {
-  byId("turn-draw").hidden = !turn.action;
+  byId("turn-draw").hidden = !turn.action || Boolean(turn.asked);
   byId("turn-draw").disabled = !is_complete();
 }
 
@@ -91,7 +91,7 @@ function circle_of(step) {
 /** As far as a line is drawn, or through the whole field where nothing else shows it. */
 function stretch(side, key, at, unit) {
   const sheet = sheets[here()], svg = sheet.fields[side].svg;
-  const mark = (sheet.of.get(key) ?? []).find(one => one.tagName === "line" && svg.contains(one));
+  const mark = !turn.open.has(Number(key)) && (sheet.of.get(key) ?? []).find(one => one.tagName === "line" && svg.contains(one));
   if (mark) {
     const [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(name => Number(mark.getAttribute(name)));
     return { from: [x1, y1], to: [x2, y2] };
@@ -148,6 +148,7 @@ function light_up() {
     halo.replaceChildren();
     front.replaceChildren();
   }
+  for (const step of turn.open) whole_line(String(step), turn.fresh.includes(step) ? "open fresh" : "open");
   for (const key of Object.keys(picks).filter(one => one.startsWith("own") && is_there(one))) put_in("front", shown_at(key), "own");
   for (const [key, look] of lit) put_in("halo", shown_at(key), look);
   byId("which").replaceChildren();
@@ -165,6 +166,18 @@ function light_up() {
     button.addEventListener("click", () => settle_which(i));
     byId("which").append(button);
   });
+}
+
+/** A line or arc from which a point is still to be found: all of it, for its drawn part would show where. */
+function whole_line(key, look) {
+  const drawn = shown_at(key);
+  put_in("front", drawn, look);
+  if (!drawn?.from) return;
+  const { svg } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
+  const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
+  const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
+  const text = plain_words(moves[key].name).replace(/ \([^()]*\)$/, "");
+  put_in("front", { side: drawn.side, at: plus(plus(start, scaled(unit, 22 * sense)), [1.5, -1]), text }, "open");
 }
 
 /** Draw a stroke in a group of a field. */

@@ -35,7 +35,7 @@ function begin_turn() {
   pause();
   if (motion && moved()) drive(motion.start);
   const from = state.step;
-  turn = { done: new Set(ORDER.filter(step => moves[step].at < from)), from, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], sheet: null };
+  turn = { done: new Set(ORDER.filter(step => moves[step].at < from)), from, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
   page.classList.add("turning");
   byId("turn-panel").hidden = false;
   byId("score").hidden = true;
@@ -70,6 +70,7 @@ function show_turn() {
   state.step = Math.max(first, state.step);
   sheets.forEach(({ element }, i) => { element.hidden = i !== sheet; });
   const open = Math.min(...[...rest].map(step => moves[step].at), Infinity);
+  turn.open = new Set([...rest].flatMap(step => moves[step].needs).filter(step => turn.done.has(step) && ["line", "circle"].includes(shape_of(moves[step].action))));
   for (const mark of sheets[sheet].marks) {
     mark.classList.toggle("later", !is_seen(mark, open));
     mark.classList.toggle("now", turn.fresh.includes(Number(mark.dataset.of)));
@@ -89,7 +90,7 @@ function show_turn() {
 function is_seen(mark, open) {
   const step = mark.dataset.of, at = Number(mark.dataset.at);
   if (!at) return true;
-  if (moves[step]) return turn.done.has(Number(step));
+  if (moves[step]) return turn.done.has(Number(step)) && !turn.open.has(Number(step)); // whole, as light_up draws it
   const needs = turning.along[step];
   return needs?.length ? all_done(needs) : at < open && at <= state.step || at < turn.from;
 }
