@@ -115,6 +115,9 @@ def grade(
     earlier values, and against slips known by name. Writes marks.csv, a feedback page for each
     student, a report on the class, and fills in gradebooks.
 
+    Score sheets that students save from "your turn" on their pages (ID-turn.json, in the same
+    folder as their answers) are listed in turns.csv, earn nothing, and prove nothing.
+
     Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
     another's get no mark until you decide: mark again with --force and --release ID. The report
     keeps whom you released, for every later marking, until --hold ID.
@@ -135,6 +138,7 @@ def grade(
     from graphkin.classroom.grading.class_marking import graded_class
     from graphkin.classroom.grading.class_report import result_lines
     from graphkin.classroom.grading.releases import releases
+    from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.text import words as words_in
     from graphkin.writers.files import write_all
 
@@ -151,10 +155,12 @@ def grade(
     free = releases(out, tuple(ids), released, held)
     codes = {code: who for who, code in ids.items()}
     given = read_answers(answers, opened.book.form, ids, codes)
+    turns = read_turns(answers, ids)
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
+    files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
     books = filled_books(gradebooks, column, found, spoken)
     written = write_all(out, {**files, **books}, force)
@@ -162,6 +168,8 @@ def grade(
         say(line)
     if free.ids and opened.book.lab.rubric.hold:
         say(spoken("class.released", who=", ".join(free.ids)))
+    if turns:
+        say(spoken("class.turns", count=len(turns), file=TURNS))
     changes(files, spoken)
     notes(opened, given, spoken)
     say("")

@@ -28,7 +28,7 @@ from graphkin.web.reasons import NO_STEP
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import STEP_PAGE, together
 from graphkin.web.slider import slider
-from graphkin.web.your_turn import palette, your_turn
+from graphkin.web.your_turn import NOBODY, TurnOwner, palette, your_turn
 from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
@@ -74,8 +74,15 @@ def all_kept() -> Iterator[None]:
 
 
 @all_kept()
-def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "colour") -> str:
+def step_page(
+    mechanism: Mechanism,
+    language: str | None = None,
+    ink: Ink = "colour",
+    owner: TurnOwner = NOBODY,
+) -> str:
     """The page of a scene that draws itself; ``language`` is the scene's own if None.
+
+    ``owner`` is whose the score sheet is that a turn on it ends with.
 
     Raises WitnessError when the independent route disagrees, PageError where a drawing does not
     fit.
@@ -107,7 +114,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
         stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
         moves=moves,
         palette=palette(turn, sheets[0].drawing.words),
-        turning=data_block("turning", turn_record(sheets, told, turn)),
+        turning=data_block("turning", turn_record(sheets, turn, owner)),
         run=data_block("run", record(sheets, told)),
     )
     scripts = [together(STEP_PAGE)]

@@ -164,6 +164,16 @@ class YourTurn(Struct, frozen=True):
     alike: bool
 
 
+class TurnOwner(Struct, frozen=True):
+    """Whose a turn is: the ``stem`` of the names of saved files; in a class the id and the opaque
+    code of the variant, by which a saved score sheet is sealed.
+    """
+
+    stem: str = "graphkin"
+    id: str = ""
+    code: str = ""
+
+
 class MoveFinder:
     """Finds the moves of the recorded program of some sheets, in its order."""
 
@@ -468,7 +478,7 @@ class MoveFinder:
         elif not name:
             letters = self.picks[ends[0]].name + self.picks[ends[1]].name
             name = vector_of(self.drawing(tip), tail, tip, letters)
-        key, plane = ">".join(ends), self.steps[tip].plane
+        key, plane = f"{ends[0]}>{ends[1]}", self.steps[tip].plane
         on = int(ends[0]), int(ends[1])
         pick = Pick("arrow", name, plane, self.needs(on), None, on)
         self.picks.setdefault(key, pick)
@@ -654,7 +664,12 @@ def palette(turn: YourTurn, words: Words) -> list[tuple[str, list[str]]]:
     ]
 
 
-def record(sheets: Sequence[ScreenSheet], told: PageProtocol, turn: YourTurn) -> dict[str, object]:
+NOBODY = TurnOwner()
+
+
+def record(
+    sheets: Sequence[ScreenSheet], turn: YourTurn, owner: TurnOwner = NOBODY
+) -> dict[str, object]:
     """What the script of a student's turn has to know."""
     words = sheets[0].drawing.words
     used = [action for action, _ in palette(turn, words)]
@@ -669,6 +684,7 @@ def record(sheets: Sequence[ScreenSheet], told: PageProtocol, turn: YourTurn) ->
             [PLANES.index(turn.planes[step]), turn.values[step], needs]
             for step, needs in turn.shares.items()
         ],
+        "owner": [owner.stem, owner.id, owner.code],
         "seconds": seconds(sheets, turn),
         "fields": [
             [plane_of(sheet), *map(frame, (sheet.layout.mechanism, sheet.layout.plan))]

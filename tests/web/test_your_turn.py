@@ -96,8 +96,8 @@ def test_every_step_of_a_plan_is_a_move(name):
 @pytest.mark.parametrize("name", ALL)
 def test_the_page_computes_what_the_trace_holds(page, name):
     """One result of each move's action is the value of its step."""
-    sheets, told, turn = turn_of(name)
-    found = page.evaluate(RESULTS, [part("palette.js"), record(sheets, told, turn)])
+    sheets, _, turn = turn_of(name)
+    found = page.evaluate(RESULTS, [part("palette.js"), record(sheets, turn)])
     assert turn.moves
     for step in turn.moves:
         near = [apart(value, turn.values[step]) for value in found[str(step)]]

@@ -38,7 +38,7 @@ function begin_turn() {
   turn = { done: new Set(ORDER.filter(step => moves[step].at < from)), from, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
   page.classList.add("turning");
   byId("turn-panel").hidden = false;
-  byId("score").hidden = true;
+  byId("score").hidden = byId("turn-save").hidden = true;
   byId("score").replaceChildren();
   turn.near = follow.getAttribute("aria-pressed") === "true";
   if (turn.near) follow.click(); // all that may yet be drawn is to be in sight

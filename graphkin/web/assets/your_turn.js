@@ -12,8 +12,28 @@ function show_score() {
     list.append(item);
   }
   byId("score").replaceChildren(line, list);
-  byId("score").hidden = false;
+  byId("score").hidden = byId("turn-save").hidden = false;
   if (!moves_left().length) tell_turn(worded("complete"));
+}
+
+/** Save it as a file, sealed by the code of the variant where there is one: that tells changes, and proves nothing. */
+async function save_score() {
+  const [stem, id, code] = turning.owner;
+  const steps = turn.log.map(({ step, how, wrong }) => [plain_words(moves[step].name), how, wrong]);
+  const told = { graphkin_turn: 1, id, from: turn.from, steps, left: moves_left().length };
+  const seal = code ? await seal_of(`${code}\n${JSON.stringify([id, told.from, steps, told.left])}`) : "";
+  const link = document.createElement("a"), file = `${stem}-turn.json`;
+  link.href = URL.createObjectURL(new Blob([JSON.stringify({ ...told, seal })], { type: "application/json" }));
+  link.download = file;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  byId("turn-say").textContent = worded("saved", { file });
+}
+
+/** The SHA-256 of a text in hexadecimal digits; nothing in a browser that makes none here. */
+async function seal_of(text) {
+  const bytes = await crypto.subtle?.digest("SHA-256", new TextEncoder().encode(text));
+  return bytes ? [...new Uint8Array(bytes)].map(byte => byte.toString(16).padStart(2, "0")).join("") : "";
 }
 
 /** What happens on the drawing and on the keys is the turn's own while it lasts. */
@@ -36,6 +56,7 @@ if (byId("turn")) {
   byId("turn").addEventListener("click", begin_turn);
   byId("turn-end").addEventListener("click", end_turn);
   byId("turn-score").addEventListener("click", show_score);
+  byId("turn-save").addEventListener("click", save_score);
   byId("hint").addEventListener("click", give_hint);
   byId("draw-it").addEventListener("click", draw_it);
   byId("turn-sheet").addEventListener("click", () => {
