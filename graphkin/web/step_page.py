@@ -23,12 +23,13 @@ from graphkin.web import facts
 from graphkin.web.field_pictures import BAR, bar_rules, field_picture, ink_sheet
 from graphkin.web.legend import meanings
 from graphkin.web.offline_page import data_block, offline_page, part
+from graphkin.web.palette_moves import your_turn
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
 from graphkin.web.reasons import NO_STEP
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import STEP_PAGE, together
 from graphkin.web.slider import slider
-from graphkin.web.your_turn import NOBODY, TurnOwner, palette, your_turn
+from graphkin.web.your_turn import NOBODY, TurnOwner, palette
 from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number

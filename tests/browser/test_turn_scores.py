@@ -78,7 +78,13 @@ def test_a_saved_score_sheet_is_listed_beside_answers(
     said, (row,) = graded(run, folder, answers, tmp_path / "report")
     assert "prove nothing" in said
     told = {name: row[name] for name in ("id", "from_step", "steps", "alone", "drawn_by_page")}
-    assert told == {"id": "0042", "from_step": "6", "steps": "2", "alone": "1", "drawn_by_page": "1"}
+    assert told == {
+        "id": "0042",
+        "from_step": "6",
+        "steps": "2",
+        "alone": "1",
+        "drawn_by_page": "1",
+    }
     assert (row["wrong"], row["seal"]) == ("1", "right")
 
     found = json.loads(path.read_text(encoding="utf-8"))

@@ -13,9 +13,10 @@ from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
 from graphkin.web.offline_page import part
+from graphkin.web.palette_moves import PALETTE, MoveFinder, YourTurn, your_turn
 from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from graphkin.web.your_turn import PALETTE, MoveFinder, YourTurn, palette, record, your_turn
+from graphkin.web.your_turn import palette, record
 from tests.browser.opening import chromium  # noqa: F401
 from tests.chosen import SCENES
 from tests.documents.sheet_tools import mechanism_named

@@ -92,10 +92,11 @@ function palette_of(record, all_done) {
     return other === null ? null : minus(value_of(point), value_of(other));
   }
 
-  /** The normal component of a point at the end of a bar, from its velocity about the other end. */
+  /** The normal component of a point at the end of a bar, from its velocity about the other end, square to the bar. */
   function normal(point, bar, velocity) {
-    const reach = arm(point, bar);
-    return reach ? [scaled(reach, -dot(value_of(velocity), value_of(velocity)) / dot(reach, reach))] : [];
+    const reach = arm(point, bar), speed = value_of(velocity);
+    if (!reach || Math.abs(dot(reach, speed)) > SAME * long(reach) * long(speed)) return [];
+    return [scaled(reach, -dot(speed, speed) / dot(reach, reach))];
   }
 
   /** What each action gives, of which all but one may be meant. */
