@@ -61,8 +61,8 @@ from graphkin.web.screen_sheets import ScreenSheet
 CURVE = ("locus", "guide", "circle")
 FOUND = ("image", "centre")
 PALETTE: Mapping[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
-    "perpendicular": (("through", ("point", "image")), ("to", ("bar", "arrow"))),
-    "parallel": (("through", ("image",)), ("to", ("guide", "bar"))),
+    "perpendicular": (("through", ("point", "image")), ("square", ("bar", "arrow"))),
+    "parallel": (("through", ("image",)), ("along", ("guide", "bar"))),
     "cut": (("line", CURVE), ("and", CURVE)),
     "lay_off": (("from", ("image",)), ("vector", ("vector",))),
     "compass": (("about", ("point",)), ("opening", ("length",))),
