@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -16,8 +16,29 @@ from graphkin.writers.html_markup import marked_up
 
 NAMED_BY_INPUTS = ("perpendicular", "parallel", "compass", "join", "transfer")
 """Actions whose results are called by what they are drawn from."""
-SAID = "turn.say."
-"""Where the sentences begin that the script says."""
+SAID = (
+    "turn.say.saved",
+    "turn.say.arc",
+    "turn.say.begin",
+    "turn.say.choose",
+    "turn.say.count",
+    "turn.say.which",
+    "turn.say.right",
+    "turn.say.already",
+    "turn.say.own",
+    "turn.say.nowhere",
+    "turn.say.other_cut",
+    "turn.say.other_lay_off",
+    "turn.say.hint",
+    "turn.say.helped",
+    "turn.say.complete",
+    "turn.say.score",
+    "turn.say.alone",
+    "turn.say.with_hint",
+    "turn.say.with_help",
+    "turn.say.wrong",
+)
+"""The sentences that the script says, whatever the palette holds."""
 
 
 class TurnOwner(Struct, frozen=True):
@@ -51,7 +72,6 @@ def record(
     """What the script of a student's turn has to know."""
     words = sheets[0].drawing.words
     used = [action for action, _ in palette(turn, words)]
-    said = [key for key in words.sentences if key.startswith(SAID)]
     return {
         "palette": {action: [kinds for _, kinds in PALETTE[action]] for action in used},
         "moves": {move.step: written_move(turn, move) for move in turn.moves.values()},
@@ -69,17 +89,20 @@ def record(
             for sheet in sheets
         ],
         "words": {
-            key.removeprefix(SAID): words.sentences[key]
-            for key in said
-            if speaks_of(key.removeprefix(SAID)) in ("", "triangle", *used)
+            key.rpartition(".")[2]: words.sentences[key]
+            for key in (*SAID, *(key for action in used for key in reasons(action, words)))
         },
     }
 
 
-def speaks_of(key: str) -> str:
-    """The action of whose inputs a sentence tells; nothing for other sentences."""
-    action, _, place = key.rpartition("_")
-    return action if place.isdigit() else ""
+def reasons(action: str, words: Words) -> Iterator[str]:
+    """The sentences that tell why an input of an action is wrong; inputs that are alike have one.
+
+    Klein's construction finds what the right triangle does, from the same.
+    """
+    own = "triangle" if action == "klein" else action
+    keys = (f"turn.say.{own}_{place}" for place in range(len(PALETTE[action])))
+    yield from (key for key in keys if words.has(key))
 
 
 def seconds(sheets: Sequence[ScreenSheet], turn: YourTurn) -> float:
