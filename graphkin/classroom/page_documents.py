@@ -8,6 +8,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.text.errors import Problem, SceneError
 from graphkin.web.step_page import Form, step_page, task_page
+from graphkin.web.your_turn import TurnOwner
 
 
 def hand_out_page(
@@ -32,7 +33,7 @@ def hand_out_page(
             )
         )
     if view != "task":
-        return step_page(mechanism, language, ink)
+        return step_page(mechanism, language, ink, TurnOwner(stem))
     return task_page(mechanism, language, ink, answer_form(mechanism, name, stem, language))
 
 

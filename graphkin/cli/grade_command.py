@@ -139,6 +139,9 @@ def grade(
     mark stays; "?" keeps a student's request that is not decided. Mark again with --force, and
     feedback, report and gradebook follow.
 
+    Score sheets that students save from "your turn" on their pages (ID-turn.json, in the same
+    folder as their answers) are listed in turns.csv, earn nothing, and prove nothing.
+
     Where lab.toml says hold = true in [marking], students whose answers fit another's data or are
     another's get no mark until you decide: a row of theirs in decisions.csv, or mark again with
     --force and --release ID. The report keeps whom you released, for every later marking, until
@@ -168,6 +171,7 @@ def grade(
         settled,
     )
     from graphkin.classroom.grading.releases import releases
+    from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.text import words as words_in
     from graphkin.writers.files import write_all
 
@@ -188,6 +192,7 @@ def grade(
         said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
         raise click.UsageError(said, context)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
+    turns = read_turns(answers, ids)
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
@@ -195,6 +200,7 @@ def grade(
     files = all_files(opened, found, given, words, kinds, out) | free.files()
     if not (out / DECISIONS).exists():
         files[DECISIONS] = EMPTY
+    files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
     full = scale_of(scale, context)
     books = filled_books(gradebooks, column, found, spoken, full, opened.signs, match or "")
@@ -203,6 +209,8 @@ def grade(
         say(line)
     if free.ids and opened.book.lab.rubric.hold:
         say(spoken("class.released", who=", ".join(free.ids)))
+    if turns:
+        say(spoken("class.turns", count=len(turns), file=TURNS))
     changes(files, spoken)
     notes(opened, given, spoken)
     say("")

@@ -21,6 +21,11 @@ STEP_PAGE = (
     "room.js",
     "address.js",
     "playing.js",
+    "palette.js",
+    "turn_state.js",
+    "picking.js",
+    "checking.js",
+    "your_turn.js",
     "keys.js",
 )
 """The script of a step page: at once, a file uses only what stands before it."""

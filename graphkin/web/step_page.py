@@ -23,11 +23,14 @@ from graphkin.web import facts
 from graphkin.web.field_pictures import BAR, bar_rules, field_picture, ink_sheet
 from graphkin.web.legend import meanings
 from graphkin.web.offline_page import data_block, offline_page, part
+from graphkin.web.palette_moves import your_turn
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
 from graphkin.web.reasons import NO_STEP
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import STEP_PAGE, together
 from graphkin.web.slider import slider
+from graphkin.web.your_turn import NOBODY, TurnOwner, palette
+from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
 from graphkin.writers.templates import filled
@@ -72,8 +75,15 @@ def all_kept() -> Iterator[None]:
 
 
 @all_kept()
-def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "colour") -> str:
+def step_page(
+    mechanism: Mechanism,
+    language: str | None = None,
+    ink: Ink = "colour",
+    owner: TurnOwner = NOBODY,
+) -> str:
     """The page of a scene that draws itself; ``language`` is the scene's own if None.
+
+    ``owner`` is whose the score sheet is that a turn on it ends with.
 
     Raises WitnessError when the independent route disagrees, PageError where a drawing does not
     fit.
@@ -82,6 +92,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     sheets = screen_sheets(mechanism, language)
     told = telling(sheets)
     moves = slider(mechanism, sheets)
+    turn = your_turn(sheets, told)
     drawing = sheets[0].drawing
     given_data = data(drawing)
     body = filled(
@@ -103,12 +114,14 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
         steps=len(told.said),
         stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
         moves=moves,
+        palette=palette(turn, sheets[0].drawing.words),
+        turning=data_block("turning", turn_record(sheets, turn, owner)),
         run=data_block("run", record(sheets, told)),
     )
     scripts = [together(STEP_PAGE)]
     if moves.source:
         scripts.insert(0, moves.source)
-    return written(sheets, body, ink, [part("steps.css")], scripts)
+    return written(sheets, body, ink, [part("steps.css"), part("your_turn.css")], scripts)
 
 
 def task_page(

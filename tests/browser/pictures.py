@@ -25,16 +25,35 @@ def draw(folder: Path) -> None:
     with sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
         draw_page(browser.new_page(viewport=SIZE), folder / "pump-n7-page.png")
+        draw_turn(browser.new_page(viewport=SIZE), folder / "pump-n7-your-turn.png")
         draw_studio(browser.new_page(viewport=SIZE), folder / "studio.png")
         browser.close()
 
 
-def draw_page(page: Any, path: Path) -> None:
-    """The page of student 7's pump in English, at the step that finds a centre."""
+def pump_page() -> str:
+    """The address of the page of student 7's pump in English."""
     file = Path(tempfile.mkdtemp()) / "pump.html"
     text = hand_out_page(load("pump", n=7), "pump", "pump-n7", "key", "en", "colour")
     file.write_text(text, encoding="utf-8")
-    page.goto(f"{file.as_uri()}#step=9")
+    return file.as_uri()
+
+
+def draw_page(page: Any, path: Path) -> None:
+    """The page at the step that finds a centre."""
+    page.goto(f"{pump_page()}#step=9")
+    page.wait_for_timeout(500)
+    page.screenshot(path=path)
+
+
+def draw_turn(page: Any, path: Path) -> None:
+    """A student's turn at the image of C: one line is right, the next is not."""
+    page.goto(f"{pump_page()}#step=7")
+    page.locator("#turn").click()
+    for point, bar in (("a", "AC"), ("b", "CD")):
+        page.locator("[data-action=perpendicular]").click()
+        for place, name in enumerate((point, bar)):
+            page.locator("#inputs select").nth(place).select_option(label=name)
+        page.locator("#turn-draw").click()
     page.wait_for_timeout(500)
     page.screenshot(path=path)
 

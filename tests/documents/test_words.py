@@ -22,6 +22,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import PageError
+from graphkin.web.palette_moves import PALETTE
+from graphkin.web.your_turn import reasons
 from tests.chosen import CHOSEN, SCENES
 from tests.documents.centre_scenes import ASKING
 from tests.documents.sheet_tools import (
@@ -122,6 +124,13 @@ def literals() -> set[str]:
     return found
 
 
+def palette_keys() -> set[str]:
+    """The keys of the actions of the palette, of what they start from, and of what is wrong."""
+    slots = {f"turn.slot.{name}" for own in PALETTE.values() for name, _ in own}
+    actions = {f"turn.action.{action}" for action in PALETTE}
+    return slots | actions | {key for each in PALETTE for key in reasons(each, words("en"))}
+
+
 def spoken_keys() -> set[str]:
     """Every string that stands in the code of the pages as the key of words(...)."""
     found = set()
@@ -181,7 +190,7 @@ def test_every_sentence_is_used():
     every += [rare(name) for name in RARE]
     for mechanism in every:
         every_page(mechanism, spoken)
-    unused = words("en").sentences.keys() - USED - literals() - {*SLIPS.values()}
+    unused = words("en").sentences.keys() - USED - literals() - {*SLIPS.values()} - palette_keys()
     assert not unused, " ".join(sorted(unused))
 
 

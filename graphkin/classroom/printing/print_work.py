@@ -126,10 +126,13 @@ class Sheets:
         """The page for a browser: the task with the form to be filled in, or the key by steps."""
         from graphkin.classroom import form_page
         from graphkin.web.step_page import Form, step_page, task_page
+        from graphkin.web.your_turn import TurnOwner
 
         variant, lab, language = self.variant, self.lab, self.words.language
         if view != "task":
-            return step_page(self.mechanism, language, ink)
+            return step_page(
+                self.mechanism, language, ink, TurnOwner(stem, variant.id, variant.code)
+            )
         name = ", ".join(part for part in (variant.name, variant.group) if part)
         whose = form_page.Identity(stem, f"{lab.name} {variant.code}", variant.id, name)
         fields, points = self.asked()

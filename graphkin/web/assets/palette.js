@@ -1,0 +1,172 @@
+// What the actions of the palette give: complex numbers as [x, y], lines as [point, way], circles as { c, r }.
+
+/** What an action gives is called by the names of what it is drawn from; nothing where it has one of its own. */
+function named_from(action, names, words) {
+  if (action === "compass") return words.arc.replace("{p}", names[0]).replace("{bar}", names[1]);
+  if (action === "join") return names.join("");
+  if (action === "transfer") return names[0];
+  return `${{ perpendicular: "⊥", parallel: "∥" }[action]} ${names[1]} (${names[0]})`;
+}
+
+/** A record with what follows in it: a move's own pick, bars and vectors by their ends, names and needs by inputs. */
+function followed({ moves, picks, words }) {
+  const of_ends = key => {
+    const pick = picks[key];
+    const ends = ["bar", "arrow"].includes(pick.kind) ? pick.on.map(end => picks[end]) : [];
+    if (pick.kind === "bar") Object.assign(pick, { name: ends.map(({ name }) => name).join(""), plane: 0 });
+    if (ends.length) pick.needs = [...new Set(ends.flatMap(({ needs }) => needs))];
+  };
+  for (const [step, move] of Object.entries(moves)) { // in the order of the program
+    for (const key of move.inputs) of_ends(key);
+    const names = move.inputs.map(key => picks[key].name);
+    move.name ??= named_from(move.action, names, words);
+    if (move.action === "lay_off") move.about ??= names[1];
+    move.needs ??= [...new Set(move.inputs.flatMap(key => picks[key].needs))];
+    if (picks[step]) Object.assign(picks[step], { name: move.name, plane: move.plane, needs: [Number(step)] });
+  }
+  for (const key of Object.keys(picks)) of_ends(key);
+}
+
+/** The actions of a construction by its record; `all_done` tells whether some moves are made. */
+function palette_of(record, all_done) {
+  followed(record);
+  const { moves, picks, places, shares, seconds } = record;
+  const SAME = 1e-7; // parts of a drawing within which two values are one
+  const LINES = ["perpendicular", "parallel", "join"], ALONE = 3; // planes: mechanism, velocities, accelerations, and numbers
+  const steps = Object.keys(moves).map(Number);
+
+  const plus = (a, b) => [a[0] + b[0], a[1] + b[1]], minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
+  const scaled = (a, k) => [a[0] * k, a[1] * k], quarter = a => [-a[1], a[0]], long = a => Math.hypot(...a);
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1], cross = (a, b) => a[0] * b[1] - a[1] * b[0];
+  const times = (a, b) => [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
+  const over = (a, b) => scaled(times(a, [b[0], -b[1]]), 1 / dot(b, b));
+
+  /** Where two lines meet, stepped off from the one whose point is nearer; none where they are parallel. */
+  function lines_meet(m, n) {
+    const gap = minus(n[0], m[0]), turn = cross(m[1], n[1]);
+    const [s, t] = [cross(gap, n[1]) / turn, cross(gap, m[1]) / turn];
+    const found = Math.abs(s) * long(m[1]) < Math.abs(t) * long(n[1]) ? plus(m[0], scaled(m[1], s)) : plus(n[0], scaled(n[1], t));
+    return found.every(Number.isFinite) ? [found] : [];
+  }
+
+  /** Where a line cuts a circle. */
+  function line_cuts([point, way], { c, r }) {
+    const unit = scaled(way, 1 / long(way)), gap = minus(c, point);
+    const along = dot(gap, unit), aside = cross(unit, gap), half = Math.sqrt((r - aside) * (r + aside));
+    return Number.isNaN(half) ? [] : [half, -half].map(step => plus(point, scaled(unit, along + step)));
+  }
+
+  /** Where two circles meet. */
+  function circles_meet(m, n) {
+    const gap = minus(n.c, m.c), size = long(gap), along = ((m.r - n.r) * (m.r + n.r) / size + size) / 2;
+    const half = Math.sqrt((m.r - along) * (m.r + along));
+    if (Number.isNaN(half)) return [];
+    return [half, -half].map(side => plus(m.c, times([along, side], scaled(gap, 1 / size))));
+  }
+
+  /** Where two curves cut. */
+  function cuts(m, n) {
+    if (m.r === undefined) return n.r === undefined ? lines_meet(m, n) : line_cuts(m, n);
+    return n.r === undefined ? line_cuts(n, m) : circles_meet(m, n);
+  }
+
+  /** The value of something that can be picked. */
+  function value_of(key) {
+    const pick = picks[key];
+    if (pick.value !== undefined) return pick.value;
+    if (pick.on && !moves[key]) {
+      const [p, q] = pick.on.map(value_of);
+      return minus(q, p);
+    }
+    return moves[key].value;
+  }
+
+  /** The way of a bar, a vector or a line. */
+  const way = key => picks[key].on ? value_of(key) : value_of(key)[1];
+  const places_of = key => (places[key] ?? []).map(value_of);
+
+  /** The bar as it leads from its other end to a point at one end of it. */
+  function arm(point, bar) {
+    const [p, q] = picks[bar].on;
+    const other = String(p) === point ? q : String(q) === point ? p : null;
+    return other === null ? null : minus(value_of(point), value_of(other));
+  }
+
+  /** The normal component of a point at the end of a bar, from its velocity about the other end, square to the bar. */
+  function normal(point, bar, velocity) {
+    const reach = arm(point, bar), speed = value_of(velocity);
+    if (!reach || Math.abs(dot(reach, speed)) > SAME * long(reach) * long(speed)) return [];
+    return [scaled(reach, -dot(speed, speed) / dot(reach, reach))];
+  }
+
+  /** What each action gives, of which all but one may be meant. */
+  const DRAW = {
+    perpendicular: (p, to) => [[value_of(p), quarter(way(to))]],
+    parallel: (p, to) => [[value_of(p), way(to)]],
+    cut: (m, n) => m === n ? [] : cuts(value_of(m), value_of(n)),
+    compass: (p, opening) => [{ c: value_of(p), r: value_of(opening) }],
+    mark_off: (line, length) => {
+      const [point, along] = value_of(line);
+      return [plus(point, scaled(along, value_of(length) / long(along)))];
+    },
+    lay_off: (p, vector) => [plus(value_of(p), value_of(vector)), minus(value_of(p), value_of(vector))],
+    similar: (i, j, point) => places_of(i).flatMap(p => places_of(j).filter(q => long(minus(q, p))).map(q =>
+      plus(value_of(i), times(minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p)))))),
+    coincide: (point, image) => [value_of(image)],
+    triangle: normal,
+    klein: normal,
+    coriolis: (rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))],
+    join: (p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]],
+    divide: (p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
+      .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share))),
+    pole: (bar, i, j) => [picks[bar].on, [...picks[bar].on].reverse()].map(ends => {
+      const [p, q] = ends.map(value_of), image = value_of(i);
+      return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));
+    }),
+    transfer: (arrow, point) => {
+      const shrunk = seconds ** picks[arrow].plane; // once for velocities, twice for accelerations
+      return [[value_of(point), plus(value_of(point), scaled(value_of(arrow), shrunk))]];
+    },
+  };
+  /** In which drawing the result of an action lies. */
+  function plane_of(action, inputs) {
+    if (["triangle", "klein", "coriolis"].includes(action)) return ALONE;
+    if (["transfer", "pole"].includes(action)) return 0;
+    return picks[inputs[action === "coincide" ? 1 : 0]].plane;
+  }
+
+  /** The results of an action, each also from points that are picked for others too near to them to be drawn. */
+  function results(action, inputs) {
+    const alike = inputs.map(key => [key, ...Object.keys(picks).filter(other => picks[other].by === key && all_done(picks[other].needs))]);
+    const ways = alike.reduce((found, keys) => found.flatMap(one => keys.map(key => [...one, key])), [[]]);
+    return ways.flatMap(way => DRAW[action](...way)).filter(value => flat(value).every(Number.isFinite));
+  }
+
+  const flat = value => value.r === undefined ? value.flat() : [...value.c, value.r];
+
+  /** How large each drawing is. */
+  const sizes = [0, 1, 2, 3].map(plane => Math.max(1e-12, ...steps.filter(step => moves[step].plane === plane)
+    .flatMap(step => LINES.includes(moves[step].action) ? long(moves[step].value[0]) : flat(moves[step].value).map(Math.abs))));
+
+  /** Whether two values of an action's kind are the same in a drawing. */
+  function same(action, a, b, plane) {
+    const near = SAME * sizes[plane];
+    if (LINES.includes(action)) {
+      const turned = cross(a[1], b[1]) / long(a[1]) / long(b[1]);
+      return Math.abs(turned) < SAME && on_line(b[0], a) < Math.max(near, SAME * long(a[0]), SAME * long(b[0]));
+    }
+    const own = Math.max(near, SAME * Math.max(...flat(b).map(Math.abs)));
+    return flat(a).length === flat(b).length && flat(a).every((number, i) => Math.abs(number - flat(b)[i]) < own);
+  }
+
+  /** How far a point is from a line or a circle. */
+  function on_line(point, curve) {
+    if (curve.r !== undefined) return Math.abs(long(minus(point, curve.c)) - curve.r);
+    return Math.abs(cross(minus(point, curve[0]), curve[1])) / long(curve[1]);
+  }
+
+  /** What kind of thing an action gives: a line, a circle, a vector set on the mechanism, or a point. */
+  const shape = action => LINES.includes(action) ? "line" : { compass: "circle", transfer: "vector" }[action] ?? "point";
+
+  return { plus, minus, scaled, dot, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of: shape, size_of: plane => sizes[plane], SAME };
+}

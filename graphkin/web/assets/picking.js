@@ -1,0 +1,193 @@
+// What a move starts from, picked on the drawing or in lists, and what is lit there.
+const slots = () => turn.action ? turning.palette[turn.action] : [];
+const is_complete = () => turn.action && slots().every((_, i) => turn.inputs[i]);
+const fits = (key, slot) => slots()[slot].includes(picks[key].kind) && is_there(key);
+
+function choose_action(action) {
+  turn.action = turn.action === action ? null : action;
+  turn.inputs = [];
+  turn.asked = null;
+  tell_turn(turn.action ? "" : worded("choose"));
+  show_picks();
+}
+
+function forget_inputs() {
+  turn.action = null;
+  turn.inputs = [];
+  turn.asked = null;
+}
+
+function show_picks() {
+  light_up();
+  show_inputs();
+}
+
+/** The lists of what can be picked for the action, and which of two is meant. */
+function show_inputs() {
+  for (const button of byId("palette").children) button.setAttribute("aria-pressed", button.dataset.action === turn.action);
+  const words = byId("palette").querySelector(`[data-action="${turn.action}"]`)?.dataset.slots.split("|") ?? [];
+  byId("inputs").replaceChildren(...slots().map((kinds, i) => {
+    const label = document.createElement("label"), list = document.createElement("select");
+    const keys = Object.keys(picks).filter(key => fits(key, i));
+    const options = ["", ...keys].map(key => new Option(key ? plain_words(picks[key].name) : "…", key));
+    list.append(...options);
+    list.value = turn.inputs[i] ?? "";
+    list.dataset.slot = i;
+    list.addEventListener("change", () => { turn.inputs[i] = list.value; turn.asked = null; byId("which").hidden = true; light_up(); show_ready(); });
+    label.append(words[i] ?? "", list);
+    return label;
+  }));
+  byId("which").hidden = !turn.asked;
+  show_ready();
+}
+
+function show_ready() {
+  byId("turn-draw").hidden = !turn.action || Boolean(turn.asked);
+  byId("turn-draw").disabled = !is_complete();
+}
+
+/** Markup as plain words. */
+function plain_words(markup) {
+  const words = document.createElement("span");
+  words.innerHTML = markup;
+  return words.textContent;
+}
+
+/** Where a value of a drawing lies in a sheet's field: which field, and the place in mm. */
+function placed(plane, value) {
+  const [plan, ...fields] = turning.fields[here()], side = plane === 0 ? 0 : 1;
+  if (plane !== 0 && plane !== plan) return null;
+  const [x, y, re, im, mm] = fields[side];
+  return { side, at: [x + (value[0] - re) * mm, y - (value[1] - im) * mm], mm };
+}
+
+/** What is drawn where something can be pointed at: a point, a segment, a line or a circle in a field. */
+function shown_at(key) {
+  const pick = picks[key];
+  if (pick.on?.length) {
+    const [p, q] = pick.on.map(end => picks[end] ? placed(picks[end].plane, value_of(end)) : circle_of(end));
+    return p && q && { side: p.side, from: p.at, to: q.at };
+  }
+  if (["length", "rate", "vector"].includes(pick.kind)) return null;
+  const value = value_of(key);
+  if (pick.kind === "circle") {
+    const found = placed(pick.plane, value.c);
+    return found && { side: found.side, at: found.at, r: value.r * found.mm };
+  }
+  if (pick.kind === "locus" || pick.kind === "guide") {
+    const p = placed(pick.plane, value[0]), unit = scaled(value[1], 1 / length_of(value[1]));
+    return p && { side: p.side, ...stretch(p.side, key, p.at, [unit[0], -unit[1]]) };
+  }
+  const point = placed(pick.plane, value);
+  return point && { side: point.side, at: point.at };
+}
+
+/** Where the circle of a point is drawn that is no input of its own, such as a corner of a triangle. */
+function circle_of(step) {
+  const sheet = sheets[here()], circle = pin(sheet, step);
+  return circle && { side: sheet.fields.findIndex(({ svg }) => svg.contains(circle)), at: ["cx", "cy"].map(name => Number(circle.getAttribute(name))) };
+}
+
+/** As far as a line is drawn, or through the whole field where nothing else shows it. */
+function stretch(side, key, at, unit) {
+  const sheet = sheets[here()], svg = sheet.fields[side].svg;
+  const mark = !turn.open.has(Number(key)) && (sheet.of.get(key) ?? []).find(one => one.tagName === "line" && svg.contains(one));
+  if (mark) {
+    const [x1, y1, x2, y2] = ["x1", "y1", "x2", "y2"].map(name => Number(mark.getAttribute(name)));
+    return { from: [x1, y1], to: [x2, y2] };
+  }
+  return { from: plus(at, scaled(unit, -1000)), to: plus(at, scaled(unit, 1000)) };
+}
+
+/** How far, in mm, a place of a field is from where something is drawn. */
+function far_from(place, { at, r, from, to }) {
+  if (at) return Math.abs(length_of(minus(place, at)) - (r ?? 0));
+  const along = minus(to, from), size = dot(along, along) || 1;
+  const share = Math.min(Math.max(dot(minus(place, from), along) / size, 0), 1);
+  return length_of(minus(place, plus(from, scaled(along, share))));
+}
+
+/** Take what is pointed at for the first input that is not yet there and can be such a thing. */
+function take_at(event) {
+  const sheet = sheets[here()], side = sheet.fields.findIndex(({ svg }) => svg.contains(event.target));
+  if (side < 0) return;
+  const { svg } = sheet.fields[side], matrix = svg.getScreenCTM().inverse();
+  const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
+  const near = NEAR[event.pointerType === "touch" ? "touch" : "mouse"] * matrix.a;
+  if (turn.asked) {
+    const found = turn.asked.map(value => placed(turn.asked.plane, value))
+      .findIndex(one => one && one.side === side && length_of(minus([x, y], one.at)) < 1.5 * near);
+    if (found >= 0) settle_which(found);
+    return;
+  }
+  if (!turn.action) {
+    tell_turn(worded("choose"));
+    return;
+  }
+  const open = slots().map((_, i) => i).filter(i => !turn.inputs[i]);
+  let best = null;
+  for (const key of Object.keys(picks)) {
+    const slot = open.find(i => fits(key, i));
+    if (slot === undefined || turn.inputs.includes(key) && turn.action !== "similar") continue;
+    const drawn = shown_at(key);
+    if (!drawn || drawn.side !== side) continue;
+    const far = far_from([x, y], drawn), ahead = drawn.at && drawn.r === undefined ? 0.6 * near : 0; // points before lines
+    if (far < near && (!best || far - ahead < best.far)) best = { key, slot, far: far - ahead };
+  }
+  if (!best) return;
+  turn.inputs[best.slot] = best.key;
+  show_picks();
+  if (is_complete()) draw_move();
+}
+
+/** Mark what is picked, what a hint names and of which two one is meant; draw own lines. */
+function light_up() {
+  const sheet = sheets[here()];
+  const lit = [...turn.inputs.filter(Boolean).map(key => [key, "old"]), ...(turn.hinted ? moves[turn.hinted].inputs.map(key => [picks[key].by || key, "new"]) : [])];
+  for (const { halo, front } of sheet.fields) {
+    halo.replaceChildren();
+    front.replaceChildren();
+  }
+  for (const step of turn.open) whole_line(String(step), turn.fresh.includes(step) ? "open fresh" : "open");
+  for (const key of Object.keys(picks).filter(one => one.startsWith("own") && is_there(one))) put_in("front", shown_at(key), "own");
+  for (const [key, look] of lit) put_in("halo", shown_at(key), look);
+  byId("which").replaceChildren();
+  if (!turn.asked) return;
+  turn.asked.forEach((value, i) => {
+    const found = placed(turn.asked.plane, value), button = document.createElement("button");
+    const start = found && turn.action === "lay_off" ? placed(turn.asked.plane, value_of(turn.inputs[0])) : null;
+    if (start) put_in("front", { side: found.side, from: start.at, to: found.at }, "ghost");
+    if (found) {
+      put_in("front", { side: found.side, at: found.at, ring: 2 }, "ghost");
+      put_in("front", { side: found.side, at: plus(found.at, [3, -3]), text: i + 1 }, "ghost");
+    }
+    button.type = "button";
+    button.textContent = i + 1;
+    button.addEventListener("click", () => settle_which(i));
+    byId("which").append(button);
+  });
+}
+
+/** A line or arc from which a point is still to be found: all of it, for its drawn part would show where. */
+function whole_line(key, look) {
+  const drawn = shown_at(key);
+  put_in("front", drawn, look);
+  if (!drawn?.from) return;
+  const { svg } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
+  const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
+  const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
+  const text = plain_words(moves[key].name).replace(/ \([^()]*\)$/, "");
+  put_in("front", { side: drawn.side, at: plus(plus(start, scaled(unit, 22 * sense)), [1.5, -1]), text }, "open");
+}
+
+/** Draw a stroke in a group of a field. */
+function put_in(group, drawn, look) {
+  if (!drawn) return;
+  const { side, at, r, from, to, ring, text } = drawn;
+  const mark = document.createElementNS(SVG, text ? "text" : at ? "circle" : "line");
+  const ends = text ? { x: at[0], y: at[1] } : at ? { cx: at[0], cy: at[1], r: r ?? ring ?? 2.2 } : { x1: from[0], y1: from[1], x2: to[0], y2: to[1] };
+  for (const [name, number] of Object.entries(ends)) mark.setAttribute(name, number.toFixed(2));
+  mark.setAttribute("class", look);
+  if (text) mark.textContent = text;
+  sheets[here()].fields[side][group].append(mark);
+}

@@ -1,0 +1,96 @@
+// Where a reader's turn stands: what is done, what is left, and how it is shown.
+const turning = JSON.parse(byId("turning").textContent), { moves, picks } = turning;
+const NEAR = { mouse: 14, touch: 26 }; // dots about a point that is meant
+const ORDER = Object.keys(moves).map(Number).sort((a, b) => moves[a].at - moves[b].at || a - b);
+
+const { plus, minus, scaled, dot, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
+for (const move of Object.values(moves)) move.sheet = data.bounds.findIndex(([, end]) => move.at <= end);
+const CHOICE = ["cut", "lay_off"]; // where the reader says which of two is meant
+
+let turn = null; // the turn: what is done, how, and what is picked
+const all_done = steps => steps.every(step => turn.done.has(step));
+const is_there = key => all_done(picks[key].needs) && !picks[key].by && here() === (picks[key].sheet ?? here());
+const open_goals = () => ORDER.filter(step => moves[step].goal && !turn.done.has(step));
+
+/** The moves that are still to be made: for the goals, and for whatever these need. */
+function moves_left() {
+  const found = new Set(), waiting = open_goals();
+  while (waiting.length) {
+    const step = waiting.pop();
+    if (found.has(step) || turn.done.has(step)) continue;
+    found.add(step);
+    waiting.push(...moves[step].needs);
+  }
+  return ORDER.filter(step => found.has(step));
+}
+
+const next_move = () => moves_left().find(step => all_done(moves[step].needs));
+
+/** A sentence of the page with names, which are markup, escaped where they were made. */
+const worded = (key, fields = null) => turning.words[key].replace(/\{(\w+)\}/g, (gap, name) => fields?.[name] ?? gap);
+const tell_turn = text => { byId("turn-say").innerHTML = text.replace(/^\p{Ll}/u, first => first.toUpperCase()); };
+const action_name = action => byId("palette").querySelector(`[data-action=${action}]`).textContent;
+
+function begin_turn() {
+  pause();
+  if (motion && moved()) drive(motion.start);
+  const from = state.step;
+  turn = { done: new Set(ORDER.filter(step => moves[step].at < from)), from, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
+  page.classList.add("turning");
+  byId("turn-panel").hidden = false;
+  byId("score").hidden = byId("turn-save").hidden = true;
+  byId("score").replaceChildren();
+  turn.near = follow.getAttribute("aria-pressed") === "true";
+  if (turn.near) follow.click(); // all that may yet be drawn is to be in sight
+  tell_turn(worded("begin"));
+  byId("turn-sentence").textContent = "";
+  show_turn();
+  fit();
+  byId("palette").firstElementChild.focus({ preventScroll: true });
+}
+
+function end_turn() {
+  const { from, near } = turn;
+  for (const key of Object.keys(picks)) if (key.startsWith("own")) delete picks[key];
+  turn = null;
+  page.classList.remove("turning");
+  byId("turn-panel").hidden = true;
+  if (near) follow.click();
+  show(from);
+  fit();
+  byId("turn").focus({ preventScroll: true });
+}
+
+/** Show what is done, on the sheet of the next step. */
+function show_turn() {
+  const next = next_move(), rest = new Set(moves_left());
+  const sheet = turn.sheet ?? (next === undefined ? sheets.length - 1 : moves[next].sheet);
+  const [first, end] = data.bounds[sheet];
+  state.step = next !== undefined && moves[next].sheet === sheet ? moves[next].at : end;
+  state.step = Math.max(first, state.step);
+  sheets.forEach(({ element }, i) => { element.hidden = i !== sheet; });
+  const open = Math.min(...[...rest].map(step => moves[step].at), Infinity);
+  turn.open = new Set([...rest].flatMap(step => moves[step].needs).filter(step => turn.done.has(step) && ["line", "circle"].includes(shape_of(moves[step].action))));
+  for (const mark of sheets[sheet].marks) {
+    mark.classList.toggle("later", !is_seen(mark, open));
+    mark.classList.toggle("now", turn.fresh.includes(Number(mark.dataset.of)));
+    mark.classList.remove("rest");
+  }
+  sheets[sheet].element.classList.remove("growing");
+  byId("turn-count").textContent = worded("count", { number: rest.size });
+  byId("turn-sheet").hidden = sheets.length < 2;
+  for (const name of ["hint", "draw-it"]) byId(name).disabled = next === undefined;
+  look();
+  light_up();
+  show_inputs();
+  if (next === undefined && !byId("score").childElementCount) show_score();
+}
+
+/** Whether a mark is drawn: with its step, or once nothing is left to do up to its sentence. */
+function is_seen(mark, open) {
+  const step = mark.dataset.of, at = Number(mark.dataset.at);
+  if (!at) return true;
+  if (moves[step]) return turn.done.has(Number(step)) && !turn.open.has(Number(step)); // whole, as light_up draws it
+  const needs = turning.along[step];
+  return needs?.length ? all_done(needs) : at < open && at <= state.step || at < turn.from;
+}

@@ -1,0 +1,72 @@
+// Your turn: hints, help, the score sheet, and what the keys and the drawing do meanwhile.
+/** All is drawn, or the reader has had enough: what was done alone, with a hint or not at all. */
+function show_score() {
+  const count = how => turn.log.filter(one => one.how === how).length;
+  const wrong = turn.wrong + turn.log.reduce((sum, one) => sum + one.wrong, 0);
+  const line = document.createElement("p"), list = document.createElement("ol");
+  line.innerHTML = worded("score", { all: turn.log.length, alone: count("alone"), hint: count("hint"), help: count("help"), wrong, left: moves_left().length });
+  for (const { step, how, wrong: turns } of turn.log) {
+    const item = document.createElement("li");
+    item.className = how;
+    item.innerHTML = `${moves[step].name}: ${worded(how === "alone" ? how : `with_${how}`)}${turns ? `, ${worded("wrong", { number: turns })}` : ""}`;
+    list.append(item);
+  }
+  byId("score").replaceChildren(line, list);
+  byId("score").hidden = byId("turn-save").hidden = false;
+  if (!moves_left().length) tell_turn(worded("complete"));
+}
+
+/** Save it as a file, sealed by the code of the variant where there is one: that tells changes, and proves nothing. */
+async function save_score() {
+  const [stem, id, code] = turning.owner;
+  const steps = turn.log.map(({ step, how, wrong }) => [plain_words(moves[step].name), how, wrong]);
+  const told = { graphkin_turn: 1, id, from: turn.from, steps, left: moves_left().length };
+  const seal = code ? await seal_of(`${code}\n${JSON.stringify([id, told.from, steps, told.left])}`) : "";
+  const link = document.createElement("a"), file = `${stem}-turn.json`;
+  link.href = URL.createObjectURL(new Blob([JSON.stringify({ ...told, seal })], { type: "application/json" }));
+  link.download = file;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  byId("turn-say").textContent = worded("saved", { file });
+}
+
+/** The SHA-256 of a text in hexadecimal digits; nothing in a browser that makes none here. */
+async function seal_of(text) {
+  const bytes = await crypto.subtle?.digest("SHA-256", new TextEncoder().encode(text));
+  return bytes ? [...new Uint8Array(bytes)].map(byte => byte.toString(16).padStart(2, "0")).join("") : "";
+}
+
+/** What happens on the drawing and on the keys is the turn's own while it lasts. */
+function in_turn(event) {
+  if (!turn) return;
+  const drawing = event.target.closest?.(".sheet"), typed = event.type === "keydown";
+  if (typed ? event.key === "F5" : !drawing) return;
+  if (event.type === "pointerdown" && !event.target.closest("[data-of]")) return; // the field itself may be shifted
+  event.stopPropagation();
+  if (event.type === "click") take_at(event);
+  if (typed && event.key === "Escape") {
+    forget_inputs();
+    show_picks();
+  }
+}
+
+/** Begin to listen, where there is something to draw. */
+if (byId("turn")) {
+  for (const type of ["keydown", "click", "pointerover", "pointerdown"]) document.addEventListener(type, in_turn, true);
+  byId("turn").addEventListener("click", begin_turn);
+  byId("turn-end").addEventListener("click", end_turn);
+  byId("turn-score").addEventListener("click", show_score);
+  byId("turn-save").addEventListener("click", save_score);
+  byId("hint").addEventListener("click", give_hint);
+  byId("draw-it").addEventListener("click", draw_it);
+  byId("turn-sheet").addEventListener("click", () => {
+    turn.sheet = (here() + 1) % sheets.length;
+    show_turn();
+  });
+  byId("turn-form").addEventListener("submit", event => {
+    event.preventDefault();
+    draw_move();
+  });
+  for (const button of byId("palette").children) button.addEventListener("click", () => choose_action(button.dataset.action));
+  addEventListener("hashchange", () => { if (turn) end_turn(); });
+}

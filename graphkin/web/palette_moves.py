@@ -1,0 +1,632 @@
+"""The moves of a construction: actions of a palette, each of which gives a recorded step.
+
+A move gives the value of one recorded step by an action of the palette from inputs that can be
+pointed at. Whatever else the sheets draw (arrows, contacts, what a number says) comes along as soon
+as the moves are done that it is drawn from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
+from typing import Any
+
+from msgspec import Struct
+
+from graphkin.construction.acceleration.turned_acceleration import centripetal, driven_tangential
+from graphkin.construction.asked import set_on, set_on_twice
+from graphkin.construction.centres.acceleration_poles import AccelerationPole
+from graphkin.construction.centres.centre import Centre, VelocityNormal, velocity_normal
+from graphkin.construction.centres.relative_centre import kennedy_line, kennedy_meet
+from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.naming import rate_symbol, vector_of, way_of
+from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.quantities import OMEGA
+from graphkin.construction.core.segments import letter_at
+from graphkin.construction.core.vocabulary import (
+    Action,
+    along_bar,
+    in_proportion,
+    lay_off,
+    meet,
+    similar_point,
+)
+from graphkin.construction.coriolis.coriolis import CoriolisComponent, lay_back, lay_off_turned
+from graphkin.construction.drivers.driven_slide import DrivenSlide, driven_slide
+from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
+from graphkin.construction.guides.guide_line import GuideLine, GuideThroughBlock, ShiftedGuide
+from graphkin.construction.guides.set_by_coordinate import set_at
+from graphkin.construction.higher_class.divided_point import DividedPoint, between, line_through
+from graphkin.construction.links.compass_arc import compass
+from graphkin.construction.links.driven_crank import mark_off
+from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.construction.normal_component.klein import KleinComponent
+from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.velocity.about_pivot import AboutPivot
+from graphkin.construction.velocity.along_guide import AlongGuide
+from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate
+from graphkin.construction.velocity.parallel_through import parallel_to
+from graphkin.construction.velocity.perpendicular_through import square_to
+from graphkin.construction.velocity.translated_image import alike
+from graphkin.construction.velocity.turned_velocity import turned_velocity
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.drawing.symbol_markup import TAGS, symbol
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
+from graphkin.web.protocol import PageProtocol
+from graphkin.web.screen_sheets import ScreenSheet
+
+CURVE = ("locus", "guide", "circle")
+FOUND = ("image", "centre")
+PALETTE: Mapping[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
+    "perpendicular": (("through", ("point", "image")), ("square", ("bar", "arrow"))),
+    "parallel": (("through", ("image",)), ("along", ("guide", "bar"))),
+    "cut": (("line", CURVE), ("and", CURVE)),
+    "lay_off": (("from", ("image",)), ("vector", ("vector",))),
+    "compass": (("about", ("point",)), ("opening", ("length",))),
+    "mark_off": (("on", ("guide",)), ("length", ("length",))),
+    "similar": (("image", ("image",)), ("and", ("image",)), ("point", ("point",))),
+    "coincide": (("point", ("point",)), ("image", ("image",))),
+    "triangle": (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",))),
+    "klein": (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",))),
+    "coriolis": (("rate", ("rate",)), ("velocity", ("arrow",))),
+    "join": (("point", FOUND), ("and", FOUND)),
+    "divide": (("image", ("image",)), ("and", ("image",))),
+    "pole": (("on", ("bar",)), ("image", ("image",)), ("and", ("image",))),
+    "transfer": (("vector", ("arrow",)), ("at", ("point",))),
+}
+"""The actions of the palette, each with what it is drawn from: the word for it, and its kinds."""
+
+PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
+"""The drawings by the numbers under which the page knows them."""
+LAID_OFF: tuple[Action, ...] = (
+    lay_off,
+    lay_off_turned,
+    lay_back,
+    turned_velocity,
+    centripetal,
+    driven_tangential,
+    driven_slide,
+)
+"""What lays off a known vector from a point of a plan."""
+CROSSED: tuple[Action, ...] = (meet, arcs_meet, arc_cuts_line, kennedy_meet)
+"""What finds a point where two lines or arcs cut."""
+JOINED: tuple[Action, ...] = (line_through, kennedy_line)
+"""What draws the line of two points."""
+SET: tuple[Action, ...] = (set_on, set_on_twice)
+"""What transfers a vector of a plan to its point."""
+MEASURED: tuple[Action, ...] = (mark_off, set_at)
+"""What lays off a length on a line."""
+
+
+Way = tuple[str, tuple[str, ...]]
+"""An action of the palette, and what it starts from, by the names of the picks."""
+
+
+class Pick(Struct, frozen=True):
+    """Something that a move can start from: a point, a line, a bar, a vector, a length, a rate.
+
+    ``needs`` are the steps of the moves without which it is not there, ``on`` the two steps between
+    whose points it lies where it is pointed at, ``value`` what it is where no move gives it, ``by``
+    the point that is picked for one too near to it to be drawn.
+    """
+
+    kind: str
+    name: str
+    plane: Plane
+    needs: tuple[int, ...]
+    value: Any = None
+    on: tuple[int, ...] = ()
+    by: str = ""
+
+
+class PaletteMove(Struct, frozen=True):
+    """An action of the palette that gives a recorded ``step`` from its ``inputs``, by their names.
+
+    ``about`` is what a wrong choice is told of, ``at`` the sentence that draws it, ``needs`` are
+    the moves before it; a ``goal`` is drawn for its own sake, other moves only for a goal.
+    """
+
+    step: int
+    action: str
+    inputs: tuple[str, ...]
+    name: str
+    about: str
+    at: int
+    needs: tuple[int, ...]
+    goal: bool
+
+
+class YourTurn(Struct, frozen=True):
+    """All moves of some sheets, all that can be picked, and the moves behind what comes along.
+
+    ``places`` are the steps of the points of the mechanism that have an image of a plan, ``shares``
+    the steps by which the lines of two trials are divided, with the moves that each needs;
+    ``alike`` tells whether a link has a third point, whose image is similar to it.
+    """
+
+    moves: Mapping[int, PaletteMove]
+    picks: Mapping[str, Pick]
+    along: Mapping[int, tuple[int, ...]]
+    places: Mapping[int, tuple[int, ...]]
+    shares: Mapping[int, tuple[int, ...]]
+    values: Mapping[int, Any]
+    planes: Mapping[int, Plane]
+    alike: bool
+
+
+class MoveFinder:
+    """Finds the moves of the recorded program of some sheets, in its order."""
+
+    def __init__(self, sheets: Sequence[ScreenSheet], told: PageProtocol) -> None:
+        self.drawings = [sheet.drawing for sheet in sheets]
+        self.told = told
+        self.steps = self.drawings[0].trace.program.steps
+        self.values: dict[int, Any] = {}
+        for drawing in self.drawings:
+            self.values |= drawing.trace.values
+        self.moves: dict[int, PaletteMove] = {}
+        self.picks: dict[str, Pick] = {}
+        self.same: dict[int, int] = {}
+        self.parts: dict[int, int] = {}
+        self.known: dict[tuple[Any, ...], int] = {}
+        self.rates: dict[tuple[Any, ...], int] = {}
+        self.places = self.places_of_images()
+        self.arrows = {
+            (step.args[0], step.args[1]): number
+            for number, step in enumerate(self.steps)
+            if step.arrow and number in told.at and isinstance(self.values[number], Vector)
+            if step.plane in PLANES[1:3] and len(step.args) == 2
+        }
+
+    def found(self) -> YourTurn:
+        """Every move, and what can be picked beside what moves start from."""
+        for number in sorted(self.values):
+            self.move(number)
+        self.more_picks()
+        along = {
+            number: self.needs([number]) for number in self.told.at if number not in self.moves
+        }
+        divided = [n for n, move in self.moves.items() if move.action == "divide"]
+        shares = {share: self.needs([share]) for share in map(self.share, divided)}
+        planes = {number: self.steps[number].plane for number in self.values}
+        planes |= {self.share(number): self.steps[number].plane for number in divided}
+        alike = any(
+            self.steps[n].action is similar_point and self.steps[n].plane in PLANES[1:3]
+            for n in self.moves
+        )
+        return YourTurn(
+            self.moves, self.picks, along, self.places, shares, self.values, planes, alike
+        )
+
+    # --- what hangs on what ----------------------------------------------------------------------
+
+    def needs(self, numbers: Iterable[int]) -> tuple[int, ...]:
+        """The moves that are nearest behind some steps, themselves if they are moves."""
+        found, seen, waiting = set[int](), set[int](), [*numbers]
+        while waiting:
+            number = waiting.pop()
+            number = self.same.get(number, number)
+            if number in seen or number not in self.values:
+                continue
+            seen.add(number)
+            kind = construction(self.steps[number])
+            if number in self.moves or number in self.parts:
+                found.add(self.parts.get(number, number))
+            elif isinstance(kind, Component) and kind.vector in self.moves:
+                found.add(kind.vector)
+            else:
+                waiting += self.steps[number].args
+        return tuple(sorted(found))
+
+    def drawing(self, number: int) -> Drawing:
+        """The sheet in whose plan a step lies, or the first that draws it."""
+        ran = [each for each in self.drawings if number in each.trace.values]
+        own = (each for each in ran if each.plane is self.steps[number].plane)
+        return next(own, ran[0])
+
+    def places_of_images(self) -> dict[int, tuple[int, ...]]:
+        """For each image of a plan the places of its points; those of trials by their letter."""
+        targets = self.drawings[0].trace.program.targets
+        found: dict[int, list[int]] = {}
+        for (quantity, of), number in targets.items():
+            place = targets.get(("position", of))
+            if quantity in ("velocity", "acceleration") and place in self.values:
+                found.setdefault(number, []).append(place)
+        named = {(self.steps[n].plane, self.steps[n].name): places for n, places in found.items()}
+        for number in self.values:
+            step = self.steps[number]
+            if step.aside is not None and (places := named.get((step.plane, step.letter))):
+                found[number] = places
+            elif step.action is similar_point and step.plane in PLANES[1:3]:
+                ratio = self.steps[step.args[2]]
+                if ratio.action is in_proportion and self.steps[ratio.args[0]].name:
+                    for image, place in zip(step.args, ratio.args, strict=False):
+                        if image in self.values and place not in found.setdefault(image, []):
+                            found[image].append(place)
+        return {number: tuple(places) for number, places in found.items()}
+
+    # --- moves -----------------------------------------------------------------------------------
+
+    def move(self, number: int) -> None:
+        """Note the move that gives a step, if one does; a second one that is alike is the first."""
+        step = self.steps[number]
+        alike = self.known.get(self.drawn_alike(step))
+        if alike is not None:
+            self.same[number] = alike
+            return
+        way = self.way(number)
+        if way is None:
+            return
+        self.known.setdefault(self.drawn_alike(step), number)
+        action, inputs = way
+        name, about = self.words_of(number, action, inputs)
+        picks = [self.picks[name] for name in inputs]
+        needs = {need for pick in picks for need in pick.needs}
+        if action == "divide":
+            needs |= {*self.needs([self.share(number)])}
+        goal = bool(step.name) and step.plane is not Plane.NUMBERS
+        self.moves[number] = PaletteMove(
+            number, action, inputs, name, about, self.sentence(number), tuple(sorted(needs)), goal
+        )
+        if step.plane is not Plane.NUMBERS and action != "transfer":
+            self.point_or_line(number, name)
+
+    def share(self, number: int) -> int:
+        """The step that measures in what ratio a point divides the line of its trials."""
+        kind = construction(self.steps[number])
+        assert isinstance(kind, DividedPoint)
+        by_hand = self.steps[kind.share].by_hand
+        return by_hand if by_hand in self.values and by_hand is not None else kind.share
+
+    def drawn_alike(self, step: Step) -> tuple[Any, ...]:
+        """What two steps have in common that are drawn alike: the same once more."""
+        args = tuple(self.same.get(arg, arg) for arg in step.args)
+        return id(step.action), args, step.extra, step.part, step.plane, step.arrow
+
+    def way(self, number: int) -> Way | None:
+        """The action that gives a step, and its inputs; None where it comes along."""
+        step, kind = self.steps[number], construction(self.steps[number])
+        if isinstance(kind, Component) and kind.vector == number:
+            return self.way_of_component(kind, number)
+        if isinstance(kind, TriangleComponent) or not self.is_drawn(number):
+            return None
+        by_hand = step.by_hand in self.values and step.by_hand is not None
+        drawn = self.steps[step.by_hand] if by_hand and step.by_hand is not None else step
+        if isinstance(kind, Centre) and not by_hand and drawn.action not in CROSSED:
+            return None
+        if isinstance(kind, AccelerationPole):
+            if not by_hand or self.place(number) is None:
+                return None
+            _, p, q, *images = step.args
+            self.parts |= dict.fromkeys(drawn.args, number)
+            return self.all_of("pole", self.bar(p, q), *map(self.point_or_line, images))
+        return self.way_of_action(number, step, drawn)
+
+    def way_of_action(self, number: int, step: Step, drawn: Step) -> Way | None:
+        """The action of the palette that draws as a recorded one does."""
+        action, args = drawn.action, drawn.args
+        in_plan = step.plane in PLANES[1:3]
+        pick = self.point_or_line
+        if action in CROSSED and self.place(number) is not None:
+            return self.all_of("cut", pick(args[0]), pick(args[1]))
+        if action is square_to:
+            return self.all_of("perpendicular", pick(args[0]), self.bar(args[1], args[2]))
+        if action is velocity_normal:
+            return self.all_of("perpendicular", pick(args[0]), self.arrow(args[1], args[2]))
+        if action is along_bar and in_plan:
+            return self.all_of("parallel", pick(args[0]), self.bar(args[1], args[2]))
+        if action is parallel_to and in_plan:
+            return self.all_of("parallel", pick(args[0]), pick(args[1]))
+        if action is compass:
+            return self.all_of("compass", pick(args[0]), self.length(number, args[1]))
+        if action in MEASURED:
+            return self.all_of("mark_off", pick(args[0]), self.length(number, args[1]))
+        if action in LAID_OFF and in_plan:
+            return self.all_of("lay_off", pick(args[0]), self.vector(number, step))
+        if action is similar_point and in_plan and number in self.places:
+            point = pick(self.places[number][0])
+            return self.all_of("similar", pick(args[0]), pick(args[1]), point)
+        if action is alike and number in self.places:
+            return self.all_of("coincide", pick(self.places[number][0]), pick(args[0]))
+        if action is between:
+            return self.all_of("divide", pick(args[0]), pick(args[1]))
+        if action in JOINED:
+            return self.all_of("join", pick(args[0]), pick(args[1]))
+        if action in SET:
+            vector = plan_vector(step)
+            name = symbol(vector.symbol) if vector else ""
+            return self.all_of("transfer", self.arrow(args[1], args[2], name), pick(args[0]))
+        return None
+
+    def way_of_component(self, kind: Component, number: int) -> Way | None:
+        """The triangle that gives a component, where one is drawn."""
+        if not kind.is_drawn(self.drawing(number)):
+            return None
+        if isinstance(kind, NormalComponent):
+            action = "klein" if isinstance(kind, KleinComponent) else "triangle"
+            bar = self.bar(kind.pivot, kind.pin)
+            arrow = self.arrow(kind.pivot_image, kind.pin_image)
+            return self.all_of(action, self.point_or_line(kind.pin), bar, arrow)
+        if isinstance(kind, CoriolisComponent):
+            arrow = self.arrow(kind.tail, kind.tip, symbol(f"v_{kind.index}"))
+            return self.all_of("coriolis", self.rate(kind.omega), arrow)
+        return None
+
+    def all_of(self, action: str, *inputs: str | None) -> Way | None:
+        """An action with its inputs; None where one of them cannot be picked."""
+        found = tuple(name for name in inputs if name is not None)
+        return (action, found) if len(found) == len(inputs) else None
+
+    def is_drawn(self, number: int) -> bool:
+        """Whether a step is drawn by a sentence, by itself or as the end of a vector."""
+        return bool(self.told.at.get(number) or [*self.drawn_around(number)])
+
+    def sentence(self, number: int) -> int:
+        """The sentence that draws a step: its own, or the first that draws what goes with it."""
+        return self.told.at.get(number, 0) or min(self.drawn_around(number))
+
+    def drawn_around(self, number: int) -> Iterator[int]:
+        """The sentences that draw the triangle of a component, or a vector that is laid off."""
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        around: Collection[int] = ()
+        if isinstance(kind, TriangleComponent):
+            around = [step for _, step in kind.given()]
+        elif number in drawing.feet:
+            around = [drawing.feet[number]]
+        elif isinstance(kind, LaidOffByRate):
+            users = drawing.children.get(number, ())
+            around = [user for user in users if not self.steps[user].arrow]
+        yield from (at for step in around if (at := self.told.at.get(step, 0)))
+
+    # --- what can be picked ----------------------------------------------------------------------
+
+    def point_or_line(self, number: int, name: str = "") -> str | None:
+        """A point, line or arc by its step; None for one that nobody sees."""
+        number = self.same.get(number, number)
+        key = str(number)
+        if key in self.picks:
+            return key
+        step, value, by = self.steps[number], self.values.get(number), ""
+        kind = construction(step)
+        if isinstance(value, Line | Circle):
+            seen = number in self.told.at or step.plane in (Plane.MECHANISM, Plane.NUMBERS)
+            name = name or self.name_of_line(number)
+            what = self.kind_of_line(number)
+            given = isinstance(value, Line) and what == "guide"
+            if given and (other := self.guide_alike(name, value)):
+                return other
+        else:
+            if isinstance(kind, LaidOff) and number not in self.moves:
+                by = self.point_or_line(kind.start) or ""
+                if value == self.values[kind.start]:
+                    return by
+            seen = number in self.told.at or bool(by) or number in self.moves
+            seen = seen and self.place(number) is not None
+            name = name or self.letter(number)
+            what = "point" if step.plane is Plane.MECHANISM else "image"
+            what = "centre" if isinstance(value, Ratio) else what
+        if not seen or not name:
+            return None
+        plane = Plane.MECHANISM if step.plane is Plane.NUMBERS else step.plane
+        own = None if number in self.moves else value
+        needs = (number,) if number in self.moves else self.needs([number])
+        self.picks[key] = Pick(what, name, plane, needs, own, by=by)
+        return key
+
+    def guide_alike(self, name: str, line: Any) -> str | None:
+        """A line of the same name that can be picked already, where it is the same."""
+        for key, pick in self.picks.items():
+            if (pick.kind, pick.name) == ("guide", name) and isinstance(pick.value, Line):
+                apart = cross(pick.value.along, line.point - pick.value.point)
+                turned = cross(pick.value.along, line.along)
+                sizes = abs(pick.value.along), abs(line.along), self.drawings[0].reach
+                near = abs(apart) <= NOISE * sizes[0] * sizes[2]
+                if near and abs(turned) <= NOISE * sizes[0] * sizes[1]:
+                    return key
+        return None
+
+    def kind_of_line(self, number: int) -> str:
+        """An arc, a line that is given or stands on the mechanism, or one that is drawn to find."""
+        step = self.steps[number]
+        if isinstance(self.values[number], Circle):
+            return "circle"
+        given = step.plane is Plane.NUMBERS or step.part is Part.POSITION
+        return "guide" if given else "locus"
+
+    def bar(self, p: int, q: int) -> str | None:
+        """The bar between two points of the mechanism."""
+        p, q = sorted(self.same.get(end, end) for end in (p, q))
+        ends = self.point_or_line(p), self.point_or_line(q)
+        if p == q or ends[0] is None or ends[1] is None:
+            return None
+        key, name = f"{p}-{q}", self.picks[ends[0]].name + self.picks[ends[1]].name
+        pick = Pick("bar", name, Plane.MECHANISM, self.needs([p, q]), None, (p, q))
+        self.picks.setdefault(key, pick)
+        return key
+
+    def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
+        """The vector between two points of a plan; as its arrow leads where it is given no name."""
+        if not name and (tip, tail) in self.arrows:
+            tail, tip = tip, tail
+        ends = self.point_or_line(tail), self.point_or_line(tip)
+        if ends[0] is None or ends[1] is None:
+            return None
+        number = self.arrows.get((tail, tip))
+        vector = plan_vector(self.steps[number]) if number is not None else None
+        if vector:
+            name = symbol(vector.symbol)
+        elif not name:
+            letters = self.picks[ends[0]].name + self.picks[ends[1]].name
+            name = vector_of(self.drawing(tip), tail, tip, letters)
+        key, plane = f"{ends[0]}>{ends[1]}", self.steps[tip].plane
+        on = int(ends[0]), int(ends[1])
+        pick = Pick("arrow", name, plane, self.needs(on), None, on)
+        self.picks.setdefault(key, pick)
+        return key
+
+    def length(self, number: int, length: int) -> str:
+        """A length that is laid off at a step."""
+        kind, key = construction(self.steps[number]), f"l{length}"
+        role = self.steps[number].role
+        ends = kind.laid_length(role) if kind is not None else None
+        drawing = self.drawing(number)
+        if ends:
+            name = "".join(map(symbol, ends))
+        else:
+            name = drawing.words("turn.length", name=self.letter(number))
+        pick = Pick("length", name, Plane.NUMBERS, self.needs([length]), self.values[length])
+        self.picks.setdefault(key, pick)
+        return key
+
+    def vector(self, number: int, step: Step) -> str | None:
+        """A vector that is known before it is laid off; None for one without length."""
+        start, *others = step.args
+        kind, drawing = construction(step), self.drawing(number)
+        value = self.values[number] - self.values[start]
+        if not drawing.settled(abs(value)):
+            return None
+        likewise = (step.action, tuple(others), step.extra)
+        key, on = f"v{self.rates.setdefault(likewise, number)}", tuple(others[:2])
+        if step.action in (lay_off, lay_off_turned, lay_back):
+            key, value = f"v{others[0]}", self.values[others[0]]
+            component = construction(self.steps[others[0]])
+            name = component.symbol if isinstance(component, Component) else ""
+            on = self.ends_of_triangle(component)
+        elif isinstance(kind, LaidOffByRate):
+            name = kind.fields(drawing, step.role)["vector"]
+            on = () if isinstance(kind, DrivenSlide) else on
+        else:
+            return None
+        if step.aside is not None and isinstance(kind, LaidOffByRate):
+            name += f" ({TAGS.get(step.aside.tag, step.aside.tag)})"
+        pick = Pick("vector", name, step.plane, self.needs(others), value, on)
+        self.picks.setdefault(key, pick)
+        return key
+
+    def ends_of_triangle(self, kind: Construction | None) -> tuple[int, ...]:
+        """The points between which a triangle on the mechanism shows its component."""
+        ends: tuple[int | None, ...] = ()
+        if isinstance(kind, KleinComponent):
+            ends = (kind.pin, kind.cut) if hasattr(kind, "cut") else ()
+        elif isinstance(kind, NormalComponent):
+            ends = (kind.pin, getattr(kind, "end", None))
+        elif isinstance(kind, CoriolisComponent):
+            ends = (kind.foot, kind.top)
+        return tuple(end for end in ends if end in self.values and end is not None)
+
+    def rate(self, number: int) -> str | None:
+        """The angular velocity of a link."""
+        step, key = self.steps[number], f"r{number}"
+        drawing = self.drawing(number)
+        on = step.of.places if isinstance(step.of, TurningOfLink) else ()
+        name = rate_symbol(drawing, number)
+        needs = self.needs([number])
+        pick = Pick("rate", name, Plane.NUMBERS, needs, self.values[number], on)
+        self.picks.setdefault(key, pick)
+        return key
+
+    def more_picks(self) -> None:
+        """What no move starts from: other points, bars and vectors, for a choice to be one."""
+        targets = self.drawings[0].trace.program.targets
+        for number in self.told.at:
+            step = self.steps[number]
+            drawn = step.plane in PLANES[:3] and step.part is not Part.NORMAL and not step.arrow
+            if step.name and drawn and number not in self.same:
+                self.point_or_line(number)
+        for link in self.drawings[0].scene.links.values():
+            ends = (targets.get(("position", point)) for point in link.points)
+            placed = [end for end in ends if end in self.values and end is not None]
+            for p, q in combinations(placed, 2):
+                self.bar(p, q)
+        for tail, tip in self.arrows:
+            self.arrow(tail, tip)
+        if any(move.action == "coriolis" for move in self.moves.values()):
+            for (quantity, _), number in targets.items():
+                if quantity == OMEGA and number in self.values:
+                    self.rate(number)
+
+    # --- names -----------------------------------------------------------------------------------
+
+    def place(self, number: int) -> complex | None:
+        """Where a point lies, if it is one and not at infinity."""
+        value = self.values.get(number)
+        if isinstance(value, Ratio):
+            return self.drawing(number).place(value)
+        return value if isinstance(value, complex) else None
+
+    def letter(self, number: int) -> str:
+        """The letter of a point, or what it is the end of."""
+        step = self.steps[number]
+        if step.name:
+            return symbol(step.name)
+        kind, drawing, vector = construction(step), self.drawing(number), ""
+        if isinstance(kind, LaidOff):
+            if number in drawing.feet and (letter := letter_at(drawing, number)):
+                if kind.is_short(drawing):
+                    return f"{symbol(letter)} + {kind.component.symbol}"
+                return symbol(letter)
+            vector = kind.component.symbol
+        elif isinstance(kind, LaidOffByRate):
+            vector = kind.fields(drawing, step.role)["vector"]
+        if not vector:
+            return ""
+        tag = f" ({TAGS.get(step.aside.tag, step.aside.tag)})" if step.aside else ""
+        return drawing.words("turn.end_of", vector=vector) + tag
+
+    def name_of_line(self, number: int) -> str:
+        """A line that no move draws: a guide, the line of a crank, a side of the mechanism."""
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        if isinstance(kind, ShiftedGuide):
+            return drawing.words("turn.beside", guide=way_of(drawing, kind.block))
+        if isinstance(kind, GuideLine | GuideThroughBlock):
+            return way_of(drawing, kind.block)
+        points = kind.points if kind is not None else ()
+        name = "".join(map(symbol, points))
+        return drawing.words("turn.line", name=name or self.letters_behind(number))
+
+    def letters_behind(self, number: int) -> str:
+        """The letters of the points from which a line is drawn."""
+        args = [arg for arg in self.steps[number].args if self.steps[arg].name]
+        args = [arg for arg in args if self.steps[arg].plane is Plane.MECHANISM]
+        return "".join(symbol(self.steps[arg].name) for arg in args)
+
+    def words_of(self, number: int, action: str, inputs: Sequence[str]) -> tuple[str, str]:
+        """What a move gives, and what it is about in a line that tells why a choice is wrong."""
+        names = [self.picks[name].name for name in inputs]
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        if isinstance(kind, Component):
+            return kind.symbol, kind.symbol
+        if action in ("perpendicular", "parallel"):
+            sign = "⊥" if action == "perpendicular" else "∥"
+            return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
+        if action == "compass":
+            name = drawing.words("turn.say.arc", p=names[0], bar=names[1])
+            return name, name
+        if action == "join":
+            name = "".join(names)
+            return name, name
+        if action == "transfer":
+            return names[0], names[0]
+        name = self.letter(number)
+        return name, names[1] if action == "lay_off" else name
+
+    def vector_on(self, number: int, kind: Construction | None, start: str) -> str:
+        """The vector that lies on a line which is drawn to find its end."""
+        drawing = self.drawing(number)
+        if isinstance(kind, VelocityNormal):
+            return drawing.words("turn.to_centre", p=start)
+        vector = ""
+        if isinstance(kind, AboutPivot):
+            sign = "^τ" if drawing.kind == "acceleration" else ""
+            vector = symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
+        elif isinstance(kind, AlongGuide):
+            vector = kind.vector_along(drawing, number)
+        return vector or drawing.words("turn.this_line")
+
+
+def your_turn(sheets: Sequence[ScreenSheet], told: PageProtocol) -> YourTurn:
+    """The moves of some sheets of one mechanism, in the order of its program."""
+    return MoveFinder(sheets, told).found()

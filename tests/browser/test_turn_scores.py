@@ -1,0 +1,118 @@
+"""A turn's score sheet, saved from a student's page, beside answers: told, and proof of nothing."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from graphkin.cli.main import app
+from tests.browser.opening import Opened
+from tests.browser.test_form import ROSTER
+from tests.browser.test_your_turn import by_lists
+from tests.cli.conftest import Run, run  # noqa: F401
+
+TOLD = '{"graphkin_turn":1,"id":"%s","from":6,"steps":%s,"left":2,"seal":"%s"}'
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """A class folder of two students of the pump, with the pages of the key."""
+    place = tmp_path_factory.mktemp("turns")
+    (place / "class.csv").write_text(ROSTER, encoding="utf-8")
+    made = place / "pump"
+    for args in (
+        ("variants", "pump", place / "class.csv", "-o", made),
+        ("print", made, "--view", "key", "--format", "html", "--lang", "en", "--jobs", "1"),
+    ):
+        result = CliRunner().invoke(app, [str(arg) for arg in args])
+        assert result.exit_code == 0, result.output
+    return made
+
+
+@pytest.fixture
+def answers(tmp_path) -> Path:
+    """A folder with one student's answers."""
+    found = tmp_path / "answers"
+    found.mkdir()
+    (found / "0042-answers.csv").write_text("field;value\nid;0042\nv_D;1\n", encoding="utf-8")
+    return found
+
+
+def graded(run: Run, folder: Path, answers: Path, report: Path) -> tuple[str, list[dict[str, str]]]:  # noqa: F811
+    """What grading says, and the score sheets that it lists."""
+    result = run("grade", folder, answers, "-o", report, "--format", "none")
+    assert result.exit_code == 0, result.output
+    with (report / "turns.csv").open(encoding="utf-8-sig", newline="") as file:
+        return result.output, list(csv.DictReader(file))
+
+
+def test_a_saved_score_sheet_is_listed_beside_answers(
+    opened: Opened,
+    folder: Path,
+    answers: Path,
+    run: Run,  # noqa: F811
+    tmp_path: Path,
+):
+    page = opened(
+        folder / "print" / "key" / "0042-key.html",
+        "#step=6",
+        viewport={"width": 1440, "height": 900},
+    )
+    page.locator("#turn").click()
+    by_lists(page, "perpendicular", "a", "O2B")
+    by_lists(page, "perpendicular", "a", "AB")
+    page.locator("#draw-it").click()
+    assert not page.locator("#turn-save").is_visible()
+    page.locator("#turn-score").click()
+    with page.expect_download() as saved:
+        page.locator("#turn-save").click()
+    assert saved.value.suggested_filename == "0042-turn.json"
+    path = answers / saved.value.suggested_filename
+    saved.value.save_as(path)
+    assert "proves nothing" in page.locator("#turn-say").inner_text()
+
+    said, (row,) = graded(run, folder, answers, tmp_path / "report")
+    assert "prove nothing" in said
+    told = {name: row[name] for name in ("id", "from_step", "steps", "alone", "drawn_by_page")}
+    assert told == {
+        "id": "0042",
+        "from_step": "6",
+        "steps": "2",
+        "alone": "1",
+        "drawn_by_page": "1",
+    }
+    assert (row["wrong"], row["seal"]) == ("1", "right")
+
+    found = json.loads(path.read_text(encoding="utf-8"))
+    found["steps"][1][1] = "alone"
+    path.write_text(json.dumps(found), encoding="utf-8")
+    _, (row,) = graded(run, folder, answers, tmp_path / "again")
+    assert (row["alone"], row["seal"]) == ("2", "broken")
+
+
+@pytest.mark.parametrize(
+    ("text", "words_found"),
+    [
+        ("nonsense", "expected a score sheet as a page saves it"),
+        (TOLD % ("0042", '[["b","by magic",0]]', ""), "by magic"),
+        (TOLD % ("0042", '[["b","alone",-1]]', ""), ">= 0"),
+        (TOLD % ("9999", "[]", ""), '"9999" is no student of this class'),
+    ],
+)
+def test_what_is_no_score_sheet_is_told(run, folder, answers, tmp_path, text, words_found):  # noqa: F811
+    (answers / "0042-turn.json").write_text(text, encoding="utf-8")
+    result = run("grade", folder, answers, "-o", tmp_path / "report", "--format", "none")
+    assert result.exit_code == 2
+    assert "0042-turn.json: " in result.output
+    assert words_found in result.output
+    assert not (tmp_path / "report").exists()
+
+
+def test_without_an_id_the_name_of_the_file_tells_whose_it_is(run, folder, answers, tmp_path):  # noqa: F811
+    (answers / "0043-turn.json").write_text(TOLD % ("", "[]", ""), encoding="utf-8")
+    _, (row,) = graded(run, folder, answers, tmp_path / "report")
+    assert (row["id"], row["seal"], row["left"]) == ("0043", "none", "2")

@@ -1,0 +1,295 @@
+"""Your turn in a real browser: by mouse, finger and keys, from nothing but what the page shows."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.text import words
+from graphkin.web.palette_moves import your_turn
+from graphkin.web.protocol import telling
+from graphkin.web.screen_sheets import screen_sheets
+from graphkin.web.step_page import step_page
+from tests.browser.opening import Opened, barred
+from tests.browser.test_page import DESKTOP, PHONE
+from tests.documents.sheet_tools import mechanism_named
+
+SCENES = {
+    "pump": lambda: load("pump"),
+    "slotted-lever": lambda: load("slotted-lever"),
+    "gears-ring": lambda: mechanism_named("gears-ring"),
+    "stephenson-3-crank": lambda: mechanism_named("stephenson-3-crank"),
+}
+"""Bars and a slider, a slotted lever with Coriolis, a planet in a ring, a group of class III."""
+EN = words("en")
+CENTRE = """letter => {
+  const sheet = document.querySelector('.sheet:not([hidden])');
+  const named = [...sheet.querySelectorAll(`circle[data-name='${letter}']`)];
+  const { x, y, width, height } = named.at(-1).getBoundingClientRect();
+  return [x + width / 2, y + height / 2];
+}"""
+SEEN = """name => [...document.querySelectorAll(`.sheet:not([hidden]) [data-name='${name}']`)]
+  .filter(mark => mark.checkVisibility({ visibilityProperty: true })).length"""
+LATER = "document.querySelectorAll('.sheet:not([hidden]) .later').length"
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory) -> Path:
+    """A folder with the pages of the scenes."""
+    folder = tmp_path_factory.mktemp("turns")
+    for name, loaded in SCENES.items():
+        (folder / f"{name}.html").write_text(step_page(loaded(), "en"), encoding="utf-8")
+    return folder
+
+
+def begun(opened: Opened, pages: Path, name: str, step: int, **options: Any) -> Any:
+    """A page on which the reader draws from a step on."""
+    page = opened(pages / f"{name}.html", f"#step={step}", **(options or DESKTOP))
+    page.locator("#turn").click()
+    return page
+
+
+def said(page: Any) -> str:
+    """What the page says."""
+    return page.locator("#turn-say").inner_text()
+
+
+def take(page: Any, action: str) -> None:
+    """Choose an action."""
+    button = page.get_by_role("button", name=EN(f"turn.action.{action}"), exact=True)
+    if button.get_attribute("aria-pressed") == "false":
+        button.click()
+
+
+def by_lists(page: Any, action: str, *inputs: str) -> str:
+    """Draw by the lists, and hear what the page says of it."""
+    take(page, action)
+    for place, name in enumerate(inputs):
+        page.locator("#inputs select").nth(place).select_option(label=name)
+    page.locator("#turn-draw").click()
+    return said(page)
+
+
+def at(page: Any, *letters: str) -> tuple[float, float]:
+    """The place of a point on the screen, or the middle of two."""
+    places = [page.evaluate(CENTRE, letter) for letter in letters]
+    x, y = (sum(axis) / len(places) for axis in zip(*places, strict=True))
+    return x, y
+
+
+def by_mouse(page: Any, action: str, *inputs: tuple[str, ...]) -> str:
+    """Draw by pointing at points and bars, and hear what the page says of it."""
+    take(page, action)
+    for letters in inputs:
+        page.mouse.click(*at(page, *letters))
+    return said(page)
+
+
+# --- the pump's velocity plan ---------------------------------------------------------------------
+
+
+def test_the_velocity_plan_of_the_pump_by_right_choices(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 5)
+    assert page.evaluate(SEEN, "a") == 0
+    by_lists(page, "lay_off", "o", "vA")
+    assert said(page) == EN("turn.say.which")
+    page.locator("#which button").first.click()
+    assert said(page) == "a: right."
+    assert page.evaluate(SEEN, "a") > 0
+    assert by_lists(page, "perpendicular", "a", "AB") == "⊥ AB (a): right."
+    assert by_lists(page, "perpendicular", "o", "O2B") == "⊥ O2B (o): right."
+    assert page.evaluate(SEEN, "b") == 0
+    assert by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)") == "b: right."
+    assert page.evaluate(SEEN, "b") > 0
+    assert "they meet in b" in page.locator("#turn-sentence").inner_text()
+    by_lists(page, "perpendicular", "a", "AC")
+    by_lists(page, "perpendicular", "b", "BC")
+    assert by_lists(page, "cut", "⊥ AC (a)", "⊥ BC (b)") == "c: right."
+    by_lists(page, "perpendicular", "c", "CD")
+    by_lists(page, "parallel", "o", "guide 5")
+    assert by_lists(page, "cut", "⊥ CD (c)", "∥ guide 5 (o)") == "d: right."
+    by_lists(page, "perpendicular", "A", "vA")
+    by_lists(page, "perpendicular", "B", "vB")
+    assert by_lists(page, "cut", "⊥ vA (A)", "⊥ vB (B)") == "I3: right."
+    assert by_lists(page, "transfer", "vA", "A") == "vA: right."
+    assert page.locator("#sheet-0").is_visible()
+    assert by_lists(page, "transfer", "vD", "D") == "vD: right."
+    assert page.locator("#sheet-1").is_visible()
+    page.locator("#turn-sheet").click()
+    assert page.evaluate(LATER) == 0
+    page.locator("#turn-score").click()
+    told = page.locator("#score p").inner_text()
+    assert "Alone: 15; with a hint: 0; drawn by the page: 0. Wrong turns: 0." in told
+
+
+def test_by_mouse_on_the_drawing(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 6)
+    assert by_mouse(page, "perpendicular", ("a",), ("A", "B")) == "⊥ AB (a): right."
+    assert by_mouse(page, "perpendicular", ("o",), ("O2", "B")) == "⊥ O2B (o): right."
+    take(page, "cut")
+    lines = page.evaluate("""() => Object.keys({48: 0, 49: 0}).map(step => {
+      const line = document.querySelector(`.sheet:not([hidden]) line[data-of='${step}']`);
+      const { x, y, width, height } = line.getBoundingClientRect();
+      const [x1, y1, x2, y2] = ['x1', 'y1', 'x2', 'y2'].map(name => line[name].baseVal.value);
+      const down = (y2 - y1) * (x2 - x1) > 0;
+      return [x + width / 8, y + (down ? height / 8 : height * 7 / 8)];
+    })""")
+    for x, y in lines:
+        page.mouse.click(x, y)
+    assert said(page) == "b: right."
+
+
+def test_a_wrong_choice_is_told_why_in_one_line(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 6)
+    told = by_mouse(page, "perpendicular", ("a",), ("O2", "B"))
+    assert told == "vBA is perpendicular to AB, not to O2B."
+    told = by_lists(page, "perpendicular", "o", "AB")
+    assert told == "vB is perpendicular to O2B, not to AB."
+    assert by_lists(page, "parallel", "a", "guide 5") == (
+        "The parallel to guide 5 is drawn through o, not through a."
+    )
+    by_lists(page, "perpendicular", "a", "AB")
+    assert by_lists(page, "perpendicular", "a", "AB") == "⊥ AB (a) is drawn already."
+    page.locator("#turn-score").click()
+    assert "wrong turns: 3" in page.locator("#score li").inner_text()
+
+
+def test_a_vector_laid_off_backwards_is_told(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 5)
+    by_lists(page, "lay_off", "o", "vA")
+    page.locator("#which button").nth(1).click()
+    assert said(page) == "vA points the other way."
+    assert page.evaluate(SEEN, "a") == 0
+
+
+def test_another_order_and_another_way_are_right(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 6)
+    assert by_lists(page, "parallel", "o", "guide 5") == "∥ guide 5 (o): right."
+    by_lists(page, "perpendicular", "o", "O2B")
+    by_lists(page, "perpendicular", "a", "AB")
+    by_lists(page, "cut", "∥ guide 5 (o)", "⊥ AB (a)")
+    assert page.evaluate(SEEN, "d") == 0
+    assert by_lists(page, "cut", "⊥ O2B (o)", "⊥ AB (a)") == "b: right."
+    assert by_lists(page, "similar", "a", "b", "C") == "c: right."  # no perpendiculars
+    assert by_lists(page, "perpendicular", "C", "vC").startswith("A line of your own")
+    by_lists(page, "perpendicular", "A", "vA")
+    assert by_lists(page, "cut", "⊥ vA (A)", "⊥ vC (C)") == "I3: right."
+
+
+def test_a_hint_lights_where_a_step_starts(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 6)
+    page.locator("#hint").click()
+    assert said(page) == "Perpendicular: a, AB"
+    assert page.locator(".sheet:not([hidden]) .halo .new").count() == 2
+    by_lists(page, "perpendicular", "a", "AB")
+    assert page.locator(".sheet:not([hidden]) line.open").count() == 1
+    page.locator("#draw-it").click()
+    assert page.locator(".sheet:not([hidden]) line.open").count() == 2
+    page.locator("#turn-score").click()
+    assert page.locator("#score li").all_inner_texts() == [
+        "⊥ AB (a): with a hint",
+        "⊥ O2B (o): drawn by the page",
+    ]
+
+
+def test_a_line_does_not_show_where_the_point_on_it_lies(opened: Opened, pages: Path):
+    """It is drawn through the whole field until the point is found, then as far as on paper."""
+    page = begun(opened, pages, "pump", 6)
+    ends = page.locator(".sheet:not([hidden]) line[data-of='48']").first
+    by_lists(page, "perpendicular", "a", "AB")
+    assert not ends.is_visible()
+    by_lists(page, "perpendicular", "o", "O2B")
+    by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)")
+    assert ends.is_visible()
+    assert page.locator(".sheet:not([hidden]) line.open").count() == 0
+
+
+def test_keys_alone_draw(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=6", **DESKTOP)
+    page.locator("#turn").focus()
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.dataset.action") == "perpendicular"
+    page.keyboard.press("Enter")
+    while not page.evaluate("document.activeElement.matches('#inputs select')"):
+        page.keyboard.press("Tab")
+    page.keyboard.press("a")  # A
+    page.keyboard.press("a")
+    page.keyboard.press("Tab")
+    page.keyboard.type("AB")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert said(page) == "⊥ AB (a): right."
+    assert page.evaluate("document.activeElement.dataset.action") == "perpendicular"
+    page.keyboard.press("ArrowRight")  # goes to no other step
+    assert page.locator("#turn-panel").is_visible()
+    assert page.evaluate(SEEN, "b") == 0
+
+
+def test_a_finger_picks(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=6", **PHONE)
+    page.locator("#turn").tap()
+    take(page, "perpendicular")
+    for letters in (("a",), ("A", "B")):
+        page.touchscreen.tap(*at(page, *letters))
+    assert said(page) == "⊥ AB (a): right."
+
+
+def test_the_turn_ends_where_it_began(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 6)
+    by_lists(page, "perpendicular", "a", "AB")
+    page.locator("#turn-end").click()
+    assert page.locator("#count").inner_text() == "Step 6 of 20"
+    assert page.evaluate(SEEN, "b") > 0
+    page.keyboard.press("ArrowRight")
+    assert page.locator("#count").inner_text() == "Step 7 of 20"
+
+
+def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=6&x=80", **DESKTOP)
+    page.locator("#turn").click()
+    assert by_mouse(page, "perpendicular", ("a",), ("A", "B")) == "⊥ AB (a): right."
+
+
+# --- every kind of scene --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_each_scene_from_its_first_step_in_any_order(opened: Opened, pages: Path, name: str):
+    """All that the record holds, in an order of chance that it allows, draws all that there is."""
+    page = begun(opened, pages, name, 1)
+    sheets = screen_sheets(SCENES[name](), "en")
+    turn, chance = your_turn(sheets, telling(sheets)), random.Random(name)
+    moves, done = turn.moves, set[int]()
+    picked = page.locator("#inputs select")
+    while len(done) < len(moves):
+        ready = [step for step in moves if step not in done and done.issuperset(moves[step].needs)]
+        step = chance.choice(ready)
+        for which in (0, 1):
+            take(page, moves[step].action)
+            for place, key in enumerate(moves[step].inputs):
+                picked.nth(place).select_option(value=turn.picks[key].by or key)
+            page.locator("#turn-draw").click()
+            if page.locator("#which").is_visible():
+                page.locator("#which button").nth(which).click()
+            if said(page).endswith("right."):
+                break
+        drawn = ("right.", "is drawn already.", EN("turn.say.complete"))
+        assert said(page).endswith(drawn), (step, said(page))
+        done.add(step)
+    assert page.locator("#turn-count").inner_text() == "Steps left: 0"
+    assert page.locator("#score").is_visible()
+    for _ in range(2):
+        assert page.evaluate(LATER) == 0
+        page.locator("#turn-sheet").click()
+
+
+@pytest.mark.parametrize("shape", ["desktop", "phone"])
+def test_axe_finds_nothing_against_the_turn(opened: Opened, pages: Path, shape: str):
+    page = begun(opened, pages, "pump", 6, **(DESKTOP if shape == "desktop" else PHONE))
+    take(page, "cut")
+    page.evaluate("Promise.all(document.getAnimations().map((each) => each.finished))")
+    assert not barred(page)
