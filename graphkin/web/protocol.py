@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -11,18 +12,22 @@ from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
+from graphkin.construction.core.segments import segment_of
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.rolling.contact_points import PointOfContact
 from graphkin.documents.flattest import crossings_on
+from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
-from graphkin.documents.sentences import sentences
 from graphkin.documents.step_numbers import behind, stage_of, stages
 from graphkin.documents.step_visibility import accompanied
 from graphkin.drawing.marks import CircleMark, Mark, Text
+from graphkin.drawing.style import AUXILIARY, VECTORS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.label_names import as_labelled, labels_of
-from graphkin.web.reasons import of_reading, reasons
+from graphkin.web.page_sentences import AND, wholes
+from graphkin.web.reasons import NO_STEP, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
 STOPS = (
@@ -38,6 +43,8 @@ GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 SAME = 1e-6
 """Millimetres between places that are one."""
+DRAWN = {*VECTORS, *AUXILIARY, "construction", "ray", "compass", "centre", "inflection"}
+"""The classes of what one draws by a stroke: lines, arcs and vectors of the construction."""
 DETAIL = "detail"
 """The name of the small circle about what is enlarged beside it."""
 
@@ -74,7 +81,7 @@ class PageProtocol(Struct, frozen=True):
     ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
     ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
     mechanism to whose bar it is square or parallel; ``letters`` its name as markup. ``tints`` tells
-    apart what one sentence draws for several points; ``hangs`` gives the crossings without which a
+    apart the strokes of one sentence by their reasons; ``hangs`` gives the crossings without which a
     step cannot be, and to which a line is drawn; ``aside`` those of centres and poles; ``squares``
     the pin, pole and image of a line square to a velocity.
     """
@@ -112,22 +119,18 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
     timed: list[tuple[Timed, ...]] = []
     at: dict[int, int] = {}
     names: dict[str, str] = {}
-    tints: dict[int, int] = {}
     for place, sheet in enumerate(sheets):
-        own = sentences(sheet.drawing)
-        staged = stages(sheet.drawing, own)
-        timed.append(timed_marks(sheet, own, staged, len(said)))
+        own, staged, marks = in_parts(sheet)
+        before = len(said)
+        timed.append(tuple(replace(one, at=one.at and before + one.at) for one in marks))
         for step, stage in staged.items():
             if not at.get(step):
                 at[step] = len(said) + stage + 1 if stage >= 0 else 0
         labels = labels_of(sheet)
         names |= labels
-        said += spoken(place, sheet.drawing, own, staged, labels)
+        shown = {one.step for one in marks if one.step is not None}
+        said += spoken(place, sheet.drawing, own, staged, labels, shown)
         said[-1] = replace(said[-1], aside=words_of_details(sheet))
-        first = bounds_of(said, place)[0]
-        for step, stage, tint in tinted(sheet.drawing, own, staged):
-            if at.get(step) == first + stage:
-                tints.setdefault(step, tint)
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
     program = sheets[0].drawing.trace.program
@@ -143,11 +146,41 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
             for step in shown
             if (name := letter(program.steps[step]))
         },
-        {step: tint for step, tint in tints.items() if tint and step in shown},
+        {step: tint for step, tint in tinted(said).items() if step in shown},
         hanging(sheets, shown),
         tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
         {step: args for step in shown if (args := square_to(program.steps[step]))},
     )
+
+
+def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[Timed, ...]]:
+    """The sentences of the page for one sheet, the one (from 0) that draws each step, its marks."""
+    drawing = sheet.drawing
+    found = wholes(drawing)
+    parts = [piece.sentence for one in found for piece in one.pieces]
+    staged = stages(drawing, parts)
+    marks = timed_marks(sheet, parts, staged)
+    drawn = strokes(marks, len(parts))
+    said: list[Sentence] = []
+    places: list[int] = []
+    for one in found:
+        first = len(places)
+        for sentence, count in one.sentences(drawing, drawn[first : first + len(one.pieces)]):
+            places += [len(said)] * count
+            said.append(sentence)
+    own = {step: places[stage] if stage >= 0 else stage for step, stage in staged.items()}
+    timed = tuple(replace(one, at=places[one.at - 1] + 1 if one.at else 0) for one in marks)
+    return with_indices(drawing, said), own, timed
+
+
+def strokes(marks: Iterable[Timed], count: int) -> list[int]:
+    """How many lines, arcs and vectors each of some sentences draws; pieces of one line are one."""
+    found: list[set[tuple[int, str, str]]] = [set() for _ in range(count)]
+    for one in marks:
+        look = one.mark.cls.split()[0]
+        if one.at and one.step is not None and look in DRAWN and not isinstance(one.mark, Text):
+            found[one.at - 1].add((one.step, look, one.mark.name))
+    return [len(some) for some in found]
 
 
 def words_of_details(sheet: ScreenSheet) -> str:
@@ -168,16 +201,11 @@ def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:
     return own[0], own[-1]
 
 
-def tinted(
-    drawing: Drawing, own: Sequence[Sentence], staged: Mapping[int, int]
-) -> Iterator[tuple[int, int, int]]:
-    """The steps that one sentence draws for several points: step, stage, number of the point."""
-    program = drawing.trace.program
-    for stage, sentence in enumerate(own):
-        if len(sentence.all_steps) > 1:
-            for tint, number in enumerate(sentence.all_steps):
-                fresh = (step for step in behind(program, [number]) if staged.get(step) == stage)
-                yield from ((step, stage, tint) for step in fresh)
+def tinted(said: Sequence[ProtocolSentence]) -> dict[int, int]:
+    """What tells apart the strokes of one sentence: the number of the reason of each."""
+    return {
+        step: tint for one in said for tint, step in enumerate(one.of) if tint and step != NO_STEP
+    }
 
 
 def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:
@@ -210,20 +238,22 @@ def spoken(
     own: Sequence[Sentence],
     staged: Mapping[int, int],
     labels: Mapping[str, str],
+    shown: AbstractSet[int],
 ) -> Iterator[ProtocolSentence]:
-    """The sentences of one sheet."""
+    """The sentences of one sheet, on which the steps ``shown`` have marks."""
     steps = drawing.trace.program.steps
     parts = [{steps[number].part for number in sentence.all_steps} for sentence in own]
     last = {part: stage for stage, found in enumerate(parts) for part in found}
     lines = crossings_on(drawing)
     for stage, sentence in enumerate(own):
         fresh = [step for step, at in staged.items() if at == stage]
-        why = [*reasons(drawing, fresh, labels), *of_reading(drawing, sentence)]
+        why = [*of_sentence(drawing, sentence), *reasons(drawing, fresh, labels)]
         found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
         drawn = [steps[step].name for step in fresh if steps[step].part is Part.NORMAL]
+        markup = as_labelled(sentence.markup, drawn, labels)
         yield ProtocolSentence(
             place,
-            as_labelled(sentence.markup, drawn, labels),
+            AND.join((markup, *vectors_found(drawing, sorted(shown.intersection(fresh)), markup))),
             tuple(text for text, _ in why),
             tuple(step for _, step in why),
             tuple(found),
@@ -232,10 +262,21 @@ def spoken(
         )
 
 
+def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:
+    """Which segments are the vectors of the plan that a sentence draws without a word of them."""
+    for number in fresh:
+        step = drawing.trace.program.steps[number]
+        vector = plan_vector(step)
+        if vector is not None and step.plane is drawing.plane and vector.symbol:
+            told, segment = symbol(vector.symbol), segment_of(drawing, step)
+            if segment and told not in markup:
+                yield f"{segment} = {told}"
+
+
 def timed_marks(
-    sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int], before: int
+    sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int]
 ) -> tuple[Timed, ...]:
-    """The marks of a sheet with the sentences that draw them."""
+    """The marks of a sheet with those of its own sentences, from 1, that draw them."""
     found, touched = [], dict(contacts(sheet))
     ground = ground_of(sheet.drawing, sheet.layout.mechanism)
     for mark, beside in accompanied((*sheet.left, *sheet.right)):
@@ -245,7 +286,7 @@ def timed_marks(
             stage = stage_of(sheet.drawing, beside, staged, own, ground)
         else:
             stage = staged[step]
-        found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))
+        found.append(Timed(mark, stage + 1 if stage >= 0 else 0, step))
     return tuple(found)
 
 
