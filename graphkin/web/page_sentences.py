@@ -30,7 +30,7 @@ AND = "; "
 """What stands between parts that are said in one."""
 
 
-class Piece(Struct, frozen=True):
+class SentencePart(Struct, frozen=True):
     """A part of a sentence: the step that it ends with, and that of the point that it helps find.
 
     ``name`` is that of its sentence.
@@ -47,11 +47,11 @@ class Piece(Struct, frozen=True):
         return Sentence(self.step, self.name, self.markup)
 
 
-class Whole(Struct, frozen=True):
+class PartedSentence(Struct, frozen=True):
     """A sentence of a sheet and its parts, one where it has no more."""
 
     said: Sentence
-    pieces: tuple[Piece, ...]
+    parts: tuple[SentencePart, ...]
     plan: TrialPlan | None = None
 
     def sentences(self, drawing: Drawing, strokes: Sequence[int]) -> Iterator[tuple[Sentence, int]]:
@@ -59,53 +59,55 @@ class Whole(Struct, frozen=True):
         ``strokes``: the sheet's own where all parts draw no more than one sentence may.
         """
         if sum(strokes) <= MOST and self.said.name != TURNING:
-            yield self.said, len(self.pieces)
+            yield self.said, len(self.parts)
             return
-        for place, some in enumerate(grouped(self.pieces, strokes)):
-            markup = AND.join(piece.markup for piece in some)
+        for place, some in enumerate(grouped(self.parts, strokes)):
+            markup = AND.join(part.markup for part in some)
             name = some[-1].name
             if self.plan is not None:
                 markup = self.plan.introduced(drawing, markup, first=place == 0)
                 name = name if place == 0 else ""
-            steps = tuple(piece.step for piece in some) if len(some) > 1 else ()
+            steps = tuple(part.step for part in some) if len(some) > 1 else ()
             yield Sentence(some[-1].step, name, markup, steps), len(some)
 
 
-def grouped(pieces: Sequence[Piece], strokes: Sequence[int]) -> Iterator[list[Piece]]:
+def grouped(parts: Sequence[SentencePart], strokes: Sequence[int]) -> Iterator[list[SentencePart]]:
     """The parts that one sentence says: of one point, with no more strokes than it may draw."""
-    for _, run in groupby(zip(pieces, strokes, strict=True), lambda each: each[0].point):
-        some, drawn = list[Piece](), 0
-        for piece, count in run:
+    for _, run in groupby(zip(parts, strokes, strict=True), lambda each: each[0].point):
+        some, drawn = list[SentencePart](), 0
+        for part, count in run:
             if some and drawn + count > MOST:
                 yield some
                 some, drawn = [], 0
-            some, drawn = [*some, piece], drawn + count
+            some, drawn = [*some, part], drawn + count
         yield some
 
 
-def wholes(drawing: Drawing) -> list[Whole]:
+def parted_sentences(drawing: Drawing) -> list[PartedSentence]:
     """The sentences of a sheet with their parts."""
-    return [whole(drawing, said) for said in unexplained(drawing)]
+    return [parted_sentence(drawing, said) for said in unexplained(drawing)]
 
 
-def whole(drawing: Drawing, said: Sentence) -> Whole:
+def parted_sentence(drawing: Drawing, said: Sentence) -> PartedSentence:
     """A sentence of a sheet with its parts."""
+    one = SentencePart(said.step, said.step, said.markup, said.name)
     if said.name == TURNING:
-        return Whole(said, tuple(readings(drawing)))
+        return PartedSentence(said, tuple(readings(drawing)) or (one,))
     plan = auxiliary_plan(drawing, said.step)
     if isinstance(plan, TrialPlan):
-        parts = plan.told_in_parts(drawing)
-        return Whole(said, tuple(Piece(s, p, text, said.name) for p, s, text in parts), plan)
-    pieces = tuple(
-        Piece(step, number, markup, said.name)
+        told = plan.told_in_parts(drawing)
+        parts = tuple(SentencePart(s, p, text, said.name) for p, s, text in told)
+        return PartedSentence(said, parts, plan)
+    parts = tuple(
+        SentencePart(step, number, markup, said.name)
         for number in said.all_steps
-        for step, markup in parted(drawing, number)
+        for step, markup in told_in_parts(drawing, number)
     )
-    one = Piece(said.step, said.step, said.markup, said.name)
-    return Whole(said, pieces if len(pieces) > 1 and all(p.markup for p in pieces) else (one,))
+    whole = len(parts) < 2 or not all(part.markup for part in parts)
+    return PartedSentence(said, (one,) if whole else parts)
 
 
-def parted(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
+def told_in_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
     """What is said of a step alone, part by part, each with the step that it ends with."""
     program = drawing.trace.program
     component, kind = component_of(program, number), construction(program.steps[number])
@@ -117,10 +119,10 @@ def parted(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
         yield from point_parts(drawing, number)
 
 
-def readings(drawing: Drawing) -> Iterator[Piece]:
+def readings(drawing: Drawing) -> Iterator[SentencePart]:
     """What is read off at the end: which vectors are set on, then the rate of each link."""
     if markup := set_on_mechanism(drawing, ""):
-        yield Piece(-1, -1, markup, SET_ON)
+        yield SentencePart(-1, -1, markup, SET_ON)
     rate, steps = drawing.rate, dict[str, int]()
     for (what, link), number in drawing.trace.program.targets.items():
         if what == rate.target:
@@ -129,5 +131,5 @@ def readings(drawing: Drawing) -> Iterator[Piece]:
     for relation in of_turning(drawing):
         if (step := steps.get(relation.left)) is not None:
             told = " ".join(relation.parts(solved=True))
-            yield Piece(step, step, f"{how}: {told}" if how else told, TURNING)
+            yield SentencePart(step, step, f"{how}: {told}" if how else told, TURNING)
             how = ""

@@ -26,7 +26,7 @@ from graphkin.drawing.marks import CircleMark, Mark, Text
 from graphkin.drawing.style import AUXILIARY, VECTORS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.label_names import as_labelled, labels_of
-from graphkin.web.page_sentences import AND, wholes
+from graphkin.web.page_sentences import AND, parted_sentences
 from graphkin.web.reasons import NO_STEP, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
@@ -81,9 +81,9 @@ class PageProtocol(Struct, frozen=True):
     ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
     ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
     mechanism to whose bar it is square or parallel; ``letters`` its name as markup. ``tints`` tells
-    apart the strokes of one sentence by their reasons; ``hangs`` gives the crossings without which a
-    step cannot be, and to which a line is drawn; ``aside`` those of centres and poles; ``squares``
-    the pin, pole and image of a line square to a velocity.
+    apart the strokes of one sentence by their reasons; ``hangs`` gives the crossings without which
+    a step cannot be, and to which a line is drawn; ``aside`` those of centres and poles;
+    ``squares`` the pin, pole and image of a line square to a velocity.
     """
 
     said: tuple[ProtocolSentence, ...]
@@ -128,8 +128,8 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
                 at[step] = len(said) + stage + 1 if stage >= 0 else 0
         labels = labels_of(sheet)
         names |= labels
-        shown = {one.step for one in marks if one.step is not None}
-        said += spoken(place, sheet.drawing, own, staged, labels, shown)
+        seen = {one.step for one in marks if one.step is not None}
+        said += spoken(place, sheet.drawing, own, staged, labels, seen)
         said[-1] = replace(said[-1], aside=words_of_details(sheet))
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
@@ -156,8 +156,8 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
 def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[Timed, ...]]:
     """The sentences of the page for one sheet, the one (from 0) that draws each step, its marks."""
     drawing = sheet.drawing
-    found = wholes(drawing)
-    parts = [piece.sentence for one in found for piece in one.pieces]
+    found = parted_sentences(drawing)
+    parts = [part.sentence for one in found for part in one.parts]
     staged = stages(drawing, parts)
     marks = timed_marks(sheet, parts, staged)
     drawn = strokes(marks, len(parts))
@@ -165,7 +165,7 @@ def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[
     places: list[int] = []
     for one in found:
         first = len(places)
-        for sentence, count in one.sentences(drawing, drawn[first : first + len(one.pieces)]):
+        for sentence, count in one.sentences(drawing, drawn[first : first + len(one.parts)]):
             places += [len(said)] * count
             said.append(sentence)
     own = {step: places[stage] if stage >= 0 else stage for step, stage in staged.items()}
@@ -253,7 +253,7 @@ def spoken(
         markup = as_labelled(sentence.markup, drawn, labels)
         yield ProtocolSentence(
             place,
-            AND.join((markup, *vectors_found(drawing, sorted(shown.intersection(fresh)), markup))),
+            AND.join((markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))),
             tuple(text for text, _ in why),
             tuple(step for _, step in why),
             tuple(found),

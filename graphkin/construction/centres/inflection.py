@@ -6,8 +6,8 @@ perpendiculars in them meet in the pole (Thales).
 
 from __future__ import annotations
 
-from itertools import combinations
 from collections.abc import Mapping
+from itertools import combinations
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.centres.centre import (

@@ -245,7 +245,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         }
 
     def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
-        """Its triangles in full: as far as the perpendicular; where that is cut, by the key ``top``."""
+        """Its triangles in full: as far as the perpendicular; by the key ``top`` what cuts it."""
         fields = self.fields(drawing) | {
             "p": symbol(self.pivot_name),
             "q": symbol(self.pin_name),

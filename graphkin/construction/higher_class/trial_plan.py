@@ -110,7 +110,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, int, str]]:
-        """Its points line by line: the step of the point, that with which a part ends, its words."""
+        """Its points line by line: the step of the point, that which ends a part, and its words."""
         named = self.points(drawing)
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:

@@ -242,7 +242,9 @@ def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
 def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
     """How the line of the trials of one point is divided: as the gaps are, or another's line is."""
     steps, values = drawing.trace.program.steps, drawing.trace.values
-    alike = (p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share)
+    alike = (
+        p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share
+    )
     lead = next((p for p in alike if p.value in values and p.is_crossed(values)), point)
     gaps = gaps_of(drawing, lead)
     return drawing.words(

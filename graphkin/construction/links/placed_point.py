@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from cmath import phase
-from math import degrees
 from collections.abc import Mapping
+from math import degrees
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing

@@ -207,7 +207,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return "ν1", f"{cut}; {over}"
 
     def in_full(self, drawing: Drawing, over: str) -> tuple[str, str]:
-        """Its right triangle in full: as far as the cut; and that turned over, by the key ``over``."""
+        """Its right triangle in full: as far as the cut; by the key ``over`` that turned over."""
         corners = {role: symbol(self.letter(drawing, role)) for role in ("tip", "cut", "end")}
         speed = symbol(self.speed)
         fields = {
