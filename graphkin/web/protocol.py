@@ -20,6 +20,7 @@ from graphkin.construction.rolling.contact_points import PointOfContact
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
+from graphkin.documents.sentences import TURNING
 from graphkin.documents.step_numbers import behind, stage_of, stages
 from graphkin.documents.step_visibility import accompanied
 from graphkin.drawing.marks import CircleMark, Mark, Text
@@ -54,7 +55,8 @@ class ProtocolSentence(Struct, frozen=True):
 
     ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
     labels have them; ``ends`` are the parts of the work that it completes on its sheet. ``aside``
-    tells of what is drawn beside the drawing for the position of the scene alone.
+    tells of what is drawn beside the drawing for the position of the scene alone. ``rates`` are the
+    links whose rates it reads off.
     """
 
     sheet: int
@@ -65,6 +67,7 @@ class ProtocolSentence(Struct, frozen=True):
     letters: tuple[str, ...]
     ends: tuple[Part, ...]
     aside: str = ""
+    rates: tuple[str, ...] = ()
 
 
 class Timed(Struct, frozen=True):
@@ -255,11 +258,29 @@ def spoken(
             place,
             AND.join((markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))),
             tuple(text for text, _ in why),
-            tuple(step for _, step in why),
+            tuple(shown_by(drawing, step, fresh, shown) for _, step in why),
             tuple(found),
             tuple(labels.get(crossing.name, symbol(crossing.name)) for crossing in found),
             tuple(part for part in STOPS if last.get(part) == stage),
+            rates=tuple(rates_read(drawing, sentence)),
         )
+
+
+def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: AbstractSet[int]) -> int:
+    """The step whose marks show another one: itself, or the arrow that ends in it."""
+    if number in shown:
+        return number
+    steps = drawing.trace.program.steps
+    arrows = (n for n in fresh if n in shown and steps[n].arrow and number in steps[n].args)
+    return min(arrows, default=number)
+
+
+def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
+    """The links whose rates a sentence reads off."""
+    if sentence.name == TURNING:
+        for (what, link), number in drawing.trace.program.targets.items():
+            if what == drawing.rate.target and number in sentence.all_steps:
+                yield link
 
 
 def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:

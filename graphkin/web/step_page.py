@@ -14,13 +14,14 @@ from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import called, scale_of
 from graphkin.construction.core.program import Part
 from graphkin.documents.captions import HEADING, apart
-from graphkin.documents.sheet import title_of
+from graphkin.documents.sheet import asked, title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.web import facts
 from graphkin.web.field_pictures import BAR, bar_rules, field_picture, ink_sheet
+from graphkin.web.highlights import ghosts, rates, rows_found, triangles
 from graphkin.web.legend import meanings
 from graphkin.web.offline_page import data_block, offline_page, part
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
@@ -84,6 +85,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     moves = slider(mechanism, sheets)
     drawing = sheets[0].drawing
     pieces = given(drawing)
+    found = rows_found(sheets, told)
     body = filled(
         "web/templates/step.html",
         **common(sheets),
@@ -97,6 +99,8 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
             (sheet.drawing.kind, sheet_name(sheet), list(facts.results(sheet.drawing)))
             for sheet in sheets
         ],
+        found=found,
+        sought=[piece for sheet in sheets for piece in asked(sheet.drawing)],
         data=pieces,
         datum=place_of(moves.datum, pieces),
         meanings=list(meanings(drawing.words, sheets)),
@@ -108,7 +112,7 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
     scripts = [together(STEP_PAGE)]
     if moves.source:
         scripts.insert(0, moves.source)
-    return written(sheets, body, ink, [part("steps.css")], scripts)
+    return written(sheets, body, ink, [part("steps.css"), part("story.css")], scripts)
 
 
 def task_page(
@@ -268,6 +272,10 @@ def record(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, objec
         "hangs": told.hangs,
         "aside": told.aside,
         "squares": told.squares,
+        "rates": rates(sheets, told),
+        "similar": triangles(sheets),
+        "ghosts": ghosts(sheets[0], told),
+        "task": [words("screen.task"), words("screen.begin")],
         "stops": [first for first, _, _ in told.stops()],
         "count": words("page.step_of", number="{number}", all="{all}"),
         "mark": words("decimal_mark"),

@@ -5,15 +5,15 @@ function key(event) {
   const at = event.target;
   if (at.matches("input:not([type=range]),select,textarea")) return;
   const range = at.matches("input[type=range]"), pressed = at.matches("button,a,summary");
-  const stop = data.stops[Number(event.key) - 1];
+  const stop = event.key === "0" ? 0 : data.stops[Number(event.key) - 1];
   const act = {
     ArrowLeft: range ? null : () => go(state.step - 1),
     ArrowRight: range ? null : () => go(state.step + 1),
-    Home: range ? null : () => go(1),
+    Home: range ? null : () => go(0),
     End: range ? null : () => go(last),
     " ": pressed ? null : toggle,
     z: zoom,
-  }[event.key] ?? (stop ? () => go(stop) : null);
+  }[event.key] ?? (stop === undefined ? null : () => go(stop));
   if (!act) return;
   event.preventDefault();
   act();
@@ -57,6 +57,8 @@ if (motion) {
   driver.addEventListener("input", () => drive(Number(driver.value)));
   byId("back").addEventListener("click", () => drive(motion.start));
 }
+for (const sign of ["pointerover", "focusin"]) byId("reason").addEventListener(sign, light);
+for (const sign of ["pointerleave", "focusout"]) byId("reason").addEventListener(sign, () => point_at(null));
 addEventListener("hashchange", follow_address);
 addEventListener("resize", fit);
 addEventListener("beforeprint", whole);

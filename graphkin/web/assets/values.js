@@ -44,6 +44,8 @@ function read_out() {
   byId("values").replaceChildren(...all_asked(sheets[here()].element.dataset.kind));
 }
 
+const found = [...document.querySelectorAll("#results [data-found]")];
+
 /** All that is asked on a sheet, each in one line. */
 function all_asked(kind) {
   const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
@@ -55,7 +57,12 @@ function asked(cells) {
   const table = cells[0].closest("table");
   const place = { vectors: 3, turns: 1, slides: 1 }[table.className];
   const value = document.createElement("span");
-  value.append(...copies(cells[0]), " = ", ...copies(cells[place]), " ");
+  value.append(...copies(cells[0]), " = ");
+  if (cells[0].parentElement.matches(".unknown")) {
+    value.append("?");
+    return value;
+  }
+  value.append(...copies(cells[place]), " ");
   value.append(...copies(table.tHead.rows[0].cells[place]));
   if (place === 1 && cells[2].textContent) value.append(", ", ...copies(cells[2]));
   return value;
