@@ -28,7 +28,7 @@ STEP_PAGE = (
     "keys.js",
 )
 """The script of a step page: at once, a file uses only what stands before it."""
-PLAYER = ("numbers.js", "player.js")
+PLAYER = ("numbers.js", "curves.js", "player.js")
 """The script of a cycle's page."""
 MOVING = ("moving.js",)
 """What lays out the marks that follow the driver."""
