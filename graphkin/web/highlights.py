@@ -8,13 +8,16 @@ from graphkin.construction.centres.acceleration_poles import AccelerationPole
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.mark_dependencies import BODY
 from graphkin.drawing.marks import CircleMark, Text
 from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.facts import SLIDES
 from graphkin.web.protocol import DRAWN, PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
+from graphkin.writers.html_markup import marked_up
 
 BODIES = tuple(set(BODY) - {"number", "label", "leader"})
 """The classes of bars and plates."""
@@ -23,8 +26,9 @@ HIDDEN = {*DRAWN, *VECTORS, "detail", "note", "caption"}
 
 
 def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[dict[str, object]]]:
-    """For each sentence that reads rates off, those: the row of each, its sense as drawn, the ids
-    of its link's marks and of that which bears its number, the ends of its bar, and its vector.
+    """For each sentence that reads rates off, those: the row of each, how it is told, its sense as
+    drawn, the ids of its link's marks and of that which bears its number, the ends of its bar, and
+    its vector.
     """
     found: dict[int, list[dict[str, object]]] = {}
     for at, said in enumerate(told.said, 1):
@@ -33,6 +37,7 @@ def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[d
             body, number = marks_of_link(told, said.sheet, link)
             one: dict[str, object] = {
                 "row": f"{drawing.rate.letter}{link}",
+                "told": told_as(drawing, link),
                 "sense": float(drawing.turning(link) or 0.0),
                 "body": body,
                 "number": number,
@@ -43,6 +48,13 @@ def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[d
                 one |= {"bar": kind.places, "vector": vector_of(drawing, kind)}
             found.setdefault(at, []).append(one)
     return found
+
+
+def told_as(drawing: Drawing, link: str) -> str:
+    """How the rate of a link is found, in symbols, as HTML."""
+    name = symbol(f"{drawing.rate.letter}_{link}")
+    relation = next(each for each in of_turning(drawing) if each.left == name)
+    return marked_up(f"{name} = {relation.symbols}" if relation.symbols else name)
 
 
 def marks_of_link(told: PageProtocol, sheet: int, link: str) -> tuple[list[str], str]:

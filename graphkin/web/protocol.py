@@ -38,6 +38,7 @@ STOPS = (
     Part.NORMAL,
     Part.ACCELERATION,
     Part.POLE,
+    Part.RESULT,
 )
 """The parts of the work to whose beginnings one may go."""
 GUIDE = "guide "

@@ -25,6 +25,7 @@ STEP_PAGE = (
     "room.js",
     "address.js",
     "playing.js",
+    "aiming.js",
     "keys.js",
 )
 """The script of a step page: at once, a file uses only what stands before it."""

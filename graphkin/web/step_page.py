@@ -44,8 +44,9 @@ STOP_NAMES = {
     Part.NORMAL: "screen.normal",
     Part.ACCELERATION: "screen.acceleration",
     Part.POLE: "screen.pole",
+    Part.RESULT: "screen.rates_{}",
 }
-"""What the buttons say that go to the parts of the work."""
+"""What the buttons say that go to the parts of the work, some by the kind of their sheet."""
 
 
 class Form(Struct, frozen=True):
@@ -105,7 +106,10 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
         datum=place_of(moves.datum, pieces),
         meanings=list(meanings(drawing.words, sheets)),
         steps=len(told.said),
-        stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
+        stops=[
+            (first, last, STOP_NAMES[stop].format(sheets[told.said[first - 1].sheet].drawing.kind))
+            for first, last, stop in told.stops()
+        ],
         moves=moves,
         run=data_block("run", record(sheets, told)),
     )

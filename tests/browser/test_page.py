@@ -153,6 +153,28 @@ def test_a_result_is_hidden_until_the_step_that_finds_it(opened: Opened, pages: 
     assert len({*page.evaluate(colours)}) == 1
 
 
+def test_a_rate_is_told_where_the_driver_now_is(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=15&x=80", **DESKTOP)
+    trace = moved(screen_sheets(load("pump"), "en")[0].drawing, load("pump"), 80.0)
+    omega = words("en").significant(abs(trace.value("omega", "3")))
+    told = page.locator("#sentence")
+    assert told.inner_text() == f"ω3 = vBA/AB = {omega} rad/s, counter-clockwise"
+    page.locator("#back").click()
+    assert told.inner_text() == "ω3 = vBA/AB = 11.059/0.4 = 27.65 rad/s (counter-clockwise)"
+
+
+def test_a_tap_beside_a_line_leads_to_its_step(opened: Opened, pages: Path):
+    """A finger is wider than a line: some dots off it are still meant for it."""
+    page = opened(pages / "pump.html", "#step=16", **DESKTOP)
+    line = page.locator("#sheet-0 line[data-name='ab']:not(.halo *)").first
+    middle = line.evaluate(
+        """mark => { const { x, y, width, height } = mark.getBoundingClientRect();
+          return [x + width / 2 + 3, y + height / 2 - 2]; }"""
+    )
+    page.mouse.click(*middle)
+    assert step_of(page) == 7
+
+
 # --- both plans, and the pen ---------------------------------------------------------------------
 
 
@@ -201,7 +223,7 @@ def test_keys_go_through_the_steps(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
     last = page.evaluate(STEPS)
     found = []
-    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "6"):
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "7"):
         page.keyboard.press(key)
         found.append(step_of(page))
     assert found == [1, 2, 1, last, last, 0, 5, 37]
@@ -272,7 +294,7 @@ def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
     told = f"b: the lines cross at {degrees_of(b.angle):.0f}°, "
     told += f"a 1 mm drawing error grows to as much as {b.factor:.1f} mm"
     assert page.locator("#crossing").inner_text() == told
-    page.keyboard.press("3")
+    page.keyboard.press("4")
     assert f"vD = {size} m/s" in page.locator("#values").inner_text()
     for link in "234":
         omega = trace.value("omega", link)

@@ -34,6 +34,7 @@ function drive(x) {
   clear_off(step => !ok || flat.some(crossing => data.hangs[step].includes(crossing)));
   byId("place").textContent = !ok ? byId("place").dataset.open : dead ? byId("place").dataset.dead : "";
   if (!state.dead) read();
+  tell_rates();
   page.classList.toggle("silent", state.dead);
   warn(byId("told"), places[state.step - 1]?.crossings ?? []);
   trace();

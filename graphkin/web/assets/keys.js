@@ -40,18 +40,17 @@ places.forEach(({ link }, i) => link.addEventListener("click", event => {
   go(i + 1);
 }));
 for (const { element } of sheets) {
-  const step = event => event.target.closest("[data-of]")?.dataset.of;
   element.addEventListener("click", event => {
-    const at = data.at[step(event)];
+    const at = data.at[aimed(event)];
     if (at) go(at);
   });
-  element.addEventListener("pointerover", event => {
-    const over = event.pointerType === "mouse" && step(event);
-    if (over) point_at(over);
+  element.addEventListener("pointermove", event => {
+    if (event.pointerType !== "mouse" || event.buttons || !event.target.closest(".view")) return;
+    const over = aimed(event);
+    event.target.closest(".view").classList.toggle("aimed", Boolean(data.at[over]));
+    point_at(over);
   });
-  element.addEventListener("pointerout", event => {
-    if (!event.relatedTarget?.closest?.("[data-of]")) point_at(null);
-  });
+  element.addEventListener("pointerleave", () => point_at(null));
 }
 if (motion) {
   driver.addEventListener("input", () => drive(Number(driver.value)));

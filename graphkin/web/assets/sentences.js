@@ -14,6 +14,7 @@ function say() {
   byId("count").textContent = count;
   slider.setAttribute("aria-valuetext", count);
   tell(byId("told"), state.step);
+  tell_rates();
   byId("told").scrollTop = 0;
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
   const list = byId("steps");
@@ -60,6 +61,19 @@ function tell(told, step) {
   told.querySelector("#behind").hidden = !step;
   told.querySelector("#aside").replaceChildren(...(aside ? copies(aside) : []));
   warn(told, crossings);
+}
+
+/** Where the driver has moved, tell the rates that are read off as they are there. */
+function tell_rates() {
+  const read = rates_read(), told = byId("sentence");
+  if (!read.length) return;
+  told.replaceChildren(...copies(places[state.step - 1].say));
+  if (!moved()) return;
+  told.replaceChildren(...read.flatMap(({ row, told: name }, i) => {
+    const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`), start = document.createElement("span");
+    start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped where it was made
+    return [start, ...(state.dead ? ["?"] : value_of([...cells]))];
+  }));
 }
 
 /** The reasons, each a line of its own in the colour of its stroke; a button where that can be lit. */

@@ -16,7 +16,8 @@ const sheets = [...document.querySelectorAll(".sheet")].map(element => {
 
 /** A field: its picture, the groups beneath and above what is marked, its box, and that of all that is drawn. */
 function field(svg) {
-  const halo = svg.insertBefore(document.createElementNS(SVG, "g"), svg.firstChild);
+  const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath what is filled
+  const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
   const front = svg.appendChild(document.createElementNS(SVG, "g"));
   for (const group of [halo, front]) group.setAttribute("class", "halo");
   const { x, y, width, height } = svg.viewBox.baseVal;
