@@ -44,9 +44,13 @@ STOP_NAMES = {
     Part.NORMAL: "screen.normal",
     Part.ACCELERATION: "screen.acceleration",
     Part.POLE: "screen.pole",
-    Part.RESULT: "screen.rates_{}",
 }
-"""What the buttons say that go to the parts of the work, some by the kind of their sheet."""
+"""What the buttons say that go to the parts of the work."""
+RATE_NAMES = {
+    "velocity": "screen.rates_velocity",
+    "acceleration": "screen.rates_acceleration",
+}
+"""What they say that go to the rates of links, by the kind of the sheet."""
 
 
 class Form(Struct, frozen=True):
@@ -107,7 +111,11 @@ def step_page(mechanism: Mechanism, language: str | None = None, ink: Ink = "col
         meanings=list(meanings(drawing.words, sheets)),
         steps=len(told.said),
         stops=[
-            (first, last, STOP_NAMES[stop].format(sheets[told.said[first - 1].sheet].drawing.kind))
+            (
+                first,
+                last,
+                STOP_NAMES.get(stop, RATE_NAMES[sheets[told.said[first - 1].sheet].drawing.kind]),
+            )
             for first, last, stop in told.stops()
         ],
         moves=moves,

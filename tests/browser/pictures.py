@@ -34,7 +34,7 @@ def draw_page(page: Any, path: Path) -> None:
     file = Path(tempfile.mkdtemp()) / "pump.html"
     text = hand_out_page(load("pump", n=7), "pump", "pump-n7", "key", "en", "colour")
     file.write_text(text, encoding="utf-8")
-    page.goto(f"{file.as_uri()}#step=9")
+    page.goto(f"{file.as_uri()}#step=12")
     page.wait_for_timeout(500)
     page.screenshot(path=path)
 

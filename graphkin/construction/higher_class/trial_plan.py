@@ -125,10 +125,10 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
         """A part of it after what it is; in the ``first`` one, after what it assumes too."""
-        key = "step.trial-2" if self.repeats else "step.trial-1"
         if not first:
-            return drawing.words(f"{key}-on", how=how)
+            return drawing.words("step.trial-2-on" if self.repeats else "step.trial-1-on", how=how)
         what, size = self.assumed(drawing, self.points(drawing))
+        key = "step.trial-2" if self.repeats else "step.trial-1"
         return drawing.words(key, what=what, amount=size, how=how)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
