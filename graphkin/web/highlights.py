@@ -97,8 +97,11 @@ def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
 
 def ghosts(sheet: ScreenSheet, told: PageProtocol) -> list[int]:
     """The numbers of the marks of the mechanism on the first sheet: all but the construction."""
+    curves = {f"{curve.kind} {curve.of}" for curve in sheet.drawing.curves}
     found = []
     for k, timed in enumerate(told.timed[0][: len(sheet.left)]):
+        if timed.mark.name in curves:
+            continue
         looks = timed.mark.cls.split()
         if isinstance(timed.mark, Text):
             looks = looks[1:] or looks

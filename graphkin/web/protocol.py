@@ -22,7 +22,7 @@ from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.sentences import TURNING
 from graphkin.documents.step_numbers import behind, stage_of, stages
-from graphkin.documents.step_visibility import accompanied
+from graphkin.documents.step_visibility import accompanied, letters_of, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
 from graphkin.drawing.style import AUXILIARY, VECTORS
 from graphkin.drawing.symbol_markup import symbol
@@ -72,11 +72,15 @@ class ProtocolSentence(Struct, frozen=True):
 
 
 class Timed(Struct, frozen=True):
-    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step."""
+    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step.
+
+    ``letters`` are the sentences of the letters that share a label.
+    """
 
     mark: Mark
     at: int
     step: int | None
+    letters: tuple[int, ...] = ()
 
 
 class PageProtocol(Struct, frozen=True):
@@ -126,7 +130,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
     for place, sheet in enumerate(sheets):
         own, staged, marks = in_parts(sheet)
         before = len(said)
-        timed.append(tuple(replace(one, at=one.at and before + one.at) for one in marks))
+        timed.append(tuple(later(one, before) for one in marks))
         for step, stage in staged.items():
             if not at.get(step):
                 at[step] = len(said) + stage + 1 if stage >= 0 else 0
@@ -173,8 +177,30 @@ def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[
             places += [len(said)] * count
             said.append(sentence)
     own = {step: places[stage] if stage >= 0 else stage for step, stage in staged.items()}
-    timed = tuple(replace(one, at=places[one.at - 1] + 1 if one.at else 0) for one in marks)
+    telling = when_told(drawing, own)
+    timed = tuple(
+        replace(
+            one,
+            at=places[one.at - 1] + 1 if one.at else 0,
+            letters=letters_told(one.mark, telling),
+        )
+        for one in marks
+    )
     return with_indices(drawing, said), own, timed
+
+
+def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
+    """The sentences (from 1) that find the letters of a label that several share, 0 for given."""
+    if not isinstance(mark, Text) or mark.step is None or mark.rotate:
+        return ()
+    names, count = mark.name.split(), len(letters_of(mark))
+    return tuple(telling.get(name, -1) + 1 for name in names) if len(names) == count > 1 else ()
+
+
+def later(one: Timed, before: int) -> Timed:
+    """A mark after the sentences of the sheets before its own; what is given stays so."""
+    letters = tuple(at and before + at for at in one.letters)
+    return replace(one, at=one.at and before + one.at, letters=letters)
 
 
 def strokes(marks: Iterable[Timed], count: int) -> list[int]:

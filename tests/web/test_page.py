@@ -23,7 +23,9 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.web import step_page as page
+from graphkin.web.facts import results
 from graphkin.web.field_pictures import ink_sheet
+from graphkin.web.highlights import ghosts, rows_found
 from graphkin.web.offline_page import data_block, offline_page, part
 from graphkin.web.page_sentences import MOST, SentencePart, parted_sentences
 from graphkin.web.protocol import PageProtocol, in_parts, strokes, telling
@@ -168,6 +170,45 @@ def test_a_step_that_draws_lines_in_a_plan_draws_those_of_one_point(name):
 @pytest.mark.parametrize("name", [*FEW, "stephenson-2-binary", "gears-pair"])
 def test_every_step_has_its_reason(name):
     assert not [plain(one.markup) for one in told_of(name).said if not one.why]
+
+
+def test_a_letter_that_shares_a_label_appears_with_its_own_sentence():
+    """o stands from the first; the images of the first trial plan fall on it only with that."""
+    told = told_of("stephenson-3-crank")
+    (label,) = (one for one in told.timed[0] if one.letters and one.mark.name.startswith("o "))
+    (trial,) = (
+        at
+        for at, one in enumerate(told.said, 1)
+        if "first trial plan" in one.markup and one.sheet == 0
+    )
+    assert label.at == 0
+    assert label.letters == (0, trial, trial, trial)
+    markup = page_of("stephenson-3-crank")
+    assert '<tspan data-from="0" ' in markup and f'<tspan data-from="{trial}" ' in markup
+
+
+def test_the_beginning_shows_the_mechanism_and_nothing_of_the_construction():
+    sheet = sheets_of("stephenson-3-crank")[0]
+    marks = [
+        told_of("stephenson-3-crank").timed[0][k].mark
+        for k in ghosts(sheet, told_of("stephenson-3-crank"))
+    ]
+    assert {mark.name for mark in marks if mark.cls == "pin"} == {"A", "B", "C", "D"}
+    assert not [
+        m for m in marks if {"compass", "construction", "velocity", "locus"} & {*m.cls.split()}
+    ]
+    assert not [m.name for m in marks if m.name.startswith("locus")]
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_each_result_is_found_by_a_sentence_of_its_own_sheet(name):
+    found, told = rows_found(sheets_of(name), told_of(name)), told_of(name)
+    for place, sheet in enumerate(sheets_of(name)):
+        first, last = told.bounds(place)
+        rows = [row for table in results(sheet.drawing) for row, _ in table.rows]
+        assert rows
+        assert all(found[row] == 0 or first <= found[row] <= last for row in rows)
+        assert len({found[row] for row in rows}) > 2
 
 
 def test_the_rate_of_each_link_is_found_in_figures_of_its_own_step():

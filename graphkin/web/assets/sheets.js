@@ -11,7 +11,8 @@ const sheets = [...document.querySelectorAll(".sheet")].map(element => {
     const step = mark.dataset.of;
     if (step) of.set(step, [...(of.get(step) ?? []), mark]);
   }
-  return { element, marks, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
+  const parts = element.querySelectorAll("[data-from]"); // letters that share a label
+  return { element, marks, parts, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
 });
 
 /** A field: its picture, the groups beneath and above what is marked, its box, and that of all that is drawn. */

@@ -11,6 +11,7 @@ function show(step) {
     mark.classList.toggle("later", at > state.step);
     mark.classList.toggle("now", at > 0 && at === state.step);
   }
+  for (const part of sheets[here()].parts) part.classList.toggle("later", Number(part.dataset.from) > state.step);
   for (const row of found) row.classList.toggle("unknown", Number(row.dataset.found) > state.step);
   slider.value = state.step;
   byId("previous").disabled = state.step === 0;
