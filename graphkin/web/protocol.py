@@ -27,8 +27,8 @@ from graphkin.drawing.marks import CircleMark, Mark, Text
 from graphkin.drawing.style import AUXILIARY, VECTORS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.label_names import as_labelled, labels_of
-from graphkin.web.page_sentences import AND, parted_sentences
-from graphkin.web.reasons import NO_STEP, of_sentence, reasons
+from graphkin.web.page_sentences import AND, MOST, parted_sentences
+from graphkin.web.reasons import NO_STEP, VECTORS_APART, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
 STOPS = (
@@ -177,16 +177,43 @@ def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[
             places += [len(said)] * count
             said.append(sentence)
     own = {step: places[stage] if stage >= 0 else stage for step, stage in staged.items()}
+    timed = [replace(one, at=places[one.at - 1] + 1 if one.at else 0) for one in marks]
+    said, own, timed = vectors_apart(drawing, said, own, timed)
     telling = when_told(drawing, own)
-    timed = tuple(
-        replace(
-            one,
-            at=places[one.at - 1] + 1 if one.at else 0,
-            letters=letters_told(one.mark, telling),
-        )
+    lettered = (replace(one, letters=letters_told(one.mark, telling)) for one in timed)
+    return with_indices(drawing, said), own, tuple(lettered)
+
+
+def vectors_apart(
+    drawing: Drawing, said: Sequence[Sentence], own: Mapping[int, int], marks: Sequence[Timed]
+) -> tuple[list[Sentence], dict[int, int], list[Timed]]:
+    """The same, where vectors that are too many for the sentence that finds their ends follow it
+    in sentences of their own.
+    """
+    counts = strokes(marks, len(said))
+    shown = {one.step for one in marks}
+    found: list[Sentence] = []
+    places: list[int] = []
+    moved: dict[int, int] = {}
+    for stage, sentence in enumerate(said):
+        places.append(len(found))
+        found.append(sentence)
+        fresh = sorted(step for step, at in own.items() if at == stage and step in shown)
+        arrows = [n for n in fresh if vector_found(drawing, n, sentence.markup)]
+        late = arrows[max(len(arrows) - max(counts[stage] - MOST, 0), 0) :]
+        for first in range(0, len(late), MOST):
+            some = late[first : first + MOST]
+            markup = AND.join(vector_found(drawing, number, "") for number in some)
+            moved |= dict.fromkeys(some, len(found))
+            found.append(Sentence(some[-1], VECTORS_APART, markup, tuple(some)))
+    later_own = {step: places[at] if at >= 0 else at for step, at in own.items()} | moved
+    timed = [
+        replace(one, at=(later_own[one.step] if one.step in moved else places[one.at - 1]) + 1)
+        if one.at
+        else one
         for one in marks
-    )
-    return with_indices(drawing, said), own, timed
+    ]
+    return found, later_own, timed
 
 
 def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
@@ -312,13 +339,19 @@ def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
 
 def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:
     """Which segments are the vectors of the plan that a sentence draws without a word of them."""
-    for number in fresh:
-        step = drawing.trace.program.steps[number]
-        vector = plan_vector(step)
-        if vector is not None and step.plane is drawing.plane and vector.symbol:
-            told, segment = symbol(vector.symbol), segment_of(drawing, step)
-            if segment and told not in markup:
-                yield f"{segment} = {told}"
+    return (told for number in fresh if (told := vector_found(drawing, number, markup)))
+
+
+def vector_found(drawing: Drawing, number: int, markup: str) -> str:
+    """Which segment is the vector of the plan that a step draws; nothing for any other step, and
+    for one of which a sentence tells.
+    """
+    step = drawing.trace.program.steps[number]
+    vector = plan_vector(step)
+    if vector is None or step.plane is not drawing.plane or not vector.symbol:
+        return ""
+    told, segment = symbol(vector.symbol), segment_of(drawing, step)
+    return f"{segment} = {told}" if segment and told not in markup else ""
 
 
 def timed_marks(

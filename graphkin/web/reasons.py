@@ -32,7 +32,10 @@ LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
 """The reason that is given at the end, for all points at once."""
 TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
 """Why the turning of links is read off as each sheet says."""
+VECTORS_APART = "vectors"
+"""The name of a sentence that draws vectors between images that the one before has found."""
 BY_NAME = {
+    VECTORS_APART: "why.vectors",
     "again": "why.again",
     SET_ON: "why.set_on",
     "moving-centrode": "why.centrodes",
