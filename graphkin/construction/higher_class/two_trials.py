@@ -5,7 +5,7 @@ What a trial misses grows in proportion to what was tried (method of two plans, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import ClassVar
 
 from msgspec import Struct
@@ -95,7 +95,6 @@ class TwoTrials(Construction, frozen=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("share", "measured")
-    reasons: ClassVar[Mapping[str, str]] = {"share": "why.gaps"}
 
     group: Higher
     plans: tuple[TrialPlan, TrialPlan]
@@ -118,6 +117,10 @@ class TwoTrials(Construction, frozen=True):
         return (p for p in constructions(program, DividedPoint) if p.share == self.share)
 
     # --- in words --------------------------------------------------------------------------------
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Why it is found from what the trials miss, where no crossing finds it."""
+        return "why.gaps" if role == "share" and self.measured not in drawing.trace.values else ""
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """What the trials miss: between which points the gaps are measured, how large they are."""
