@@ -117,6 +117,7 @@ def test_the_page_begins_with_the_whole_mechanism_and_the_task(opened: Opened, p
     brief = page.locator("#brief").inner_text()
     assert "the velocity of D" in brief and "O1A = O2B = 30 cm" in brief
     assert page.evaluate("[...'ABCD'].every(" + VISIBLE + ")")
+    assert not barred(page)
     assert page.evaluate("document.querySelectorAll('.halo .new').length") == 0
     page.keyboard.press("ArrowRight")
     assert not page.locator("#brief").is_visible()
