@@ -198,8 +198,7 @@ def grade(
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     given.unread = open_cells(found.result, given.unread)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
-    if not (out / DECISIONS).exists():
-        files[DECISIONS] = EMPTY
+    files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
     files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
     full = scale_of(scale, context)

@@ -18,6 +18,24 @@ def point_sentence(drawing: Drawing, step: Step) -> str:
     return "; ".join([*parts, kind.point_sentence(drawing, step.role)])
 
 
+def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
+    """The same line by line, each with the step that it ends with; the point after its lines.
+
+    All at once where the point cannot be told apart from them.
+    """
+    step = drawing.trace.program.steps[number]
+    kind = construction(step)
+    assert kind is not None
+    apart = kind.point_apart(drawing, step.role)
+    if not apart:
+        yield number, point_sentence(drawing, step)
+        return
+    for arg in kind.said_before(drawing, step.role):
+        if said := "; ".join(clauses(drawing, arg, step.plane)):
+            yield arg, said
+    yield number, apart
+
+
 def clauses(drawing: Drawing, number: int, plane: Plane) -> Iterator[str]:
     """The clause of a line or an arc of a drawing, after that of the vector laid off before it."""
     step = drawing.trace.program.steps[number]

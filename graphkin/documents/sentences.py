@@ -23,10 +23,17 @@ from graphkin.drawing.symbol_markup import symbol
 
 TURNING = "turning"
 """The name of the last sentence where it says how the turning of links is read off."""
+SET_ON = "set-on"
+"""The name of that which only sets vectors on the mechanism."""
 
 
 def sentences(drawing: Drawing) -> list[Sentence]:
     """What to draw on a sheet, in the order of drawing, and what to read off at the end."""
+    return with_indices(drawing, unexplained(drawing))
+
+
+def unexplained(drawing: Drawing) -> list[Sentence]:
+    """The same without what indices mean."""
     found: list[Sentence] = []
     if drawing.again:
         found.append(Sentence(-1, "again", drawing.words("step.again")))
@@ -43,7 +50,7 @@ def sentences(drawing: Drawing) -> list[Sentence]:
     last = list(read_off(drawing))
     for together in TOGETHER:
         found = together(drawing, found)
-    return with_indices(drawing, [*found, *last])
+    return [*found, *last]
 
 
 def read_off(drawing: Drawing) -> Iterator[Sentence]:
@@ -52,7 +59,7 @@ def read_off(drawing: Drawing) -> Iterator[Sentence]:
     turns = any(drawing.turning(link) is not None for link in drawing.scene.links)
     turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
     if markup := set_on_mechanism(drawing, turning):
-        yield Sentence(-1, TURNING if turns else "", markup)
+        yield Sentence(-1, TURNING if turns else SET_ON, markup)
 
 
 def set_on_mechanism(drawing: Drawing, turning: str) -> str:

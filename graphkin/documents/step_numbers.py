@@ -14,6 +14,7 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.documents.mark_dependencies import Target, rests_on
+from graphkin.documents.sentences import SET_ON
 from graphkin.drawing.marks import Mark
 
 AT_LAST = ("detail", "note")
@@ -43,12 +44,13 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
         for number in behind(program, sentence.all_steps):
             found.setdefault(number, stage)
     early = set_before(drawing)
+    setting = next((at for at, one in enumerate(said) if one.name == SET_ON), len(said) - 1)
     for number in drawing.trace.values:
         step = program.steps[number]
         if not step.args:
             found[number] = BEFORE
         elif is_set_on(step):
-            found[number] = found.get(early.get(number, BEFORE), len(said) - 1)
+            found[number] = found.get(early.get(number, BEFORE), setting)
         elif number not in found:
             ends = (*step.args, *of_component(drawing, step))
             found[number] = max((found.get(end, BEFORE) for end in ends), default=BEFORE)

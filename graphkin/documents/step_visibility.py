@@ -91,6 +91,12 @@ def is_leader(mark: Mark) -> bool:
     return mark.cls.startswith("leader")
 
 
+def letters_of(mark: Text) -> list[str]:
+    """The letters of a label, each with what joins it to the one before."""
+    joints = ["", *TOGETHER.findall(mark.markup)]
+    return [*map("".join, zip(joints, TOGETHER.split(mark.markup), strict=True))]
+
+
 def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:
     """Of the letters that share a label those that stand already, as near as all to their point.
 

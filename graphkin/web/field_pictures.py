@@ -7,12 +7,13 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
+from graphkin.documents.step_visibility import letters_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.glyphs import font_face
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.style import BRIEF, Ink, in_variables
 from graphkin.web.protocol import Timed
-from graphkin.writers.svg import LETTERING, element, number, rules
+from graphkin.writers.svg import LETTERING, element, number, parted_text, rules
 
 WIDTH = re.compile(r"stroke-width:([\d.]+)")
 THINNEST = 0.24
@@ -46,8 +47,16 @@ def placed(name: str, timed: Timed) -> str:
     """
     own = f' id="{name}"' if name else " data-aside"
     of = f' data-of="{timed.step}"' if timed.step is not None else ""
-    written = element(timed.mark).replace(" ", f'{own} data-at="{timed.at}"{of} ', 1)
+    written = drawn_mark(timed).replace(" ", f'{own} data-at="{timed.at}"{of} ', 1)
     return f'<g class="lettering">{written}</g>' if isinstance(timed.mark, Text) else written
+
+
+def drawn_mark(timed: Timed) -> str:
+    """A mark; of a label that several letters share each appears with its own sentence."""
+    if not timed.letters or not isinstance(timed.mark, Text):
+        return element(timed.mark)
+    parts = zip(letters_of(timed.mark), timed.letters, strict=True)
+    return parted_text(timed.mark, [(part, f'data-from="{at}"') for part, at in parts])
 
 
 def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:

@@ -36,6 +36,8 @@ LEFT: XY = (-0.8, -0.6)
 """Where a letter stands when its direction is lost: to the left, above."""
 GAP = 0.6
 """Letters keep so far from one another, in mm."""
+ASIDE = 2.0
+"""The same in a row, where two letters would be read as those of one segment."""
 ROUND = 2.0
 """Circles up to this radius are pins and points, in mm."""
 FAINT = ("ground", "centre-line", "construction", "pitch", "trajectory", "drive")
@@ -132,7 +134,7 @@ def lettering(seen: FrameView, rules: Mapping[str, Rule], rect: Rect) -> Iterato
 def meet(one: XY, width: float, other: XY, breadth: float) -> bool:
     """Whether two letters with their middles at two places lie on one another."""
     across, down = abs(one[0] - other[0]), abs(one[1] - other[1])
-    return across < (width + breadth) / 2 + GAP and down < LETTER + GAP
+    return across < (width + breadth) / 2 + ASIDE and down < LETTER + GAP
 
 
 # --- finding the rules ----------------------------------------------------------------------------
@@ -257,7 +259,7 @@ def price(
     cost += COVERED["point"] * on.sum(axis=1)
     for (x, y), breadth in letters:
         across, down = np.abs(spots[:, 0] - x), np.abs(spots[:, 1] - y)
-        met = (across < (width + breadth) / 2 + GAP) & (down < LETTER + GAP)
+        met = (across < (width + breadth) / 2 + ASIDE) & (down < LETTER + GAP)
         cost += COVERED["letter"] * met
     low, high = np.array(rect[:2]) + half, np.array(rect[2:]) - half
     return cost + COVERED["outside"] * ((spots < low) | (spots > high)).any(axis=1)

@@ -10,13 +10,15 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, spans
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.scaling import natural_seconds, targets_of
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import Field
-from graphkin.drawing.marks import CircleMark, Mark, Text
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
 from graphkin.drawing.richtext import escape as markup
 from graphkin.drawing.scale import Scales
+from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
@@ -28,7 +30,7 @@ from graphkin.web.field_pictures import placed as drawn
 from graphkin.web.frame_marks import driver_marks
 from graphkin.web.frames import FrameSequence, made, place_in, sense_of
 from graphkin.web.moving import Moving, moving
-from graphkin.web.moving_labels import GAP, LEFT, LETTER
+from graphkin.web.moving_labels import ASIDE, GAP, LEFT, LETTER
 from graphkin.web.offline_page import data_block, offline_page, part
 from graphkin.web.panes import AIR, room_in
 from graphkin.web.protocol import Timed
@@ -40,6 +42,8 @@ from graphkin.writers.templates import filled
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
 
+NAMES = 2.8
+"""Height of the names of vectors, in mm."""
 POINTS = ("pin", "fixed-pivot", "point", "pole")
 """The classes of the circles that points are drawn as."""
 SPEEDS = (0.25, 0.5, 1.0, 2.0)
@@ -60,11 +64,12 @@ def player_page(motion: FrameSequence, words: Words) -> str:
     fixed = [list(scale_bar(field, unit, size, words)) for field, _, unit, size in shown]
     fixed[0] = [*set_up.ground, *fixed[0]]
     title = title_of(sheets[0].drawing)
+    named = [list(vector_names(sheet, s)) for s, sheet in enumerate(sheets)]
     body = filled(
         "web/templates/player.html",
         title=title,
         words=words,
-        figures=list(figures(set_up, sheets, fixed)),
+        figures=list(figures(set_up, sheets, fixed, named)),
         driver=moved.driven.name,
         speeds=SPEEDS,
         rows=[
@@ -73,13 +78,26 @@ def player_page(motion: FrameSequence, words: Words) -> str:
             for row in sorted(asked_rows(sheet.drawing))
         ],
         shortened=shortened(motion, moved, words),
-        run=data_block("run", record(set_up, moved, sheets)),
+        anew=words("animation.anew") if goes_back(moved) else "",
+        run=data_block("run", record(set_up, moved, sheets, named)),
     )
     marks = [mark for sheet in sheets for mark in (*sheet.left, *sheet.right)]
+    marks += [name.text for names in named for name in names]
     marks += [mark for own in fixed for mark in own]
-    looks = (ink_sheet(marks, "colour"), part("page.css"), part("player.css"), shape(set_up))
+    looks = (
+        ink_sheet(marks, "colour"),
+        part("page.css"),
+        part("player.css"),
+        part("curves.css"),
+        shape(set_up),
+    )
     scripts = (moved.source, together(PLAYER))
     return offline_page(title, words.language, body, looks, scripts)
+
+
+def goes_back(moved: Moving) -> bool:
+    """Whether a mechanism would have to go back from the end of what is shown."""
+    return moved.driven.driver is not None and not moved.reach.whole
 
 
 def cannot(cycle: Cycle) -> Problem:
@@ -133,8 +151,46 @@ class Figure(Struct, frozen=True):
     moves: Sequence[str]
 
 
+class VectorName(Struct, frozen=True):
+    """The name of a vector of a plan under its id, the id of the vector's line, if it is asked."""
+
+    id: str
+    line: str
+    text: Text
+    asked: bool
+
+
+def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
+    """The names of the vectors of a plan: of what is asked, then whole ones, then all others.
+
+    They stand at its pole; the script sets each beside its vector.
+    """
+    steps, asked = sheet.drawing.trace.program.steps, asked_rows(sheet.drawing)
+    found = []
+    for k, mark in enumerate(sheet.right, len(sheet.left)):
+        if isinstance(mark, LineMark) and mark.cls.split()[0] in VECTORS and mark.step is not None:
+            vector = plan_vector(steps[mark.step])
+            if vector is not None:
+                rank = (vector.symbol not in asked, bool(vector.p or vector.sign), k)
+                found.append((rank, mark, vector.symbol))
+    for rank, mark, name in sorted(found, key=lambda each: each[0]):
+        x, y = sheet.layout.plan.at
+        text = Text(x, y, symbol(name), f"label {mark.cls.split()[0]}", NAMES, "middle", name)
+        yield VectorName(f"v{s}-{rank[-1]}", f"m{s}-{rank[-1]}", text, not rank[0])
+
+
+def placed_label(name: VectorName) -> list[object]:
+    """The ids of a name and of its vector, the middle of its ink as drawn, its size, if asked."""
+    (left, top), _, (right, bottom), _ = name.text.corners()
+    middle = (left + right) / 2, (top + bottom) / 2
+    return [name.id, name.line, *middle, right - left, bottom - top, name.asked]
+
+
 def figures(
-    set_up: Stage, sheets: Sequence[ScreenSheet], fixed: Sequence[Sequence[Mark]]
+    set_up: Stage,
+    sheets: Sequence[ScreenSheet],
+    fixed: Sequence[Sequence[Mark]],
+    named: Sequence[Sequence[VectorName]],
 ) -> Iterator[Figure]:
     """The fields as pictures; where a plan is moved aside, its window goes the other way."""
     fields = [(0, 0, sheets[0].left)]
@@ -153,7 +209,10 @@ def figures(
             " ".join(map(number, (left - u, top - v, right - left, bottom - top))),
             f"{number(-u)} {number(-v)}",
             [drawn("", Timed(mark, 0, None)) for mark in below],
-            [drawn(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)],
+            [
+                *(drawn(f"m{s}-{first + k}", Timed(mark, 0, None)) for k, mark in enumerate(marks)),
+                *(drawn(name.id, Timed(name.text, 0, None)) for name in named[s] if place),
+            ],
         )
 
 
@@ -181,7 +240,12 @@ def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
     return symbol(row), unit
 
 
-def record(set_up: Stage, moved: Moving, sheets: Sequence[ScreenSheet]) -> dict[str, object]:
+def record(
+    set_up: Stage,
+    moved: Moving,
+    sheets: Sequence[ScreenSheet],
+    named: Sequence[Sequence[VectorName]],
+) -> dict[str, object]:
     """What the script has to know: what is shown of the motion, and how it is told."""
     motion, words = set_up.motion, set_up.words
     driven, sweep = moved.driven, motion.cycle.sweep
@@ -197,10 +261,13 @@ def record(set_up: Stage, moved: Moving, sheets: Sequence[ScreenSheet]) -> dict[
         "start": min(max(driven.start, low), high),
         "seconds": WAY if sweep.driver is not None and not moved.reach.whole else TURN,
         "sense": sense_of(motion.cycle),
+        "back": goes_back(moved),
+        "degrees": driven.unit == "deg",
         "unit": unit,
         "mark": words("decimal_mark"),
         "letters": [own for s, sheet in enumerate(sheets) for own in letters(set_up, sheet, s)],
-        "letter": [LETTER, GAP, *LEFT],
+        "letter": [LETTER, GAP, ASIDE, *LEFT],
+        "vectors": [[*map(placed_label, names)] for names in named],
         "panes": [panes(set_up, sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
         "senses": worded(sheets, words),
     }

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -11,18 +12,23 @@ from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
+from graphkin.construction.core.segments import segment_of
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.rolling.contact_points import PointOfContact
 from graphkin.documents.flattest import crossings_on
+from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
-from graphkin.documents.sentences import sentences
+from graphkin.documents.sentences import TURNING
 from graphkin.documents.step_numbers import behind, stage_of, stages
-from graphkin.documents.step_visibility import accompanied
+from graphkin.documents.step_visibility import accompanied, letters_of, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
+from graphkin.drawing.style import AUXILIARY, VECTORS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.label_names import as_labelled, labels_of
-from graphkin.web.reasons import of_reading, reasons
+from graphkin.web.page_sentences import AND, MOST, parted_sentences
+from graphkin.web.reasons import NO_STEP, VECTORS_APART, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
 STOPS = (
@@ -32,12 +38,15 @@ STOPS = (
     Part.NORMAL,
     Part.ACCELERATION,
     Part.POLE,
+    Part.RESULT,
 )
 """The parts of the work to whose beginnings one may go."""
 GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 SAME = 1e-6
 """Millimetres between places that are one."""
+DRAWN = {*VECTORS, *AUXILIARY, "construction", "ray", "compass", "centre", "inflection"}
+"""The classes of what one draws by a stroke: lines, arcs and vectors of the construction."""
 DETAIL = "detail"
 """The name of the small circle about what is enlarged beside it."""
 
@@ -47,7 +56,8 @@ class ProtocolSentence(Struct, frozen=True):
 
     ``of`` are the steps to which the reasons belong, ``letters`` the names of the crossings as the
     labels have them; ``ends`` are the parts of the work that it completes on its sheet. ``aside``
-    tells of what is drawn beside the drawing for the position of the scene alone.
+    tells of what is drawn beside the drawing for the position of the scene alone. ``rates`` are the
+    links whose rates it reads off.
     """
 
     sheet: int
@@ -58,14 +68,19 @@ class ProtocolSentence(Struct, frozen=True):
     letters: tuple[str, ...]
     ends: tuple[Part, ...]
     aside: str = ""
+    rates: tuple[str, ...] = ()
 
 
 class Timed(Struct, frozen=True):
-    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step."""
+    """A mark, the sentence (from 1) that draws it, 0 for what stands before, and its step.
+
+    ``letters`` are the sentences of the letters that share a label.
+    """
 
     mark: Mark
     at: int
     step: int | None
+    letters: tuple[int, ...] = ()
 
 
 class PageProtocol(Struct, frozen=True):
@@ -74,9 +89,9 @@ class PageProtocol(Struct, frozen=True):
     ``at`` gives for each step with marks the sentence (from 1) that draws it, 0 for what is given;
     ``sources`` the steps with marks that it is drawn from; ``sides`` the two points of the
     mechanism to whose bar it is square or parallel; ``letters`` its name as markup. ``tints`` tells
-    apart what one sentence draws for several points; ``hangs`` gives the crossings without which a
-    step cannot be, and to which a line is drawn; ``aside`` those of centres and poles; ``squares``
-    the pin, pole and image of a line square to a velocity.
+    apart the strokes of one sentence by their reasons; ``hangs`` gives the crossings without which
+    a step cannot be, and to which a line is drawn; ``aside`` those of centres and poles;
+    ``squares`` the pin, pole and image of a line square to a velocity.
     """
 
     said: tuple[ProtocolSentence, ...]
@@ -112,22 +127,18 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
     timed: list[tuple[Timed, ...]] = []
     at: dict[int, int] = {}
     names: dict[str, str] = {}
-    tints: dict[int, int] = {}
     for place, sheet in enumerate(sheets):
-        own = sentences(sheet.drawing)
-        staged = stages(sheet.drawing, own)
-        timed.append(timed_marks(sheet, own, staged, len(said)))
+        own, staged, marks = in_parts(sheet)
+        before = len(said)
+        timed.append(tuple(later(one, before) for one in marks))
         for step, stage in staged.items():
             if not at.get(step):
                 at[step] = len(said) + stage + 1 if stage >= 0 else 0
         labels = labels_of(sheet)
         names |= labels
-        said += spoken(place, sheet.drawing, own, staged, labels)
+        seen = {one.step for one in marks if one.step is not None}
+        said += spoken(place, sheet.drawing, own, staged, labels, seen)
         said[-1] = replace(said[-1], aside=words_of_details(sheet))
-        first = bounds_of(said, place)[0]
-        for step, stage, tint in tinted(sheet.drawing, own, staged):
-            if at.get(step) == first + stage:
-                tints.setdefault(step, tint)
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
     program = sheets[0].drawing.trace.program
@@ -143,11 +154,90 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
             for step in shown
             if (name := letter(program.steps[step]))
         },
-        {step: tint for step, tint in tints.items() if tint and step in shown},
+        {step: tint for step, tint in tinted(said).items() if step in shown},
         hanging(sheets, shown),
         tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
         {step: args for step in shown if (args := square_to(program.steps[step]))},
     )
+
+
+def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[Timed, ...]]:
+    """The sentences of the page for one sheet, the one (from 0) that draws each step, its marks."""
+    drawing = sheet.drawing
+    found = parted_sentences(drawing)
+    parts = [part.sentence for one in found for part in one.parts]
+    staged = stages(drawing, parts)
+    marks = timed_marks(sheet, parts, staged)
+    drawn = strokes(marks, len(parts))
+    said: list[Sentence] = []
+    places: list[int] = []
+    for one in found:
+        first = len(places)
+        for sentence, count in one.sentences(drawing, drawn[first : first + len(one.parts)]):
+            places += [len(said)] * count
+            said.append(sentence)
+    own = {step: places[stage] if stage >= 0 else stage for step, stage in staged.items()}
+    timed = [replace(one, at=places[one.at - 1] + 1 if one.at else 0) for one in marks]
+    said, own, timed = vectors_apart(drawing, said, own, timed)
+    telling = when_told(drawing, own)
+    lettered = (replace(one, letters=letters_told(one.mark, telling)) for one in timed)
+    return with_indices(drawing, said), own, tuple(lettered)
+
+
+def vectors_apart(
+    drawing: Drawing, said: Sequence[Sentence], own: Mapping[int, int], marks: Sequence[Timed]
+) -> tuple[list[Sentence], dict[int, int], list[Timed]]:
+    """The same, where vectors that are too many for the sentence that finds their ends follow it
+    in sentences of their own.
+    """
+    counts = strokes(marks, len(said))
+    shown = {one.step for one in marks}
+    found: list[Sentence] = []
+    places: list[int] = []
+    moved: dict[int, int] = {}
+    for stage, sentence in enumerate(said):
+        places.append(len(found))
+        found.append(sentence)
+        fresh = sorted(step for step, at in own.items() if at == stage and step in shown)
+        arrows = [n for n in fresh if vector_found(drawing, n, sentence.markup)]
+        late = arrows[max(len(arrows) - max(counts[stage] - MOST, 0), 0) :]
+        for first in range(0, len(late), MOST):
+            some = late[first : first + MOST]
+            markup = AND.join(vector_found(drawing, number, "") for number in some)
+            moved |= dict.fromkeys(some, len(found))
+            found.append(Sentence(some[-1], VECTORS_APART, markup, tuple(some)))
+    later_own = {step: places[at] if at >= 0 else at for step, at in own.items()} | moved
+    timed = [
+        replace(one, at=(later_own[one.step] if one.step in moved else places[one.at - 1]) + 1)
+        if one.at
+        else one
+        for one in marks
+    ]
+    return found, later_own, timed
+
+
+def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
+    """The sentences (from 1) that find the letters of a label that several share, 0 for given."""
+    if not isinstance(mark, Text) or mark.step is None or mark.rotate:
+        return ()
+    names, count = mark.name.split(), len(letters_of(mark))
+    return tuple(telling.get(name, -1) + 1 for name in names) if len(names) == count > 1 else ()
+
+
+def later(one: Timed, before: int) -> Timed:
+    """A mark after the sentences of the sheets before its own; what is given stays so."""
+    letters = tuple(at and before + at for at in one.letters)
+    return replace(one, at=one.at and before + one.at, letters=letters)
+
+
+def strokes(marks: Iterable[Timed], count: int) -> list[int]:
+    """How many lines, arcs and vectors each of some sentences draws; pieces of one line are one."""
+    found: list[set[tuple[int, str, str]]] = [set() for _ in range(count)]
+    for one in marks:
+        look = one.mark.cls.split()[0]
+        if one.at and one.step is not None and look in DRAWN and not isinstance(one.mark, Text):
+            found[one.at - 1].add((one.step, look, one.mark.name))
+    return [len(some) for some in found]
 
 
 def words_of_details(sheet: ScreenSheet) -> str:
@@ -168,16 +258,11 @@ def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:
     return own[0], own[-1]
 
 
-def tinted(
-    drawing: Drawing, own: Sequence[Sentence], staged: Mapping[int, int]
-) -> Iterator[tuple[int, int, int]]:
-    """The steps that one sentence draws for several points: step, stage, number of the point."""
-    program = drawing.trace.program
-    for stage, sentence in enumerate(own):
-        if len(sentence.all_steps) > 1:
-            for tint, number in enumerate(sentence.all_steps):
-                fresh = (step for step in behind(program, [number]) if staged.get(step) == stage)
-                yield from ((step, stage, tint) for step in fresh)
+def tinted(said: Sequence[ProtocolSentence]) -> dict[int, int]:
+    """What tells apart the strokes of one sentence: the number of the reason of each."""
+    return {
+        step: tint for one in said for tint, step in enumerate(one.of) if tint and step != NO_STEP
+    }
 
 
 def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:
@@ -210,32 +295,69 @@ def spoken(
     own: Sequence[Sentence],
     staged: Mapping[int, int],
     labels: Mapping[str, str],
+    shown: AbstractSet[int],
 ) -> Iterator[ProtocolSentence]:
-    """The sentences of one sheet."""
+    """The sentences of one sheet, on which the steps ``shown`` have marks."""
     steps = drawing.trace.program.steps
     parts = [{steps[number].part for number in sentence.all_steps} for sentence in own]
     last = {part: stage for stage, found in enumerate(parts) for part in found}
     lines = crossings_on(drawing)
     for stage, sentence in enumerate(own):
         fresh = [step for step, at in staged.items() if at == stage]
-        why = [*reasons(drawing, fresh, labels), *of_reading(drawing, sentence)]
+        why = [*of_sentence(drawing, sentence), *reasons(drawing, fresh, labels)]
         found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
         drawn = [steps[step].name for step in fresh if steps[step].part is Part.NORMAL]
+        markup = as_labelled(sentence.markup, drawn, labels)
         yield ProtocolSentence(
             place,
-            as_labelled(sentence.markup, drawn, labels),
+            AND.join((markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))),
             tuple(text for text, _ in why),
-            tuple(step for _, step in why),
+            tuple(shown_by(drawing, step, fresh, shown) for _, step in why),
             tuple(found),
             tuple(labels.get(crossing.name, symbol(crossing.name)) for crossing in found),
             tuple(part for part in STOPS if last.get(part) == stage),
+            rates=tuple(rates_read(drawing, sentence)),
         )
 
 
+def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: AbstractSet[int]) -> int:
+    """The step whose marks show another one: itself, or the arrow that ends in it."""
+    if number in shown:
+        return number
+    steps = drawing.trace.program.steps
+    arrows = (n for n in fresh if n in shown and steps[n].arrow and number in steps[n].args)
+    return min(arrows, default=number)
+
+
+def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
+    """The links whose rates a sentence reads off."""
+    if sentence.name == TURNING:
+        for (what, link), number in drawing.trace.program.targets.items():
+            if what == drawing.rate.target and number in sentence.all_steps:
+                yield link
+
+
+def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:
+    """Which segments are the vectors of the plan that a sentence draws without a word of them."""
+    return (told for number in fresh if (told := vector_found(drawing, number, markup)))
+
+
+def vector_found(drawing: Drawing, number: int, markup: str) -> str:
+    """Which segment is the vector of the plan that a step draws; nothing for any other step, and
+    for one of which a sentence tells.
+    """
+    step = drawing.trace.program.steps[number]
+    vector = plan_vector(step)
+    if vector is None or step.plane is not drawing.plane or not vector.symbol:
+        return ""
+    told, segment = symbol(vector.symbol), segment_of(drawing, step)
+    return f"{segment} = {told}" if segment and told not in markup else ""
+
+
 def timed_marks(
-    sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int], before: int
+    sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int]
 ) -> tuple[Timed, ...]:
-    """The marks of a sheet with the sentences that draw them."""
+    """The marks of a sheet with those of its own sentences, from 1, that draw them."""
     found, touched = [], dict(contacts(sheet))
     ground = ground_of(sheet.drawing, sheet.layout.mechanism)
     for mark, beside in accompanied((*sheet.left, *sheet.right)):
@@ -245,7 +367,7 @@ def timed_marks(
             stage = stage_of(sheet.drawing, beside, staged, own, ground)
         else:
             stage = staged[step]
-        found.append(Timed(mark, before + stage + 1 if stage >= 0 else 0, step))
+        found.append(Timed(mark, stage + 1 if stage >= 0 else 0, step))
     return tuple(found)
 
 

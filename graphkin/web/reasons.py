@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from string import Formatter
 
-from graphkin.construction.core.auxiliary_plan import falls
-from graphkin.construction.core.component import is_hidden
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
+from graphkin.construction.core.component import component_of, is_hidden
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.divided_point import DividedRate
+from graphkin.construction.higher_class.trial_plan import TrialPlan
+from graphkin.construction.links.idle_links import IDLE
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.flattest import OWN
-from graphkin.documents.sentences import TURNING
+from graphkin.documents.sentences import SET_ON, TURNING
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.numbers.plane import Line
 from graphkin.text import Words
 from graphkin.web.label_names import as_labelled
 
@@ -27,6 +32,16 @@ LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
 """The reason that is given at the end, for all points at once."""
 TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
 """Why the turning of links is read off as each sheet says."""
+VECTORS_APART = "vectors"
+"""The name of a sentence that draws vectors between images that the one before has found."""
+BY_NAME = {
+    VECTORS_APART: "why.vectors",
+    "again": "why.again",
+    SET_ON: "why.set_on",
+    "moving-centrode": "why.centrodes",
+    "trajectory": "why.path",
+}
+"""Why what a sentence of this name says, which is of no step."""
 NO_STEP = -1
 """Whose reason it is that belongs to no single step."""
 
@@ -45,13 +60,14 @@ def reasons(
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(step)
-        if step.part not in parts or not key or is_hidden(drawing, number):
+        if step.part not in parts or not key or is_nothing(drawing, number):
+            continue
+        if component_of(drawing.trace.program, number) is None and is_hidden(drawing, number):
             continue
         if not all(known[gap] for gap in gaps(drawing.words, key)):
             continue
         if key == LAST:
-            if not falls(drawing, number):
-                met[known["name"]] = number
+            met[known["name"]] = number
             continue
         text = drawing.words(AGAIN.get(key, key) if key in given else key, **known)
         given.add(key)
@@ -63,10 +79,38 @@ def reasons(
     return list(found.items())
 
 
-def of_reading(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
-    """Why the turning of links is read off as the last sentence says."""
+def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
+    """Why what a sentence says that is of no step, reads a rate off, or begins a trial plan."""
+    steps, words = drawing.trace.program.steps, drawing.words
+    plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
-        yield drawing.words(TURNS[drawing.kind]), NO_STEP
+        yield words(of_rate(drawing, steps[sentence.step])), NO_STEP
+    elif sentence.name.startswith(IDLE):
+        yield words("why.idle"), NO_STEP
+    elif sentence.name in BY_NAME:
+        yield words(BY_NAME[sentence.name]), NO_STEP
+    elif isinstance(plan, TrialPlan) and sentence.name:
+        yield words("why.trial_again" if plan.repeats else "why.trial"), NO_STEP
+
+
+def of_rate(drawing: Drawing, step: Step) -> str:
+    """Why a rate is found as it is: from a bar and its image, between trials, or from others."""
+    match construction(step):
+        case TurningOfLink():
+            return TURNS[drawing.kind]
+        case DividedRate():
+            return "why.trials"
+    return "why.rate"
+
+
+def is_nothing(drawing: Drawing, number: int) -> bool:
+    """Whether a point of a trial plan falls on what it is drawn from, or a line finds only such."""
+    plan, step = auxiliary_plan(drawing, number), drawing.trace.program.steps[number]
+    if not isinstance(plan, TrialPlan):
+        return False
+    if isinstance(drawing.trace.values[number], Line):
+        return plan.is_idle(drawing, number)
+    return bool(step.name and plan.falls_on(drawing, number))
 
 
 def alike(step: Step, names: Iterable[str]) -> Iterator[str]:

@@ -13,11 +13,15 @@ STEP_PAGE = (
     "bars.js",
     "zoom.js",
     "halos.js",
+    "highlights.js",
+    "carried.js",
+    "writing.js",
     "tracing.js",
     "sentences.js",
     "values.js",
     "stepping.js",
     "driver.js",
+    "beginning.js",
     "room.js",
     "address.js",
     "playing.js",
@@ -26,10 +30,11 @@ STEP_PAGE = (
     "picking.js",
     "checking.js",
     "your_turn.js",
+    "aiming.js",
     "keys.js",
 )
 """The script of a step page: at once, a file uses only what stands before it."""
-PLAYER = ("numbers.js", "player.js")
+PLAYER = ("numbers.js", "curves.js", "player.js")
 """The script of a cycle's page."""
 MOVING = ("moving.js",)
 """What lays out the marks that follow the driver."""

@@ -9,10 +9,14 @@ from msgspec import Struct
 
 from graphkin.construction.core.given_data import angle_symbol
 from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import TURN
 from graphkin.text import Words
 from graphkin.web.moving import moving, still
 from graphkin.web.page_driver import PageDriver, Reach, window
 from graphkin.web.screen_sheets import ScreenSheet
+
+SLACK = 0.5
+"""Degrees that a whole turn may lack about a change point."""
 
 
 class Slider(Struct, frozen=True):
@@ -55,6 +59,11 @@ def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
 
 
 def stopped(driven: PageDriver, reach: Reach) -> tuple[float, ...]:
-    """The ends of a range beyond which nothing closes, not those of what is looked at."""
+    """The ends of a range beyond which nothing closes, not those of what is looked at.
+
+    A range of a whole turn ends where it begins, in a change point: beyond it goes on.
+    """
+    if driven.unit == "deg" and reach.high - reach.low > TURN - SLACK:
+        return ()
     pairs = zip((reach.low, reach.high), window(driven), strict=True)
     return () if reach.whole else tuple(end for end, edge in pairs if abs(end - edge) > 1e-9)

@@ -14,13 +14,14 @@ from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import called, scale_of
 from graphkin.construction.core.program import Part
 from graphkin.documents.captions import HEADING, apart
-from graphkin.documents.sheet import title_of
+from graphkin.documents.sheet import asked, title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.web import facts
 from graphkin.web.field_pictures import BAR, bar_rules, field_picture, ink_sheet
+from graphkin.web.highlights import ghosts, rates, rows_found, triangles
 from graphkin.web.legend import meanings
 from graphkin.web.offline_page import data_block, offline_page, part
 from graphkin.web.palette_moves import your_turn
@@ -48,6 +49,11 @@ STOP_NAMES = {
     Part.POLE: "screen.pole",
 }
 """What the buttons say that go to the parts of the work."""
+RATE_NAMES = {
+    "velocity": "screen.rates_velocity",
+    "acceleration": "screen.rates_acceleration",
+}
+"""What they say that go to the rates of links, by the kind of the sheet."""
 
 
 class Form(Struct, frozen=True):
@@ -95,6 +101,7 @@ def step_page(
     turn = your_turn(sheets, told)
     drawing = sheets[0].drawing
     given_data = data(drawing)
+    found = rows_found(sheets, told)
     body = filled(
         "web/templates/step.html",
         **common(sheets),
@@ -108,11 +115,20 @@ def step_page(
             (sheet.drawing.kind, sheet_name(sheet), list(facts.results(sheet.drawing)))
             for sheet in sheets
         ],
+        found=found,
+        sought=[piece for sheet in sheets for piece in asked(sheet.drawing)],
         data=[datum.said for datum in given_data],
         datum=place_of(moves.datum, given_data),
         meanings=list(meanings(drawing.words, sheets)),
         steps=len(told.said),
-        stops=[(first, last, STOP_NAMES[stop]) for first, last, stop in told.stops()],
+        stops=[
+            (
+                first,
+                last,
+                STOP_NAMES.get(stop, RATE_NAMES[sheets[told.said[first - 1].sheet].drawing.kind]),
+            )
+            for first, last, stop in told.stops()
+        ],
         moves=moves,
         palette=palette(turn, sheets[0].drawing.words),
         turning=data_block("turning", turn_record(sheets, turn, owner)),
@@ -121,7 +137,8 @@ def step_page(
     scripts = [together(STEP_PAGE)]
     if moves.source:
         scripts.insert(0, moves.source)
-    return written(sheets, body, ink, [part("steps.css"), part("your_turn.css")], scripts)
+    styles = [part("steps.css"), part("story.css"), part("your_turn.css")]
+    return written(sheets, body, ink, styles, scripts)
 
 
 def task_page(
@@ -281,6 +298,10 @@ def record(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, objec
         "hangs": told.hangs,
         "aside": told.aside,
         "squares": told.squares,
+        "rates": rates(sheets, told),
+        "similar": triangles(sheets),
+        "ghosts": ghosts(sheets[0], told),
+        "task": [words("screen.task"), words("screen.begin")],
         "stops": [first for first, _, _ in told.stops()],
         "count": words("page.step_of", number="{number}", all="{all}"),
         "mark": words("decimal_mark"),

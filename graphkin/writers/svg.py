@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from html import escape
 
@@ -10,7 +10,7 @@ from svgwrite import Drawing
 
 from graphkin.drawing.glyphs import FAMILY, font_face
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Point, Polyline, Text
-from graphkin.drawing.richtext import TextRun, spaced_runs
+from graphkin.drawing.richtext import TextRun, extent, spaced_runs
 from graphkin.drawing.style import Ink, Style, style_of
 
 FONTS = f'"{FAMILY}","DejaVu Sans",sans-serif'
@@ -79,6 +79,18 @@ def text_element(text: Text) -> str:
         return f"<text {head} {parts[0][0]}>{parts[0][1]}</text>"
     spans = "".join(f"<tspan {place}>{words}</tspan>" for place, words in parts)
     return f"<text {head}>{spans}</text>"
+
+
+def parted_text(text: Text, parts: Sequence[tuple[str, str]]) -> str:
+    """Write a level text whose parts follow one another, each with an attribute of its own."""
+    left, told, spans = text.x + text.left(), "", ""
+    for markup, attribute in parts:
+        start = left + extent(told, text.height)[0]
+        for x, y, look, words in said(markup, text.height):
+            place = f'x="{number(start + x)}" y="{number(text.y + y)}"'
+            spans += f"<tspan {attribute} {place} {look}>{words}</tspan>"
+        told += markup
+    return f"<text {about(text)}>{spans}</text>"
 
 
 @lru_cache(maxsize=4096)

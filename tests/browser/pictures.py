@@ -40,7 +40,7 @@ def pump_page() -> str:
 
 def draw_page(page: Any, path: Path) -> None:
     """The page at the step that finds a centre."""
-    page.goto(f"{pump_page()}#step=9")
+    page.goto(f"{pump_page()}#step=12")
     page.wait_for_timeout(500)
     page.screenshot(path=path)
 

@@ -59,8 +59,9 @@ def pages(tmp_path_factory) -> Path:
 
 
 def step_of(page: Any) -> int:
-    """The step that is shown."""
-    return int(page.locator("#count").inner_text().split()[1])
+    """The step that is shown; 0 for the beginning."""
+    count = page.locator("#count").inner_text()
+    return 0 if count == "The task" else int(count.split()[1])
 
 
 def marked(page: Any, look: str) -> set[str]:
@@ -76,12 +77,144 @@ def marked(page: Any, look: str) -> set[str]:
 def test_what_b_is_drawn_from_is_marked_and_named(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
     page.locator("#steps a[data-number='6']").click()
-    assert marked(page, "new") == {"b"}
     assert marked(page, "old") == {"a", "o", "A", "B", "O2"}
     assert page.locator("#from").inner_text() == "O2, o, A (1), B (2), a (5)"
     assert page.locator(".halo .side").count() == 2
+    page.locator("#steps a[data-number='7']").click()
+    assert marked(page, "new") == {"b"}
+    page.locator("#steps a[data-number='6']").click()
     page.locator("#from a", has_text="B").click()
     assert step_of(page) == 2
+
+
+def test_a_reason_lights_its_own_stroke_alone(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", **DESKTOP)
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step=6")
+    reasons = page.locator("#reason .line")
+    assert reasons.count() == 2
+    lit = ".sheet:not([hidden]) .halo line.new"
+    both = page.locator(lit).count()
+    for place in (0, 1):
+        reasons.nth(place).focus()
+        assert 0 < page.locator(lit).count() < both
+        assert page.locator(f"{lit}.t{place}").count() == page.locator(lit).count()
+    page.locator("#next").focus()
+    assert page.locator(lit).count() == both
+
+
+# --- the beginning -------------------------------------------------------------------------------
+
+
+VISIBLE = """name => [...document.querySelectorAll(`#sheet-0 [data-name='${name}']`)]
+  .some(mark => mark.checkVisibility({ visibilityProperty: true }))"""
+ROUND = """() => [...document.querySelectorAll('#sheet-0 circle.pin')]
+  .map(pin => pin.getAttribute('cx'))"""
+
+
+def test_the_page_begins_with_the_whole_mechanism_and_the_task(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", reduced_motion="reduce", **DESKTOP)
+    assert page.locator("#count").inner_text() == "The task"
+    brief = page.locator("#brief").inner_text()
+    assert "the velocity of D" in brief and "O1A = O2B = 30 cm" in brief
+    assert page.evaluate("[...'ABCD'].every(" + VISIBLE + ")")
+    assert not barred(page)
+    assert page.evaluate("document.querySelectorAll('.halo .new').length") == 0
+    page.keyboard.press("ArrowRight")
+    assert not page.locator("#brief").is_visible()
+    assert [page.evaluate(VISIBLE, name) for name in "ABCD"] == [True, False, False, False]
+
+
+@pytest.mark.parametrize(("motion", "moves"), [("no-preference", True), ("reduce", False)])
+def test_the_mechanism_moves_once_as_a_ghost(opened: Opened, pages: Path, motion, moves):
+    page = opened(pages / "pump.html", "#step=5", reduced_motion=motion, **DESKTOP)
+    drawn = page.evaluate(ROUND)
+    page.keyboard.press("0")
+    places = [page.evaluate(ROUND) for _ in range(30) if not page.wait_for_timeout(20)]
+    assert (places[-1] != drawn) == moves
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate(ROUND) == drawn
+    page.keyboard.press("0")
+    page.wait_for_timeout(100)
+    assert page.evaluate(ROUND) == drawn
+
+
+def test_a_result_is_hidden_until_the_step_that_finds_it(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=14", **DESKTOP)
+    values = page.locator("#values")
+    assert "vD = 3.827 m/s" in values.inner_text() and "ω2 = 6.171" in values.inner_text()
+    assert "ω3 = ?" in values.inner_text()
+    assert page.locator("[data-row='ω3']").get_attribute("class") == "unknown"
+    page.keyboard.press("ArrowRight")
+    assert "ω3 = 27.65" in values.inner_text()
+    assert page.locator(".halo .turn.tip").count() == 1
+    page.emulate_media(media="print")
+    colours = (
+        "[...document.querySelectorAll('#results td')].map(cell => getComputedStyle(cell).color)"
+    )
+    assert len({*page.evaluate(colours)}) == 1
+
+
+def test_a_rate_is_told_where_the_driver_now_is(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=15&x=80", **DESKTOP)
+    trace = moved(screen_sheets(load("pump"), "en")[0].drawing, load("pump"), 80.0)
+    omega = words("en").significant(abs(trace.value("omega", "3")))
+    told = page.locator("#sentence")
+    assert told.inner_text() == f"ω3 = vBA/AB = {omega} rad/s, counter-clockwise"
+    page.locator("#back").click()
+    assert told.inner_text() == "ω3 = vBA/AB = 11.059/0.4 = 27.65 rad/s (counter-clockwise)"
+
+
+def test_a_tap_beside_a_line_leads_to_its_step(opened: Opened, pages: Path):
+    """A finger is wider than a line: some dots off it are still meant for it."""
+    page = opened(pages / "pump.html", "#step=16", **DESKTOP)
+    line = page.locator("#sheet-0 line[data-name='ab']:not(.halo *)").first
+    middle = line.evaluate(
+        """mark => { const { x, y, width, height } = mark.getBoundingClientRect();
+          return [x + width / 2 + 3, y + height / 2 - 2]; }"""
+    )
+    page.mouse.click(*middle)
+    assert step_of(page) == 7
+
+
+# --- both plans, and the pen ---------------------------------------------------------------------
+
+
+def test_the_velocity_plan_stands_beside_where_its_segment_is_carried_over(opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=19", **DESKTOP)
+    small = page.locator(".carried")
+    assert small.is_visible()
+    assert small.locator(".lit").count() == 1
+    ends = small.locator(".lit").evaluate(
+        "line => ['x1', 'y1', 'x2', 'y2'].map(name => Number(line.getAttribute(name)))"
+    )
+    sheet = screen_sheets(load("pump"), "en")[0]
+    values = [sheet.drawing.trace.value("velocity", name) for name in "AB"]
+    assert ends == pytest.approx([x for one in values for x in sheet.layout.plan(one)], abs=0.01)
+    page.locator("#steps a[data-number='29']").click()
+    assert not small.is_visible()
+
+
+def test_the_triangles_of_a_pole_are_shaded_with_their_equal_angles(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=37", **DESKTOP)
+    assert page.locator(".halo .similar").count() == 2
+    assert page.locator(".halo .angle").count() == 6
+    page.keyboard.press("ArrowLeft")
+    assert page.locator(".halo .similar").count() == 0
+
+
+def test_a_pen_draws_whole_arcs_and_leaves_their_ticks(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=1", **DESKTOP)
+    tick = page.locator("#sheet-0 .compass").first.evaluate("mark => mark.getTotalLength()")
+    page.keyboard.press("ArrowRight")
+    pens = page.locator(".pen")
+    assert pens.count() >= 2
+    lengths = "all => all.map(one => one.getTotalLength())"
+    assert max(page.locator(".pen .ink").evaluate_all(lengths)) > 4 * tick
+    page.locator(".pen").first.wait_for(state="detached")
+    assert page.locator(".unwritten").count() == 0
+    assert marked(page, "new") >= {"B"}
+    page.keyboard.press("ArrowLeft")
+    assert pens.count() == 0
 
 
 # --- keys and addresses --------------------------------------------------------------------------
@@ -91,10 +224,10 @@ def test_keys_go_through_the_steps(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
     last = page.evaluate(STEPS)
     found = []
-    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "6"):
+    for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "7"):
         page.keyboard.press(key)
         found.append(step_of(page))
-    assert found == [2, 3, 2, last, last, 1, 5, 18]
+    assert found == [1, 2, 1, last, last, 0, 5, 37]
 
 
 def test_an_address_leads_to_its_step_and_place(opened: Opened, pages: Path):
@@ -112,7 +245,7 @@ def test_an_address_leads_to_its_step_and_place(opened: Opened, pages: Path):
     page.wait_for_url("**#step=8")
     for wrong in ("step=999", "step=banana&x=nothing", "step=-3", "nonsense"):
         page.goto(f"{address}#{wrong}")
-        assert 1 <= step_of(page) <= page.evaluate(STEPS)
+        assert 0 <= step_of(page) <= page.evaluate(STEPS)
 
 
 # --- the driver ----------------------------------------------------------------------------------
@@ -149,7 +282,7 @@ def test_points_move_to_where_python_draws_them(opened: Opened, pages: Path, nam
 def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
     page, mechanism = opened(pages / "pump.html", **DESKTOP), load("pump")
     before = page.locator("[data-row='v_D'] td").all_inner_texts()
-    page.goto(f"{(pages / 'pump.html').as_uri()}#step=6&x=80")
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step=7&x=80")
     sheet = screen_sheets(mechanism, "en")[0]
     trace = moved(sheet.drawing, mechanism, 80.0)
     speed = abs(trace.value("velocity", "D"))
@@ -158,11 +291,12 @@ def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
     assert length == spoken.fixed(1000 * speed / sheet.drawing.scales.kv, 2)
     assert size == spoken.significant(speed)
     assert before[2] != size
-    assert f"vD = {size} m/s" in page.locator("#values").inner_text()
     (b,) = (found for found in crossings(trace) if found.name == "b")
-    angle = f"b: the lines cross at {degrees_of(b.angle):.0f}°"
-    told = f"{angle}, a 1 mm drawing error grows to as much as {b.factor:.1f} mm"
+    told = f"b: the lines cross at {degrees_of(b.angle):.0f}°, "
+    told += f"a 1 mm drawing error grows to as much as {b.factor:.1f} mm"
     assert page.locator("#crossing").inner_text() == told
+    page.keyboard.press("4")
+    assert f"vD = {size} m/s" in page.locator("#values").inner_text()
     for link in "234":
         omega = trace.value("omega", link)
         sense = spoken("page.anticlockwise" if omega > 0 else "page.clockwise")
@@ -174,7 +308,7 @@ def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
 
 def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", **DESKTOP)
-    page.goto(f"{(pages / 'pump.html').as_uri()}#step=10&x=9999")
+    page.goto(f"{(pages / 'pump.html').as_uri()}#step=16&x=9999")
     seen = """name => [...document.querySelectorAll(`.sheet:not([hidden]) [data-name='${name}']`)]
       .filter(mark => mark.checkVisibility({ visibilityProperty: true })).length"""
     assert page.evaluate(seen, "v_D") == 0
@@ -206,7 +340,7 @@ def test_without_a_script_it_is_the_finished_drawing_with_its_list(opened: Opene
     page = opened(pages / "pump.html", **DESKTOP, java_script_enabled=False)
     assert page.locator(".sheet").count() == 2
     assert all(sheet.is_visible() for sheet in page.locator(".sheet").all())
-    assert page.locator("#steps li").count() == 20
+    assert page.locator("#steps li").count() == 42
     assert page.locator("#dock, button, input").count() == 0
     assert all(mark.is_visible() for mark in page.locator("circle.point").all())
 
@@ -219,7 +353,7 @@ def test_on_paper_it_is_the_same_wherever_it_stood(opened: Opened, pages: Path, 
     assert all(sheet.is_visible() for sheet in page.locator(".sheet").all())
     assert not page.locator("#dock").is_visible()
     assert page.evaluate(UNSEEN) == 0
-    assert page.locator("#steps li").count() == 20
+    assert page.locator("#steps li").count() == 42
 
 
 def test_hostile_names_do_nothing(opened: Opened, pages: Path):

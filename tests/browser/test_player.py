@@ -177,6 +177,85 @@ def test_beyond_its_end_it_begins_anew_and_never_goes_against_its_speed(page_of,
     assert steps[-1] > 0
 
 
+# --- curves, and names of vectors ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["pump", "gears-ring"])
+def test_a_curve_goes_where_the_batch_of_the_cycle_goes(page_of, name):
+    """Each dot against the value of the batch, by the numbers beside the lines of the grid."""
+    found, _ = shown(name)
+    page = page_of(name, **STILL)
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    for part in (0.2, 0.6, 0.9):
+        at = put(page, low + part * (high - low))
+        rows = found.cycle.along([at])
+        links = rows.solution.links
+        seen = page.evaluate(DOTS)
+        omegas = [number for number in links if f"ω{number}" in seen]
+        assert omegas
+        for link in omegas:
+            assert seen[f"ω{link}"] == pytest.approx(
+                float(np.ravel(links[link].omega)[0]), rel=0.02, abs=0.05
+            )
+
+
+DOTS = """() => {
+  const found = {}, rows = [...document.querySelectorAll('#values [data-row]')];
+  for (const svg of document.querySelectorAll('#curves figure > svg')) {
+    const levels = [...svg.querySelectorAll('.level')].map(line => [
+      Number(line.getAttribute('y1')),
+      Number(line.nextElementSibling.textContent.replace('−', '-')),
+    ]);
+    const [[y, a], [z, b]] = [levels[0], levels.at(-1)];
+    const units = rows.filter(row => row.querySelector('.unit').innerHTML
+      === svg.previousElementSibling.lastChild.innerHTML);
+    svg.querySelectorAll('.dot').forEach((dot, i) => {
+      found[units[i].dataset.row] = a + (Number(dot.getAttribute('cy')) - y) / (z - y) * (b - a);
+    });
+  }
+  return found;
+}"""
+
+
+def test_a_click_on_a_curve_and_its_keys_move_the_mechanism(page_of):
+    page = page_of("pump", **STILL)
+    chart = page.locator("#curves figure > svg").first
+    box = chart.bounding_box()
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    chart.click(position={"x": box["width"] * (44 + (320 - 52) / 2) / 320, "y": box["height"] / 2})
+    assert float(page.input_value("#at")) == pytest.approx((low + high) / 2, abs=1.5)
+    chart.focus()
+    before = page.inner_text("#told")
+    page.keyboard.press("ArrowRight")
+    assert page.inner_text("#told") != before
+    assert chart.get_attribute("aria-valuetext") == page.inner_text("#told")
+
+
+def test_the_velocity_that_is_asked_bears_its_name_beside_it(page_of):
+    page = page_of("pump", **STILL)
+    low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
+    for part in (0.1, 0.4, 0.7):
+        put(page, low + part * (high - low))
+        off, text, line = page.evaluate(
+            """() => {
+              const name = document.querySelector('#field-1 text[data-name=v_D]');
+              const box = mark => { const { x, y, width, height } = mark.getBoundingClientRect();
+                return [x + width / 2, y + height / 2, width, height]; };
+              const line = document.querySelector('#field-1 line[data-name=od]');
+              return [name.hasAttribute('data-off'), box(name), box(line)];
+            }"""
+        )
+        if not off:
+            assert abs(text[0] - line[0]) < line[2] / 2 + text[2]
+            assert abs(text[1] - line[1]) < line[3] / 2 + 2 * text[3]
+    assert not off
+    assert "not shown going back" in page.inner_text("#anew")
+
+
+def test_a_motion_that_goes_round_says_nothing_of_a_way_back(page_of):
+    assert page_of("gears-ring", **STILL).locator("#anew").count() == 0
+
+
 def test_keys_play_move_and_go_back(page_of):
     page = page_of("pump", **STILL)
     start = page.inner_text("#told")

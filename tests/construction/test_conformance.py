@@ -33,6 +33,7 @@ from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
+from graphkin.web.page_sentences import parted_sentences
 from graphkin.web.reasons import reasons
 from tests.chosen import FOLDER, SCENES
 from tests.documents.test_words import RARE, rare
@@ -154,7 +155,8 @@ def said(name: str, language: int) -> object:
     """Sentences, reasons and relations in a language."""
     some = materials(name)[language]
     why = [reasons(drawing, list(drawing.trace.values), {}) for drawing in some]
-    return [sentences(drawing) for drawing in some], why, relations(some)
+    parts = [parted_sentences(drawing) for drawing in some]
+    return [sentences(drawing) for drawing in some], parts, why, relations(some)
 
 
 def marked(name: str) -> object:

@@ -6,6 +6,7 @@ perpendiculars in them meet in the pole (Thales).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import combinations
 from typing import TYPE_CHECKING, ClassVar
 
@@ -99,6 +100,7 @@ class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
     """A point of the circle, ``found`` on the ray at ``ray.point``, and the perpendicular in it."""
 
     gives: ClassVar[tuple[str, ...]] = ("found", "line")
+    reasons: ClassVar[Mapping[str, str]] = {"found": "why.inflection"}
 
     letter: str
     link: str
@@ -151,6 +153,7 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("centre", "crossing", "found", "circle", "opposite")
+    reasons: ClassVar[Mapping[str, str]] = {"found": "why.inflection_circle"}
     key: ClassVar[str] = "inflection-pole"
     called: ClassVar[str] = "the inflection pole of link"
     look: ClassVar[str] = "inflection"

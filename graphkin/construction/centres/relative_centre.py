@@ -130,6 +130,7 @@ class PinCentre(PairCentre, frozen=True, kw_only=True):
     """A pin of two links."""
 
     key: ClassVar[str] = "pin-centre"
+    reasons: ClassVar[Mapping[str, str]] = {"found": "why.pin"}
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """A ring around the pin."""

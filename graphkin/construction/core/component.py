@@ -125,6 +125,14 @@ class Component(Construction, frozen=True, kw_only=True):
     def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
         """What to draw, in full the ``first`` time: the kind of the sentence, and its markup."""
 
+    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+        """What is said of it alone, part by part, each with the step that it ends with."""
+        assert self.vector is not None
+        if self.is_left_out(drawing):
+            yield self.vector, drawing.words("step.too-short", list=self.left_out(drawing))
+        else:
+            yield self.vector, self.sentence(drawing, first=True)[1]
+
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
         """What is said of it where it leads to a point that is known; nothing where it is clear."""
         return ""
@@ -169,6 +177,12 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
     def is_drawn(self, drawing: Drawing) -> bool:
         """Whether its triangle is drawn on a sheet."""
         return super().is_drawn(drawing) and not self.is_hidden(drawing)
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Why it is there, where no triangle is drawn that has reasons of its own."""
+        if role == "vector" and not self.is_drawn(drawing):
+            return self.laid_off_reason
+        return super().reason(drawing, role)
 
     def room(self, canvas: Canvas | Measured) -> Any:
         """By how much its shortest side is longer than what is drawn at all, in mm."""

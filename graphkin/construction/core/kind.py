@@ -118,6 +118,12 @@ class Construction(Roles, frozen=True):
         """How the point of a role is found; nothing for other roles."""
         return ""
 
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """The same after its lines have been told in sentences of their own; nothing where it is
+        never told apart from them.
+        """
+        return ""
+
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The vector equations of a plan that the step of a role follows, if they are its own."""
         yield from ()

@@ -116,7 +116,10 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     laid_off_reason: ClassVar[str] = "why.coriolis"
     follows: ClassVar[bool] = True
     gives_way: ClassVar[bool] = True
-    reasons: ClassVar[Mapping[str, str]] = {"foot": "why.triangles"}
+    reasons: ClassVar[Mapping[str, str]] = {
+        "foot": "why.coriolis",
+        "top": "why.triangles",
+    }
     lines: ClassVar[Mapping[str, str]] = {"lean": "the leaning line", "edge": "⊥ at {foot}"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"velocity", "foot"})
     slips: ClassVar[Mapping[str, complex]] = {"coriolis_missing": 0, "coriolis_reversed": -1}
@@ -219,24 +222,31 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """Its triangles in full the first time; else from what it comes, or its number."""
         if self.is_left_out(drawing):
             return "short", self.left_out(drawing)
-        steps, size = drawing.trace.program.steps, self.size(drawing)
-        fields = {
-            "a": self.symbol,
-            "v": symbol(f"v_{self.index}"),
-            "two": twice_set(drawing, symbol(f"v_{self.index}")),
-            "segment": twice_set(
-                drawing, "".join(symbol(steps[end].name) for end in (self.tail, self.tip))
-            ),
-            "omega": rate_symbol(drawing, self.omega),
-            "drawn": plan_amount(drawing, Plane.ACCELERATIONS, size),
-        }
-        if drawing.settled(size) == 0:
+        fields = self.fields(drawing)
+        if drawing.settled(self.size(drawing)) == 0:
             return self.sign, drawing.words("step.coriolis-none", **fields)
         if not self.is_drawn(drawing):
             return self.sign, drawing.words("step.coriolis-computed", **fields)
         if not first:
             return self.sign, drawing.words("step.coriolis-again", **fields)
-        fields |= {
+        return self.sign, "; ".join(self.in_full(drawing, "step.coriolis-top"))
+
+    def fields(self, drawing: Drawing) -> dict[str, str]:
+        """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""
+        steps = drawing.trace.program.steps
+        segment = "".join(symbol(steps[end].name) for end in (self.tail, self.tip))
+        return {
+            "a": self.symbol,
+            "v": symbol(f"v_{self.index}"),
+            "two": twice_set(drawing, symbol(f"v_{self.index}")),
+            "segment": twice_set(drawing, segment),
+            "omega": rate_symbol(drawing, self.omega),
+            "drawn": plan_amount(drawing, Plane.ACCELERATIONS, self.size(drawing)),
+        }
+
+    def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
+        """Its triangles in full: as far as the perpendicular; by the key ``top`` what cuts it."""
+        fields = self.fields(drawing) | {
             "p": symbol(self.pivot_name),
             "q": symbol(self.pin_name),
             "bar": bar(self.pivot_name, self.pin_name),
@@ -245,7 +255,17 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             "more": laid_times(drawing),
         }
         line = self.leaning_line(drawing, fields)
-        return self.sign, drawing.words("step.coriolis", line=line, **fields)
+        foot = drawing.words("step.coriolis-foot", **fields)
+        return foot, drawing.words(top, line=line, **fields)
+
+    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+        """Twice the velocity and the perpendicular; what cuts that."""
+        if self.edge is None or self.vector is None or not self.is_drawn(drawing):
+            yield from super().told_in_parts(drawing)
+            return
+        foot, top = self.in_full(drawing, "step.coriolis-top-apart")
+        yield self.edge, foot
+        yield self.vector, top
 
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
         """What is left from its end is the acceleration along the guide."""

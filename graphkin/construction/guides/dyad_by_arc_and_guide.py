@@ -56,10 +56,17 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where the arc cuts the line, and on which side of its centre that is."""
+        return drawing.words("step.arc-cuts-line", **self.place(drawing))
+
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """The same after a sentence of its own for the line and the arc."""
+        return drawing.words("step.arc-cuts-line-apart", **self.place(drawing))
+
+    def place(self, drawing: Drawing) -> Mapping[str, str]:
+        """Its letter, and on which side of the centre it lies."""
         along = drawing.trace.values[self.path].along * which_side(drawing, self.pin)
         side = drawing.words(f"page.{heading(along)}")
-        fields = {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
-        return drawing.words("step.arc-cuts-line", **fields)
+        return {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """The bar and the guide."""

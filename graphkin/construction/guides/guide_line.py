@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, ClassVar
 
@@ -130,6 +130,7 @@ class GuidesMeet(Construction, frozen=True, kw_only=True):
     """The ``point`` called ``name``, where the lines ``one`` and ``other`` of guides meet."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.guides"}
 
     name: str
     one: int

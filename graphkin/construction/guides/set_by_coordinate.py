@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
@@ -39,6 +40,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
     """The ``point`` of a ``link`` at the coordinate ``where`` of its ``path`` on a link ``on``."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.set_at"}
 
     link: str
     on: str

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.given_data import angle_symbol
 from graphkin.construction.core.kind import Construction
@@ -26,6 +26,8 @@ class ClosedGroup(Construction, frozen=True):
     Its closures are numbered by the angle of the link ``counted``. ``traced`` are the points whose
     loci a hand draws.
     """
+
+    reasons: ClassVar[Mapping[str, str]] = {"closing": "why.closed"}
 
     group: Higher
     number: int

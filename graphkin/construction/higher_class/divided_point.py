@@ -150,6 +150,13 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
         name = drawing.trace.program.steps[self.value].name
         return drawing.words("step.meet", name=symbol(name))
 
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """Where both lines meet."""
+        if not self.is_crossed(drawing.trace.values):
+            return ""
+        name = drawing.trace.program.steps[self.value].name
+        return drawing.words("step.meet-apart", name=symbol(name))
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """The point, with the line of its trials where no other step draws it."""
         if not self.is_crossed(canvas.drawing.trace.values):

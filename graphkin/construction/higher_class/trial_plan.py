@@ -23,7 +23,7 @@ from graphkin.construction.core.relation import Relation, answer, figure, length
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.result_tables import sense
-from graphkin.construction.step_sentences import point_sentence
+from graphkin.construction.step_sentences import point_parts, point_sentence
 from graphkin.construction.velocity.crossed_image import CrossedImage
 from graphkin.construction.velocity.image_of_link import ImageOfLink
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffAboutPivot, LaidOffByRate
@@ -106,10 +106,30 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         if number != named[-1]:
             return
         told = self.told_in_full(drawing, named) if self.first is None else self.told_again(drawing)
-        what, size = self.assumed(drawing, named)
-        key = "step.trial-2" if self.repeats else "step.trial-1"
-        markup = drawing.words(key, what=what, amount=size, how="; ".join(told))
+        markup = self.introduced(drawing, "; ".join(told), first=True)
         yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
+
+    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, int, str]]:
+        """Its points line by line: the step of the point, that which ends a part, and its words."""
+        named = self.points(drawing)
+        for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
+            if under:
+                fallen = list(run)
+                key = "falls" if len(fallen) == 1 else "fall-together"
+                yield fallen[-1], fallen[-1], of_many(drawing, key, fallen, s=symbol(under))
+                continue
+            for number in run:
+                again = turned_again(drawing, number) if self.repeats else ""
+                parts = [(number, again)] if again else point_parts(drawing, number)
+                yield from ((number, step, markup) for step, markup in parts)
+
+    def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
+        """A part of it after what it is; in the ``first`` one, after what it assumes too."""
+        if not first:
+            return drawing.words("step.trial-2-on" if self.repeats else "step.trial-1-on", how=how)
+        what, size = self.assumed(drawing, self.points(drawing))
+        key = "step.trial-2" if self.repeats else "step.trial-1"
+        return drawing.words(key, what=what, amount=size, how=how)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
         """Its points one by one; those that fall on what they are drawn from in one."""
@@ -134,7 +154,8 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
         for new, run in groupby(self.points(drawing), is_new):
             if new:
-                yield from (turned_again(drawing, number) for number in run)
+                for number in run:
+                    yield turned_again(drawing, number) or point_told(drawing, number)
             else:
                 yield of_many(drawing, "normals-again", list(run))
 
@@ -213,12 +234,15 @@ def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
 
 
 def turned_again(drawing: Drawing, number: int) -> str:
-    """How a point of the second plan is found, its normal component being that of the first."""
+    """How a point of the second plan is found whose normal component is that of the first.
+
+    Nothing of any other point.
+    """
     kind = construction(drawing.trace.program.steps[number])
     if not isinstance(kind, TurnedAcceleration) or kind.is_steady:
-        return point_told(drawing, number)
+        return ""
     if has_no_length(drawing, kind.end) or has_no_length(drawing, number):
-        return point_told(drawing, number)
+        return ""
     fields, normal = (kind.fields(drawing, role) for role in ("image", "end"))
     return drawing.words("step.driven-again", normal=normal["vector"], **fields)
 

@@ -118,6 +118,10 @@ class TwoTrials(Construction, frozen=True):
 
     # --- in words --------------------------------------------------------------------------------
 
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Why it is found from what the trials miss, where no crossing finds it."""
+        return "why.gaps" if role == "share" and self.measured not in drawing.trace.values else ""
+
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """What the trials miss: between which points the gaps are measured, how large they are."""
         if role != "share":
@@ -211,21 +215,48 @@ def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
     if not divided:
         return found
     listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
-    mm = on_paper(drawing)
     if not crossed:
         point = points[divided[0]]
-        trials = construction(steps[point.share])
-        assert isinstance(trials, TwoTrials)
-        first, second = (gap.amount(drawing) * mm for gap in trials.gaps)
-        fields = point.ratio(drawing, first, second)
+        fields = point.ratio(drawing, *gaps_of(drawing, point))
         return together(found, divided, drawing.words("step.divided", list=listed, **fields))
     point = points[crossed[-1]]
-    part, whole = float(values[point.share]), abs(values[point.second] - values[point.first]) * mm
-    fields = point.ratio(drawing, part * whole, (part - 1) * whole)
+    fields = point.ratio(drawing, *gaps_of(drawing, point))
     markup = drawing.words("step.divided-alike", list=listed, **fields)
     kept = [said for said in found if said not in divided]
     place = max(i for i, said in enumerate(kept) if said in crossed) + 1
     return [*kept[:place], in_one(divided, "divided", markup), *kept[place:]]
+
+
+def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
+    """What the trials miss, in mm of the plan or in a rate; where a crossing finds a point, the
+    parts into which it divides the line of its own trials.
+    """
+    steps, values, mm = drawing.trace.program.steps, drawing.trace.values, on_paper(drawing)
+    if point.is_crossed(values):
+        part = float(values[point.share])
+        whole = abs(values[point.second] - values[point.first]) * mm
+        return part * whole, (part - 1) * whole
+    trials = construction(steps[point.share])
+    assert isinstance(trials, TwoTrials)
+    first, second = (gap.amount(drawing) * mm for gap in trials.gaps)
+    return first, second
+
+
+def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
+    """How the line of the trials of one point is divided: as the gaps are, or another's line is."""
+    steps, values = drawing.trace.program.steps, drawing.trace.values
+    alike = (
+        p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share
+    )
+    lead = next((p for p in alike if p.value in values and p.is_crossed(values)), point)
+    gaps = gaps_of(drawing, lead)
+    return drawing.words(
+        "step.divided-one",
+        line="".join(symbol(steps[end].name) for end in (point.first, point.second)),
+        name=symbol(steps[point.value].name),
+        ratio=lead.ratio(drawing, *gaps)["ratio"],
+        beyond=point.ratio(drawing, *gaps)["beyond"],
+    )
 
 
 def of_trials(drawing: Drawing) -> Iterator[Relation]:

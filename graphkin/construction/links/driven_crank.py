@@ -51,6 +51,7 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     the ``line`` at the driver's angle."""
 
     gives: ClassVar[tuple[str, ...]] = ("line", "tip")
+    reasons: ClassVar[Mapping[str, str]] = {"tip": "why.crank"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
 
     link: str
@@ -105,6 +106,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     says."""
 
     gives: ClassVar[tuple[str, ...]] = ("tip",)
+    reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
 
     link: str

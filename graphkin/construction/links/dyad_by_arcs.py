@@ -60,8 +60,16 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet, and on which side of the line of their centres."""
+        return drawing.words("step.arcs-meet.say", **self.place(drawing))
+
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """Where both arcs meet."""
+        return drawing.words("step.arcs-meet.apart", **self.place(drawing))
+
+    def place(self, drawing: Drawing) -> Mapping[str, str]:
+        """Its letter, and its side."""
         side = side_words(drawing, self.pin, (self.left, self.right))
-        return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
+        return {"name": symbol(self.name), "side": side}
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """The two bars."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
+from collections.abc import Mapping
 from math import degrees
 from typing import ClassVar
 
@@ -22,6 +23,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``link``, laid off from its point ``start`` as the link has turned."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.placed"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
 
     link: str

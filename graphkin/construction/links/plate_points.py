@@ -118,6 +118,7 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
     """A ``point`` called ``name``, laid off from the pivot ``start`` on the line of a lever."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.on_lever"}
 
     start: str
     name: str

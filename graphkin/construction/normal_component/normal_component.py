@@ -106,7 +106,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     drawn_in: ClassVar[str] = "right triangle"
     laid_off_key: ClassVar[str] = ""
     laid_off_reason: ClassVar[str] = "why.normal"
-    reasons: ClassVar[Mapping[str, str]] = {"end": "why.height"}
+    reasons: ClassVar[Mapping[str, str]] = {"cut": "why.height", "end": "why.over"}
     lines: ClassVar[Mapping[str, str]] = {"line": "{p}{q}", "edge": "⊥ at {tip}"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
@@ -203,9 +203,30 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
         if not first:
             return "ν", drawing.words("step.normal-again", **fields)
-        fields |= {"set": set_length(drawing, fields["v"]), "more": laid_times(drawing)}
+        cut, over = self.in_full(drawing, "step.normal-over")
+        return "ν1", f"{cut}; {over}"
+
+    def in_full(self, drawing: Drawing, over: str) -> tuple[str, str]:
+        """Its right triangle in full: as far as the cut; by the key ``over`` that turned over."""
         corners = {role: symbol(self.letter(drawing, role)) for role in ("tip", "cut", "end")}
-        return "ν1", drawing.words("step.normal", **fields, **corners)
+        speed = symbol(self.speed)
+        fields = {
+            **self.symbols(),
+            **corners,
+            "a": self.symbol,
+            "set": set_length(drawing, speed),
+            "more": laid_times(drawing),
+        }
+        return drawing.words("step.normal-cut", **fields), drawing.words(over, **fields)
+
+    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+        """The velocity and the cut; what that gives, turned over."""
+        if self.cut is None or self.vector is None or not self.is_drawn(drawing):
+            yield from super().told_in_parts(drawing)
+            return
+        cut, over = self.in_full(drawing, "step.normal-over-apart")
+        yield self.cut, cut
+        yield self.vector, over
 
     def section(self) -> str:
         """The section of the calculation that holds its relation."""

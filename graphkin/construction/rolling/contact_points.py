@@ -192,6 +192,7 @@ class RackPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``rack``, from the wheel that has rolled a ``way`` along it."""
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.rack"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
 
     rack: str
@@ -216,6 +217,7 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("where", "centre")
+    reasons: ClassVar[Mapping[str, str]] = {"centre": "why.roller"}
 
     path: int
     lean: int

@@ -43,6 +43,11 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
         name = symbol(drawing.trace.program.steps[self.image].name)
         return drawing.words("step.meet", name=name)
 
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """Where both lines meet."""
+        name = symbol(drawing.trace.program.steps[self.image].name)
+        return drawing.words("step.meet-apart", name=name)
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """The point, under its letter."""
         canvas.image()

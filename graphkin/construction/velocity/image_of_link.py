@@ -121,6 +121,12 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         touching = dict(zip("cd", map(symbol, self.touching), strict=True))
         return drawing.words("step.similar-touch", **touching, **fields)
 
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """Where the lines meet that find it by hand."""
+        if self.crossing(drawing) is None:
+            return ""
+        return drawing.words("step.meet-apart", **self.figures(drawing))
+
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Its vector by similarity to the link, where no lines find it."""
         if self.crossing(drawing) is None:

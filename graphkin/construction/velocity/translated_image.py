@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -29,6 +29,7 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
     """The ``image`` of a point ``q``, on the image ``start`` of ``p``, for it moves as that."""
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
+    reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
     unmarked: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str

@@ -21,7 +21,7 @@ function follow_address() {
   address = location.hash;
   const said = new URLSearchParams(address.slice(1));
   const x = Number.parseFloat(said.get("x"));
-  const step = Number.parseInt(said.get("step"), 10) || 1;
+  const step = Number.parseInt(said.get("step"), 10) || 0;
   if (motion) drive(Number.isFinite(x) ? x : motion.start);
   show(step);
 }

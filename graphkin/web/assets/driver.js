@@ -16,6 +16,7 @@ if (motion) {
 
 /** Set it. */
 function drive(x) {
+  lift();
   const place = meant(x);
   const there = Math.abs(place - motion.start) < 1e-6 * motion.step;
   state.x = Number.isFinite(place) && !there ? place : motion.start;
@@ -33,8 +34,9 @@ function drive(x) {
   clear_off(step => !ok || flat.some(crossing => data.hangs[step].includes(crossing)));
   byId("place").textContent = !ok ? byId("place").dataset.open : dead ? byId("place").dataset.dead : "";
   if (!state.dead) read();
+  tell_rates();
   page.classList.toggle("silent", state.dead);
-  warn(byId("told"), state.step);
+  warn(byId("told"), places[state.step - 1]?.crossings ?? []);
   trace();
   remember();
 }

@@ -15,6 +15,7 @@ function halos() {
   const sheet = sheets[here()], steps = looked_at(), from = sources(steps);
   const fresh = state.over ? steps.flatMap(step => sheet.of.get(step) ?? []) :
     sheet.marks.filter(mark => mark.classList.contains("now"));
+  carry(steps);
   for (const { svg, halo, front } of sheet.fields) {
     const strokes = steps.flatMap(step => side(sheet, svg, data.sides[step] ?? []));
     strokes.push(...steps.flatMap(step => squares(sheet, svg, data.squares[step] ?? [])));
@@ -23,8 +24,9 @@ function halos() {
     };
     for (const step of from) for (const mark of sheet.of.get(step) ?? []) add(mark, "old");
     for (const mark of fresh) add(mark, `new ${tint(mark.dataset.of)}`);
+    if (!state.over) strokes.push(...rates_in(sheet, svg), ...similar_in(sheet, svg));
     halo.replaceChildren(...strokes);
-    front.replaceChildren(...fresh.filter(mark => svg.contains(mark)).flatMap(head));
+    front.replaceChildren(...fresh.filter(mark => svg.contains(mark)).flatMap(head), ...turning_in(svg));
   }
 }
 

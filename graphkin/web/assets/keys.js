@@ -5,15 +5,15 @@ function key(event) {
   const at = event.target;
   if (at.matches("input:not([type=range]),select,textarea")) return;
   const range = at.matches("input[type=range]"), pressed = at.matches("button,a,summary");
-  const stop = data.stops[Number(event.key) - 1];
+  const stop = event.key === "0" ? 0 : data.stops[Number(event.key) - 1];
   const act = {
     ArrowLeft: range ? null : () => go(state.step - 1),
     ArrowRight: range ? null : () => go(state.step + 1),
-    Home: range ? null : () => go(1),
+    Home: range ? null : () => go(0),
     End: range ? null : () => go(last),
     " ": pressed ? null : toggle,
     z: zoom,
-  }[event.key] ?? (stop ? () => go(stop) : null);
+  }[event.key] ?? (stop === undefined ? null : () => go(stop));
   if (!act) return;
   event.preventDefault();
   act();
@@ -40,23 +40,24 @@ places.forEach(({ link }, i) => link.addEventListener("click", event => {
   go(i + 1);
 }));
 for (const { element } of sheets) {
-  const step = event => event.target.closest("[data-of]")?.dataset.of;
   element.addEventListener("click", event => {
-    const at = data.at[step(event)];
+    const at = data.at[aimed(event)];
     if (at) go(at);
   });
-  element.addEventListener("pointerover", event => {
-    const over = event.pointerType === "mouse" && step(event);
-    if (over) point_at(over);
+  element.addEventListener("pointermove", event => {
+    if (event.pointerType !== "mouse" || event.buttons || !event.target.closest(".view")) return;
+    const over = aimed(event);
+    event.target.closest(".view").classList.toggle("aimed", Boolean(data.at[over]));
+    point_at(over);
   });
-  element.addEventListener("pointerout", event => {
-    if (!event.relatedTarget?.closest?.("[data-of]")) point_at(null);
-  });
+  element.addEventListener("pointerleave", () => point_at(null));
 }
 if (motion) {
   driver.addEventListener("input", () => drive(Number(driver.value)));
   byId("back").addEventListener("click", () => drive(motion.start));
 }
+for (const sign of ["pointerover", "focusin"]) byId("reason").addEventListener(sign, light);
+for (const sign of ["pointerleave", "focusout"]) byId("reason").addEventListener(sign, () => point_at(null));
 addEventListener("hashchange", follow_address);
 addEventListener("resize", fit);
 addEventListener("beforeprint", whole);

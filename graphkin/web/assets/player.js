@@ -15,6 +15,8 @@ const byId = (id) => {
 };
 const play = byId("play"), slider = byId("at"), speed = byId("speed"), back = byId("back");
 const rows = [...document.querySelectorAll("[data-row]")];
+const NEAR = 0.8, ALONG = [0.5, 0.35, 0.65]; // mm of a name from its vector, parts of it beside which it may stand
+const STILL = matchMedia("(prefers-reduced-motion:reduce)");
 const state = { x: data.start, playing: false, last: 0 };
 
 const numbers = (mark, names) => names.map((name) => Number(mark.getAttribute(name)));
@@ -61,10 +63,10 @@ function off(here, others) {
 
 // Set each letter by its rule beside its point, on another side where a letter stands.
 function letter(letters) {
-  const [height, gap, leftward, upward] = data.letter, taken = [];
+  const [height, gap, beside, leftward, upward] = data.letter, taken = [];
   const place = (id) => numbers(byId(id), ["cx", "cy"]);
   const meets = (s, width, t) =>
-    Math.abs(s[0] - t[0]) < (width + t[2]) / 2 + gap && Math.abs(s[1] - t[1]) < height + gap;
+    Math.abs(s[0] - t[0]) < (width + t[2]) / 2 + beside && Math.abs(s[1] - t[1]) < height + gap;
   for (const [id, point, x, y, width, far, c, s, others] of letters) {
     const text = byId(id), here = place(point);
     const from = others.length ? off(here, others.map(place)) : [1, 0];
@@ -80,6 +82,36 @@ function letter(letters) {
     text.removeAttribute("visibility");
     text.setAttribute("transform", `translate(${(free[0] - x).toFixed(3)} ${(free[1] - y).toFixed(3)})`);
   }
+  return taken.map(([x, y, width]) => [x, y, width, height]);
+}
+
+// Set the name of each vector beside it, clear of letters and of other vectors; that of one that is asked for
+// clear of letters at least. A vector too short for its name has none.
+function name(vectors, taken) {
+  const lines = vectors.map(([, line]) => byId(line)).map((mark) => (hides(mark) ? null : numbers(mark, ["x1", "y1", "x2", "y2"])));
+  vectors.forEach(([id, , x, y, width, height, asked], i) => {
+    const text = byId(id), [x1, y1, x2, y2] = lines[i] ?? [0, 0, 0, 0], long = Math.hypot(x2 - x1, y2 - y1);
+    const [u, v] = [(x2 - x1) / long, (y2 - y1) / long], far = NEAR + (Math.abs(v) * width + Math.abs(u) * height) / 2;
+    const spots = ALONG.flatMap((part) => [1, -1].map((side) => [
+      x1 + part * (x2 - x1) - side * v * far, y1 + part * (y2 - y1) + side * u * far, width, height,
+    ]));
+    const apart = (spot) => taken.every(([c, d, w, h]) =>
+      Math.abs(spot[0] - c) > (width + w) / 2 + NEAR || Math.abs(spot[1] - d) > (height + h) / 2 + NEAR);
+    const free = long > 1.2 * width ? spots.filter(apart) : [];
+    const clear = free.find((spot) => !lines.some((line, k) => k !== i && line && cuts(line, spot)));
+    const at = clear ?? (asked ? free[0] : null);
+    text.toggleAttribute("data-off", !at);
+    if (!at) return;
+    taken.push(at);
+    text.setAttribute("transform", `translate(${(at[0] - x).toFixed(3)} ${(at[1] - y).toFixed(3)})`);
+  });
+}
+
+// Whether a line cuts a box about a spot.
+function cuts([x1, y1, x2, y2], [x, y, width, height]) {
+  const [a, b] = [width / 2, height / 2], [u, v] = [(x2 - x1) / 2, (y2 - y1) / 2], [p, q] = [x - x1 - u, y - y1 - v];
+  const within = Math.abs(p) < a + Math.abs(u) && Math.abs(q) < b + Math.abs(v);
+  return within && Math.abs(p * v - q * u) < a * Math.abs(v) + b * Math.abs(u);
 }
 
 // Put the mechanism and its plans where the driver stands.
@@ -87,7 +119,8 @@ function show(x) {
   state.x = Math.min(Math.max(x, data.low), data.high);
   const { ok } = motion.set(state.x, byId);
   if (ok) {
-    data.letters.forEach(letter);
+    const taken = data.letters.map(letter);
+    data.vectors.forEach((vectors, i) => name(vectors, taken[2 * i + 1] ?? []));
     data.panes.forEach(seat);
   }
   const told = written(state.x, span > 50 ? 1 : span > 5 ? 2 : 3) + data.unit;
@@ -100,6 +133,7 @@ function show(x) {
     row.hidden = value === undefined;
     if (value !== undefined) tell(row, value);
   }
+  point(values, told);
 }
 
 // Size and sense of what is asked.
@@ -112,6 +146,8 @@ function tell(row, value) {
 // Go on by some seconds in the sense of the driver's speed, and beyond the end from the beginning.
 function go(seconds) {
   const way = data.sense * (seconds / data.seconds) * span * Number(speed.value);
+  const beyond = state.x + way < data.low || state.x + way > data.high;
+  if (beyond && data.back && !STILL.matches) byId("stage").animate([{ opacity: 0.15 }, { opacity: 1 }], 600);
   show(data.low + ((((state.x + way - data.low) % span) + span) % span));
 }
 
@@ -167,5 +203,6 @@ slider.step = span / 720;
 slider.addEventListener("input", () => rest(Number(slider.value)));
 play.addEventListener("click", toggle);
 back.addEventListener("click", () => rest(data.start));
-for (const id of ["bar", "values", "help"]) byId(id).hidden = false;
+for (const id of ["bar", "values", "help", "anew"]) if (byId(id)) byId(id).hidden = false;
+charts();
 show(data.start);

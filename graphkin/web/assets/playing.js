@@ -4,7 +4,7 @@ let timer = 0;
 function start() {
   play.setAttribute("data-on", "");
   named(play.dataset.pause);
-  if (state.step === last) show(1);
+  if (state.step === last) show(0);
   wait();
 }
 
@@ -20,14 +20,15 @@ function toggle() {
   else start();
 }
 
-/** Stay at a step as long as its sentence takes to read. */
+/** Stay at a step as long as its sentence and why take to read, and its strokes to draw. */
 function wait() {
-  const letters = byId("sentence").textContent.length;
+  const why = byId("because").open ? byId("reason").textContent.length : 0;
+  const letters = byId("sentence").textContent.length + (state.step ? why : 0);
   timer = setTimeout(() => {
     show(state.step + 1);
     if (state.step === last) pause();
     else wait();
-  }, Math.min(1500 + 45 * letters, 12000));
+  }, Math.max(Math.min(1500 + 45 * letters, 25000), state.step ? 0 : SWEEP));
 }
 
 /** Say what the button does. */

@@ -4,9 +4,9 @@ const LOW = 900; // dots of a window in which what the keys do comes below all e
 /** Keep it. */
 function fit() {
   const told = byId("told").cloneNode(true), values = byId("read")?.cloneNode(true);
-  tallest(told, "told", places.map((_, i) => i + 1), step => {
+  tallest(told, "told", [0, ...places.map((_, i) => i + 1)], step => {
     tell(told, step);
-    names(told.querySelector("#from"), sources(own[step]));
+    names(told.querySelector("#from"), sources(step ? own[step] : []));
   });
   if (values) {
     values.querySelector("#place").textContent = byId("place").dataset.dead;

@@ -5,26 +5,25 @@ const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
   link.dataset.number = i + 1;
   link.append(...item.childNodes);
   item.append(link);
-  const parts = own[i + 1].some(step => data.tints[step]) ? link.querySelectorAll("[data-for]") : [];
-  for (const part of parts) part.className = `tint ${tint(part.dataset.for)}`;
   return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), aside: link.querySelector(".aside"), crossings: [...link.querySelectorAll(".crossing")] };
 });
 
-/** Say the sentence of the step, and mark it in the list. */
+/** Say the sentence of the step, and mark it in the list; at the beginning the task. */
 function say() {
-  const count = data.count.replace("{number}", state.step).replace("{all}", last);
+  const count = state.step ? data.count.replace("{number}", state.step).replace("{all}", last) : data.task[0];
   byId("count").textContent = count;
   slider.setAttribute("aria-valuetext", count);
   tell(byId("told"), state.step);
+  tell_rates();
   byId("told").scrollTop = 0;
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
   const list = byId("steps");
   if (list.scrollHeight > list.clientHeight + 4) {
-    const { offsetTop, offsetHeight } = places[state.step - 1].link;
+    const { offsetTop, offsetHeight } = places[Math.max(state.step - 1, 0)].link;
     list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
   }
   for (const stop of byId("stops").children) {
-    const is = stop.dataset.stop <= state.step && state.step <= stop.dataset.end;
+    const is = Number(stop.dataset.stop) <= state.step && state.step <= Number(stop.dataset.end);
     current(stop, is, "true");
     if (is) into_sight(stop);
   }
@@ -55,18 +54,48 @@ function current(element, is, word) {
 
 /** Write the sentence of a step, why, what stands aside of its drawing, and its flattest crossing. */
 function tell(told, step) {
-  const { say: words, why, aside } = places[step - 1];
-  told.querySelector("#sentence").replaceChildren(...copies(words));
-  told.querySelector("#reason").replaceChildren(...(why ? copies(why) : []));
+  const { say: words, why, aside, crossings } = places[step - 1] ?? { crossings: [] };
+  told.querySelector("#sentence").replaceChildren(...(words ? copies(words) : [data.task[1]]));
+  told.querySelector("#reason").replaceChildren(...lines(why));
   told.querySelector("#because").hidden = !why;
+  told.querySelector("#behind").hidden = !step;
   told.querySelector("#aside").replaceChildren(...(aside ? copies(aside) : []));
-  warn(told, step);
+  warn(told, crossings);
 }
 
-/** Write the flattest crossing of a step. */
-function warn(told, step) {
+/** Where the driver has moved, tell the rates that are read off as they are there. */
+function tell_rates() {
+  const read = rates_read(), told = byId("sentence");
+  if (!read.length) return;
+  told.replaceChildren(...copies(places[state.step - 1].say));
+  if (!moved()) return;
+  told.replaceChildren(...read.flatMap(({ row, told: name }, i) => {
+    const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`), start = document.createElement("span");
+    start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped where it was made
+    return [start, ...(state.dead ? ["?"] : value_of([...cells]))];
+  }));
+}
+
+/** The reasons, each a line of its own in the colour of its stroke; a button where that can be lit. */
+function lines(why) {
+  return [...(why?.children ?? [])].map(reason => {
+    const step = reason.dataset.for, drawn = sheets.some(({ of }) => of.has(step));
+    const line = document.createElement(drawn ? "button" : "p");
+    line.append(...copies(reason));
+    line.className = drawn ? `line ${tint(step)}` : "line";
+    if (drawn) line.dataset.for = step;
+    return line;
+  });
+}
+
+/** Light the stroke of the reason that is pointed at, alone. */
+function light(event) {
+  point_at(event.target.closest("[data-for]")?.dataset.for ?? null);
+}
+
+/** Write the flattest of some crossings. */
+function warn(told, crossings) {
   const factor = line => Number(line.querySelector(".factor").textContent.replace(data.mark, "."));
-  const lines = places[step - 1].crossings;
-  const worst = lines.reduce((a, b) => (a && factor(a) >= factor(b) ? a : b), null);
+  const worst = crossings.reduce((a, b) => (a && factor(a) >= factor(b) ? a : b), null);
   told.querySelector("#crossing").replaceChildren(...(worst ? copies(worst) : []));
 }

@@ -11,12 +11,14 @@ const sheets = [...document.querySelectorAll(".sheet")].map(element => {
     const step = mark.dataset.of;
     if (step) of.set(step, [...(of.get(step) ?? []), mark]);
   }
-  return { element, marks, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
+  const parts = element.querySelectorAll("[data-from]"); // letters that share a label
+  return { element, marks, parts, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
 });
 
 /** A field: its picture, the groups beneath and above what is marked, its box, and that of all that is drawn. */
 function field(svg) {
-  const halo = svg.insertBefore(document.createElementNS(SVG, "g"), svg.firstChild);
+  const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath what is filled
+  const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
   const front = svg.appendChild(document.createElementNS(SVG, "g"));
   for (const group of [halo, front]) group.setAttribute("class", "halo");
   const { x, y, width, height } = svg.viewBox.baseVal;

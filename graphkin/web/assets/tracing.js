@@ -2,7 +2,7 @@
 
 /** Mark what the step in sight draws, or that which is pointed at, and what it is drawn from. */
 function trace() {
-  const sheet = sheets[here()], from = sources(looked_at());
+  const sheet = sheets[here()], from = new Set([...sources(looked_at()), ...read_from()]);
   const done = state.step === data.bounds[here()][1] && !state.over;
   sheet.element.classList.toggle("growing", !done);
   for (const mark of sheet.marks) {
@@ -16,7 +16,7 @@ function trace() {
 
 /** The steps of the sentence in sight, or that which is pointed at. */
 function looked_at() {
-  return state.over ? [state.over] : own[state.step];
+  return state.over ? [state.over] : state.step ? own[state.step] : [];
 }
 
 /** What some steps are drawn from. */

@@ -1,5 +1,8 @@
 // Values and margins of a position: in the tables, in the sentences, and in the line of what is asked.
 
+/** The column of a size in each kind of table. */
+const PLACE = { vectors: 3, turns: 1, slides: 1 };
+
 /** How each kind of table tells a value. */
 const TOLD = {
   vectors(row, [, length, size], value) {
@@ -44,6 +47,8 @@ function read_out() {
   byId("values").replaceChildren(...all_asked(sheets[here()].element.dataset.kind));
 }
 
+const found = [...document.querySelectorAll("#results [data-found]")];
+
 /** All that is asked on a sheet, each in one line. */
 function all_asked(kind) {
   const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
@@ -52,11 +57,19 @@ function all_asked(kind) {
 
 /** A value that is asked, in one line: its name, its size and unit. */
 function asked(cells) {
-  const table = cells[0].closest("table");
-  const place = { vectors: 3, turns: 1, slides: 1 }[table.className];
   const value = document.createElement("span");
-  value.append(...copies(cells[0]), " = ", ...copies(cells[place]), " ");
-  value.append(...copies(table.tHead.rows[0].cells[place]));
-  if (place === 1 && cells[2].textContent) value.append(", ", ...copies(cells[2]));
+  value.append(...copies(cells[0]), " = ");
+  if (cells[0].parentElement.matches(".unknown")) {
+    value.append("?");
+    return value;
+  }
+  value.append(...value_of(cells));
   return value;
+}
+
+/** The size of a row, its unit and its sense. */
+function value_of(cells) {
+  const table = cells[0].closest("table"), place = PLACE[table.className];
+  const found = [...copies(cells[place]), " ", ...copies(table.tHead.rows[0].cells[place])];
+  return place === 1 && cells[2].textContent ? [...found, ", ", ...copies(cells[2])] : found;
 }

@@ -82,7 +82,7 @@ function dots([across, high], [, , width, height]) {
 function roomy(one, picture, sheet, side) {
   const { svg, whole, drawn } = one, base = closer(picture, whole, drawn);
   const known = () => svg.clientWidth ? extent(svg, MOVED) : null; // without what has no place
-  const found = moved() && (state.dead ? known() : motion.extent(state.x, sheet, side));
+  const found = swept(sheet, side) ?? (moved() && (state.dead ? known() : motion.extent(state.x, sheet, side)));
   if (!found) return base;
   const box = about(found, base, whole, MOST[side]), times = kept(one, picture, box, side);
   if (times === 1 || state.dead) return box;

@@ -1,0 +1,55 @@
+// The beginning: the whole mechanism is there at once, as a ghost, and moves once through its range.
+const STILL = matchMedia("(prefers-reduced-motion:reduce)");
+const SWEEP = 5000, PLACES = 24; // milliseconds of it, and at how many places its room is looked for
+const ghosts = data.ghosts.map(k => byId(`m0-${k}`));
+sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
+let ghost = 0, shown_once = false, room = null;
+
+/** Show it where the page begins, and take it off elsewhere. */
+function begin() {
+  const here = state.step === 0;
+  page.classList.toggle("beginning", here);
+  for (const mark of ghosts) mark.classList.toggle("ghost", here);
+  if (!here) settle();
+  else if (motion && !shown_once && !moved() && !STILL.matches && !document.hidden) sweep();
+}
+
+/** Move it once. */
+function sweep() {
+  const from = performance.now();
+  shown_once = true;
+  const next = now => {
+    const part = (now - from) / SWEEP;
+    if (part >= 1 || moved()) return settle();
+    motion.set(along(part), byId, DRAWN[0]);
+    ghost = requestAnimationFrame(next);
+  };
+  ghost = requestAnimationFrame(next);
+}
+
+/** Where the driver is after a part of the way: a whole turn, or to one end, to the other and back. */
+function along(part) {
+  const { low, high, start, whole } = motion, eased = part - Math.sin(2 * Math.PI * part) / (2 * Math.PI);
+  const way = 2 * (high - low) * eased, up = high - start;
+  if (whole) return low + (start - low + way / 2) % (high - low);
+  return way < up ? start + way : way < up + high - low ? high - (way - up) : low + (way - up - (high - low));
+}
+
+/** Put it back where it is drawn. */
+function settle() {
+  if (!ghost) return;
+  cancelAnimationFrame(ghost);
+  ghost = 0;
+  if (!moved()) put();
+}
+
+/** The box of a field over the whole motion, for the beginning; null anywhere else. */
+function swept(sheet, side) {
+  if (state.step || !motion || sheet || side || moved()) return null;
+  room ??= Array.from({ length: PLACES }, (_, i) => motion.extent(along(i / PLACES), 0, 0)).filter(Boolean).reduce(
+    ([x, y, w, h], [u, v, across, down]) => {
+      const [left, top] = [Math.min(x, u), Math.min(y, v)];
+      return [left, top, Math.max(x + w, u + across) - left, Math.max(y + h, v + down) - top];
+    });
+  return room;
+}

@@ -1,0 +1,139 @@
+"""What a page lights beside the strokes of a step: links that turn, triangles that are similar."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from graphkin.construction.centres.acceleration_poles import AccelerationPole
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.rate_relations import of_turning
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.documents.mark_dependencies import BODY
+from graphkin.drawing.marks import CircleMark, Text
+from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.web.facts import SLIDES
+from graphkin.web.protocol import DRAWN, PageProtocol
+from graphkin.web.screen_sheets import ScreenSheet
+from graphkin.writers.html_markup import marked_up
+
+BODIES = tuple(set(BODY) - {"number", "label", "leader"})
+"""The classes of bars and plates."""
+HIDDEN = {*DRAWN, *VECTORS, "detail", "note", "caption"}
+"""The classes of what the beginning does not show: the construction."""
+
+
+def rates(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[int, list[dict[str, object]]]:
+    """For each sentence that reads rates off, those: the row of each, how it is told, its sense as
+    drawn, the ids of its link's marks and of that which bears its number, the ends of its bar, and
+    its vector.
+    """
+    found: dict[int, list[dict[str, object]]] = {}
+    for at, said in enumerate(told.said, 1):
+        drawing = sheets[said.sheet].drawing
+        for link in said.rates:
+            body, number = marks_of_link(told, said.sheet, link)
+            one: dict[str, object] = {
+                "row": f"{drawing.rate.letter}{link}",
+                "told": told_as(drawing, link),
+                "sense": float(drawing.turning(link) or 0.0),
+                "body": body,
+                "number": number,
+            }
+            step = drawing.trace.program.targets[drawing.rate.target, link]
+            kind = construction(drawing.trace.program.steps[step])
+            if isinstance(kind, TurningOfLink):
+                one |= {"bar": kind.places, "vector": vector_of(drawing, kind)}
+            found.setdefault(at, []).append(one)
+    return found
+
+
+def told_as(drawing: Drawing, link: str) -> str:
+    """How the rate of a link is found, in symbols, as HTML."""
+    name = symbol(f"{drawing.rate.letter}_{link}")
+    relation = next(each for each in of_turning(drawing) if each.left == name)
+    return marked_up(f"{name} = {relation.symbols}" if relation.symbols else name)
+
+
+def marks_of_link(told: PageProtocol, sheet: int, link: str) -> tuple[list[str], str]:
+    """The ids of the bars and plates of a link on a sheet, and of the ring about its number."""
+    body, number = [], ""
+    for k, timed in enumerate(told.timed[sheet]):
+        if timed.mark.name == link:
+            look = timed.mark.cls.split()[0]
+            if look in BODIES:
+                body.append(f"m{sheet}-{k}")
+            elif look == "number" and isinstance(timed.mark, CircleMark):
+                number = f"m{sheet}-{k}"
+    return body, number
+
+
+def vector_of(drawing: Drawing, kind: TurningOfLink) -> int | None:
+    """The step that draws the relative vector over the bar; None where none does."""
+    names = {kind.vector(kind.index), kind.vector(kind.p + kind.q)}
+    for number, step, _ in drawing.steps(drawing.plane):
+        vector = plan_vector(step)
+        if vector is not None and vector.symbol in names:
+            return number
+    return None
+
+
+def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
+    """For each acceleration pole that similar triangles find their corners: pole, places; pole of
+    the plan, images.
+    """
+    found = {}
+    for sheet in sheets:
+        for number, value in enumerate(sheet.drawing.trace.program.steps):
+            kind = construction(value)
+            if not isinstance(kind, AccelerationPole) or kind.found != number or kind.o is None:
+                continue
+            if number in sheet.drawing.trace.values and kind.is_by_hand(sheet.drawing):
+                found[number] = [[number, *kind.places], [kind.o, *kind.images]]
+    return found
+
+
+def ghosts(sheet: ScreenSheet, told: PageProtocol) -> list[int]:
+    """The numbers of the marks of the mechanism on the first sheet: all but the construction."""
+    curves = {f"{curve.kind} {curve.of}" for curve in sheet.drawing.curves}
+    found = []
+    for k, timed in enumerate(told.timed[0][: len(sheet.left)]):
+        if timed.mark.name in curves:
+            continue
+        looks = timed.mark.cls.split()
+        if isinstance(timed.mark, Text):
+            looks = looks[1:] or looks
+        elif looks[0] in ("leader", "arrowhead"):
+            looks = looks[1:]
+        if timed.at and not HIDDEN & {*looks}:
+            found.append(k)
+    return found
+
+
+def rows_found(sheets: Sequence[ScreenSheet], told: PageProtocol) -> dict[str, int]:
+    """The sentence that finds the quantity of each row of the tables of results."""
+    found: dict[str, int] = {}
+    for place, sheet in enumerate(sheets):
+        last = told.bounds(place)[1]
+        for row, step in steps_of_rows(sheet.drawing):
+            is_given = not sheet.drawing.trace.program.steps[step].args
+            found.setdefault(row, 0 if is_given else told.at.get(step, last))
+    for at, some in rates(sheets, told).items():
+        found |= {str(one["row"]): at for one in some}
+    return found
+
+
+def steps_of_rows(drawing: Drawing) -> Iterator[tuple[str, int]]:
+    """The rows of the tables of a sheet, each with the step that holds or draws its quantity."""
+    for number, step, _ in drawing.steps(drawing.plane):
+        vector = plan_vector(step)
+        if vector is not None:
+            yield vector.symbol, number
+    targets: Mapping[tuple[str, str], int] = drawing.trace.program.targets
+    for (what, name), number in targets.items():
+        if what == drawing.rate.target:
+            yield f"{drawing.rate.letter}{name}", number
+        elif what == drawing.sliding.target:
+            yield f"{SLIDES[drawing.kind]} {name}", number
