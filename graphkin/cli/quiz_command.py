@@ -46,8 +46,8 @@ def quiz(
 
     Writes LAB-moodle.xml (question bank, import, Moodle XML): a category for each fair variant,
     and in it one question with embedded answers: the task as pictures and as a PDF to be printed at
-    100 %, a gap for each field with the tolerance of that variant's own drawing, and the slips that
-    lab.toml gives a share to, each with its sentence. What follows from own wrong values only
+    100 %, a gap for each field with the tolerance of that variant's own drawing, and what slips
+    would give, with their share (lab.toml) and a sentence. What follows from own wrong values only
     graphkin grade can tell.
 
     \b

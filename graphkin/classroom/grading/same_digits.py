@@ -38,6 +38,8 @@ FINE = 1e-6
 """No number is written more finely than this part of it."""
 COMPUTING, FINER = 0.1, 0.05
 """The share of students who compute or draw with a computer; how much finer that is than a hand."""
+EXACT = 1 / 2
+"""The share of what is right that is right to the digits, at least, where all is computed."""
 CROWD = 12
 """So many with one value are no evidence of copies."""
 Pair = tuple[int, int]
@@ -142,10 +144,27 @@ def told(pair: Pair, sheets: Mapping[int, AnswerSheet], keys: Keys, places: Sequ
     shared = agree & one.wrong & other.wrong
     ways = ((one, other), (other, one))
     alone = min(by_oneself(*way, keys, agree & ~shared, ~agree) for way in ways)
+    innocent = alone + misunderstood(one, other, keys, shared)
+    if shared.any():
+        innocent = float(np.logaddexp(innocent, both_computed(one, other, keys, agree)))
     measured = keys.beside == np.arange(len(keys.fields))
     both, taken = (int((each & measured).sum()) for each in (one.is_read & other.is_read, agree))
     choice = log(both + 1) + log(comb(both, taken))
-    return -alone - misunderstood(one, other, keys, shared) - choice - log(2)
+    return -innocent - choice - log(2)
+
+
+def both_computed(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> float:
+    """How likely two write the same digits who compute what they misunderstood alike, as a
+    logarithm: what is right to the digits is so for both, all else follows from that, though some
+    of it may be near enough to be right.
+    """
+    right = agree & ~(one.wrong & other.wrong)
+    exact = agree.copy()
+    for each in (one, other):
+        exact &= abs(each.answers - keys.sizes[each.variant]) <= 1.01 * each.rounding
+    if exact.sum() < max(FEW, EXACT * right.sum()):
+        return -inf
+    return log(COMPUTING) + misunderstood(one, other, keys, agree & ~exact, FINER * PENCILS[0])
 
 
 def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, rest: Any) -> float:
@@ -189,15 +208,17 @@ def tools(keys: Keys, variant: int, read: Any) -> tuple[Key, Key]:
     return key, fine
 
 
-def misunderstood(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any) -> float:
+def misunderstood(
+    one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, pencil: float | None = None
+) -> float:
     """How likely two write the same digits who misunderstood the same: as far as pencils like
-    theirs do, and their data, as a logarithm.
+    theirs do, or one that is stated, and their data, as a logarithm.
     """
     import numpy as np
 
     if not read.any():
         return 0.0
-    finest = min(pencil_of(each, keys) for each in (one, other))
+    finest = pencil or min(pencil_of(each, keys) for each in (one, other))
     apart = keys.sizes[one.variant][read] - keys.sizes[other.variant][read]
     rounding = np.maximum(one.rounding, other.rounding)[read]
     spread = 2 * finest**2 * keys.key(one.variant, read).spread

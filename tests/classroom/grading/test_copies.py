@@ -25,6 +25,7 @@ from tests.classroom.grading.classes import (
     takers_of,
     written,
 )
+from tests.classroom.grading.hand import SLIPS
 
 CAREFUL, ORDINARY, COMPUTED = HONEST[0], HONEST[1], HONEST[6]
 
@@ -46,6 +47,13 @@ def test_who_computes_instead_of_drawing_agrees_with_others_to_the_digits(lab, s
     texts = [tuple(each.text for each in row.values()) for row in answers.values()]
     assert len(set(texts)) < len(texts)
     assert named(marked(lab, COMPUTED, seed, answers)) == []
+
+
+@pytest.mark.parametrize("lab", LABS)
+def test_a_class_that_computes_and_misunderstands_alike_names_nobody(lab):
+    """All have one slip, and what it leaves near enough to be right is the same for all, too."""
+    kind = Kind("computed, one slip", (0.0, 0.01), step=0.1, share=1.0, slips=SLIPS[5:6])
+    assert named(marked(lab, kind, 0, honest_class(lab, kind, 0))) == []
 
 
 def test_of_what_careful_hands_draw_hardly_a_hundredth_is_judged_wrong():
