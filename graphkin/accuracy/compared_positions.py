@@ -23,7 +23,7 @@ from graphkin.text.errors import ClosureError, Problem
 AROUND = {"turn": 60.0}
 """How far to both sides of the scene's own position a driver is moved: degrees."""
 SHARE = 0.25
-"""The same for a driver that slides or rolls, and for the time: a share of its range."""
+"""The same for a driver along a line, and for the time: a share of its range."""
 TRIED = 240
 """Positions tried on the way to both sides."""
 STEEP = 0.1

@@ -78,7 +78,7 @@ def of_sum(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
 
 
 def of_gears(drawing: Drawing) -> Iterator[Relation]:
-    """Willis' relation for wheels that roll on one another: rates against the arm by the radii.
+    """Willis' relation for wheels that touch: rates against the arm by the radii.
 
     On the first sheet those of gears, before they are used, from module and number of teeth.
     """
@@ -120,7 +120,7 @@ def by_radii(
     rates: Sequence[float],
     discs: tuple[Disc, Disc],
 ) -> Relation:
-    """The rate of a wheel from that of the arm and that of the wheel on which it rolls."""
+    """The rate of a wheel from that of the arm and that of the wheel that it touches."""
     wheel, arm, track = (symbol(f"{drawing.rate.letter}_{name}") for name in names)
     _, carried, rolled = rates
     ring = any(disc.wheel.inside for disc in discs)

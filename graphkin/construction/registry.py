@@ -16,9 +16,12 @@ from graphkin.construction.normal_component.normal_component import (
     with_normals_together,
 )
 from graphkin.construction.rolling.rolling_normal import RollingNormal
+from graphkin.construction.rolling.touching import TOUCHING, TouchingEffect
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
 """The components of accelerations that follow from velocities."""
+CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
+"""What knows why an effect is in or out of a scene."""
 TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (
     with_trials_together,
     with_starts_together,

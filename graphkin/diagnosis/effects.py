@@ -15,11 +15,10 @@ from msgspec.structs import replace
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.timing import Timing, timed
-from graphkin.construction.registry import COMPONENTS
+from graphkin.construction.registry import CAUSES
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import Contact, contacts, meshes
+from graphkin.scene.model import Scene
 
 BY_HAND = "by-hand marks"
 PENCIL = "pencil"
@@ -177,10 +176,6 @@ def cause_of(scene: Scene, effect: Effect) -> str:
     match effect:
         case Effect.TIME:
             return f"{drivers_words(timed_drivers(scene))} a law of time"
-        case Effect.ROLLING:
-            return f"without slip roll {', '.join(rolling(scene))}"
-        case Effect.GEARS:
-            return f"in mesh are {', '.join(meshing(scene))}"
         case Effect.DRIVER:
             return f"{drivers_words(accelerated_drivers(scene))} an acceleration"
         case Effect.TANGENTIAL:
@@ -189,7 +184,7 @@ def cause_of(scene: Scene, effect: Effect) -> str:
             return "numbers that the scene states, and the shapes of its links"
         case Effect.CENTRODE:
             return "the centres of a whole motion, which only the sheet and the cycle follow"
-    return next((kind.cause(scene) for kind in COMPONENTS if kind.effect is effect), "")
+    return next((kind.cause(scene) for kind in CAUSES if kind.effect is effect), "")
 
 
 def absence_of(scene: Scene, effect: Effect) -> str:
@@ -198,10 +193,6 @@ def absence_of(scene: Scene, effect: Effect) -> str:
     match effect:
         case Effect.TIME if not timed_drivers(scene):
             return "no driver is written in t"
-        case Effect.ROLLING if not rolling(scene):
-            return "no wheel rolls along a track"
-        case Effect.GEARS if not meshing(scene):
-            return "no wheels are in mesh"
         case Effect.DRIVER if not accelerated_drivers(scene):
             return "every driver has a constant speed"
         case Effect.CENTRE if not ask.any_centres:
@@ -210,7 +201,7 @@ def absence_of(scene: Scene, effect: Effect) -> str:
             return "[ask] names no centrodes"
         case Effect.POLE if not ask.any_poles:
             return "[ask] names no poles"
-    return next((kind.absence(scene) for kind in COMPONENTS if kind.effect is effect), "")
+    return next((kind.absence(scene) for kind in CAUSES if kind.effect is effect), "")
 
 
 def drivers_words(numbers: list[int]) -> str:
@@ -228,19 +219,3 @@ def timed_drivers(scene: Scene) -> list[int]:
 def accelerated_drivers(scene: Scene) -> list[int]:
     """Drivers that do not run at constant speed."""
     return [i for i, driver in enumerate(scene.drivers, 1) if not driver.acceleration.is_zero()]
-
-
-def rolling(scene: Scene) -> list[str]:
-    """Wheels that roll along a track, each with its track: 3 on 0."""
-    return [pair_words(contact) for contact in contacts(scene) if not meshes(scene, contact)]
-
-
-def meshing(scene: Scene) -> list[str]:
-    """Wheels in mesh with a wheel or a rack, as pairs of links."""
-    return [pair_words(contact) for contact in contacts(scene) if meshes(scene, contact)]
-
-
-def pair_words(contact: Contact) -> str:
-    """The two links of a contact in words."""
-    wheel, track = contact.links
-    return f"{wheel} on {'the frame' if track == FRAME else track}"

@@ -38,7 +38,7 @@ SIZE = (58.0, 45.0)
 TURNS = (35.0, -35.0, 25.0, -25.0, 15.0, -15.0)
 """By how much drivers are turned from the student's position, in degrees, in the order tried."""
 WAY = 1 / 200
-"""How far one that slides or rolls is moved instead of a degree, in breadths of the mechanism."""
+"""How far one along a line is moved instead of a degree, in breadths of the mechanism."""
 CLEAR, CROSSING = 0.07, 0.25
 """The least distance of pins, in breadths of the mechanism, and sine of a crossing, that are read
 well."""

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import At, Driver, Scene
+from graphkin.scene.model import At, Driver, DriverKind, Scene
 from graphkin.scene.quantity import Quantity
 
-What = Literal["turn", "slide", "roll", "time"]
+What = DriverKind | Literal["time"]
 
 
 class Coordinate(NamedTuple):
@@ -23,9 +23,8 @@ class Coordinate(NamedTuple):
 
 
 COORDINATES: dict[What, Coordinate] = {
+    **{kind: Coordinate("s", "s", "m", f"{kind}s") for kind in get_args(DriverKind)},
     "turn": Coordinate("phi", "φ", "deg", "turns"),
-    "slide": Coordinate("s", "s", "m", "slides"),
-    "roll": Coordinate("s", "s", "m", "rolls"),
     "time": Coordinate("t", "t", "s"),
 }
 """The coordinates that a cycle may sweep."""

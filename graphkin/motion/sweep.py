@@ -142,8 +142,8 @@ def sweep_of(
 
 
 def wheels(scene: Scene) -> bool:
-    """Whether anything rolls: then a driver that has gone round stands otherwise than before."""
-    return any(link.rolls for link in scene.links.values())
+    """Whether wheels touch: then a driver that has gone round stands otherwise than before."""
+    return bool(scene.touching)
 
 
 def chosen(scene: Scene, driver: int | None) -> int | None:

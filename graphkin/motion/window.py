@@ -42,7 +42,7 @@ def window(
         last = high if high is not None else first + whole_turn(scene)
     else:
         back = ahead = reach_of(scene) * FREE
-        if what == "roll" and number is not None:
+        if what != "slide" and number is not None:
             way = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or ahead
             start, back, ahead = start - way / 2, 0.0, way
         first = start - back if low is None else low

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.findings import Findings, Table, shown
 from graphkin.scene.known_names import all_points, known_link
-from graphkin.scene.model import Ask, Driver, Link, Scene
+from graphkin.scene.model import Ask, Driver, Scene
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME
 from graphkin.scene.requests import LANGUAGES
 
@@ -55,7 +55,7 @@ def in_language(scene: Scene, language: str) -> Scene:
     names = scene.names.get(language, {})
     if not names:
         return scene
-    links = [called(link, names) for link in scene.links.values()]
+    links = [link.called(names) for link in scene.links.values()]
     return replace(
         scene,
         links={link.name: link for link in links},
@@ -64,21 +64,6 @@ def in_language(scene: Scene, language: str) -> Scene:
         ask=asked(scene.ask, names),
         names={},
     )
-
-
-def called(link: Link, names: Names) -> Link:
-    """A link by its name in a language, with those of the links that it slides and rolls on."""
-    rolls = (
-        rolling._replace(
-            on=names.get(rolling.on, rolling.on),
-            start={names.get(name, name): angle for name, angle in rolling.start.items()},
-            turns={names.get(name, name): count for name, count in rolling.turns.items()},
-        )
-        for rolling in link.rolls
-    )
-    slides = (slide._replace(on=names.get(slide.on, slide.on)) for slide in link.slides)
-    name = names.get(link.name, link.name)
-    return link._replace(name=name, slides=tuple(slides), rolls=tuple(rolls))
 
 
 def driven(driver: Driver, names: Names) -> Driver:

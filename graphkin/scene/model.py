@@ -139,6 +139,10 @@ class Slide(NamedTuple):
     offset: Quantity
     pin: bool = False
 
+    def called(self, names: Mapping[str, str]) -> Slide:
+        """The same with links by other names."""
+        return self._replace(on=names.get(self.on, self.on))
+
 
 class Wheel(NamedTuple):
     """A circle of a link about one of its points; ``inside`` for a ring with inner teeth."""
@@ -162,6 +166,14 @@ class Rolling(NamedTuple):
     start: Mapping[str, Quantity]
     side: int = 1
     turns: Mapping[str, Quantity] = {}
+
+    def called(self, names: Mapping[str, str]) -> Rolling:
+        """The same with links by other names."""
+        return self._replace(
+            on=names.get(self.on, self.on),
+            start={names.get(name, name): angle for name, angle in self.start.items()},
+            turns={names.get(name, name): count for name, count in self.turns.items()},
+        )
 
 
 GuideOrTrack = Slide | Rolling
@@ -194,6 +206,17 @@ class Link(NamedTuple):
         """What it slides and rolls on."""
         return (*self.slides, *self.rolls)
 
+    def called(self, names: Mapping[str, str]) -> Link:
+        """The same by another name, with those of the links that it slides and rolls on."""
+        return self._replace(
+            name=names.get(self.name, self.name),
+            slides=tuple(slide.called(names) for slide in self.slides),
+            rolls=tuple(rolling.called(names) for rolling in self.rolls),
+        )
+
+
+DriverKind = Literal["turn", "slide", "roll"]
+
 
 class Driver(NamedTuple):
     """A motion that is given: link ``link`` turns, slides or rolls ``against`` another.
@@ -201,7 +224,7 @@ class Driver(NamedTuple):
     ``of`` names the line (from, to) of the link whose angle is meant; without it the link's x axis.
     """
 
-    kind: Literal["turn", "slide", "roll"]
+    kind: DriverKind
     link: str
     against: str
     position: Quantity
@@ -321,6 +344,12 @@ class Scene(Struct, frozen=True):
     notes: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, object] = field(default_factory=dict)
     source: Path | None = None
+
+    @property
+    def touching(self) -> tuple[tuple[str, str], ...]:
+        """Each wheel with the link on which it rolls, as written."""
+        links = self.links.values()
+        return tuple((link.name, rolling.on) for link in links for rolling in link.rolls)
 
     def link(self, name: str) -> Link:
         """The link of a name, the frame included."""

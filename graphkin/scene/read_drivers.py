@@ -1,21 +1,20 @@
-"""Motions that are given: which link turns, slides or rolls, how far, how fast."""
+"""Motions that are given: which link is driven in which way, how far, how fast."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import get_args
 
 from graphkin.scene.expression import TIME
 from graphkin.scene.findings import Table, nearest, shown
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Driver
+from graphkin.scene.model import FRAME, Driver, DriverKind
 from graphkin.scene.phrases import line_words, link_name
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text.errors import SceneError
 
 MOST = 50
 DERIVED = "speed and acceleration are the derivatives of a law, which must be finite at its time"
-Kind = Literal["turn", "slide", "roll"]
-KINDS: tuple[Kind, ...] = ("turn", "slide", "roll")
+KINDS: tuple[DriverKind, ...] = get_args(DriverKind)
 
 
 def read_drivers(top: Table, measures: Measures) -> tuple[Driver, ...]:
@@ -45,7 +44,7 @@ def read_driver(table: Table, measures: Measures) -> Driver | None:
     kinds = [kind for kind in KINDS if kind in table]
     if len(kinds) != 1:
         found = " and ".join(kinds) or "nothing driven"
-        expected = "one of turn = LINK, slide = LINK, roll = LINK"
+        expected = "one of " + ", ".join(f"{kind} = LINK" for kind in KINDS)
         hints = [hint for key in table.raw if (hint := nearest(key, KINDS))]
         measures.findings.add(table.place, found, expected, "" if kinds else " ".join(hints[:1]))
         return None
@@ -68,7 +67,7 @@ def read_against(table: Table, measures: Measures) -> str:
 
 
 def read_motion(
-    table: Table, kind: Kind, measures: Measures
+    table: Table, kind: DriverKind, measures: Measures
 ) -> tuple[Quantity, Quantity, Quantity]:
     """Position, speed and acceleration: three numbers, or one law in ``t`` and its derivatives."""
     key, unit = ("angle", measures.units["angle"])

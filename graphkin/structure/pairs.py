@@ -9,7 +9,7 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.scene.contact_letters import contact_letters
-from graphkin.scene.model import FRAME, Rolling, Scene, Slide, Wheel
+from graphkin.scene.model import Rolling, Scene, Slide, Wheel
 from graphkin.structure.touching_wheels import radius, touching
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError
@@ -23,11 +23,9 @@ __all__ = [
     "Sliding",
     "all_pairs",
     "contacts",
-    "contacts_between",
     "guides_under",
     "meshes",
     "pairs",
-    "pairs_between",
     "refuse_loose",
     "sharers",
     "turned_by_smaller",
@@ -159,25 +157,6 @@ def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:
     return {point: tuple(links) for point, links in owners.items()}
 
 
-def pairs_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Pair, ...]:
-    """The pairs that join a link to a set of other links; a shared pin counts once."""
-    owners = sharers(scene)
-    pins = [
-        Pin(point, (link, next(other for other in owners[point] if other in others)))
-        for point in scene.link(link).points
-        if any(other in others for other in owners[point] if other != link)
-    ]
-    guides = [Sliding(s, (link, s.on)) for s in scene.link(link).slides if s.on in others]
-    carried = [
-        Sliding(slide, (other, link))
-        for other in others
-        if other != FRAME
-        for slide in scene.links[other].slides
-        if slide.on == link
-    ]
-    return (*pins, *guides, *carried)
-
-
 def contacts(scene: Scene) -> tuple[Contact, ...]:
     """All rolling pairs, as written. Raises StructureError for wheels that do not touch."""
     letters = contact_letters(scene)
@@ -192,12 +171,3 @@ def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Conta
         touch = touching(scene, link, rolling, before)
         found.append(Contact(rolling, (link, rolling.on), *touch, letter))
     return found
-
-
-def contacts_between(scene: Scene, link: str, others: frozenset[str]) -> tuple[Contact, ...]:
-    """The rolling pairs that join a link, by its wheel or by its track, to a set of others."""
-    return tuple(
-        contact
-        for contact in contacts(scene)
-        if link in contact.links and not others.isdisjoint(set(contact.links) - {link})
-    )

@@ -36,7 +36,7 @@ PARTS = 360
 class PageDriver(Struct, frozen=True):
     """What moves: the driver (None for the time), and where it stands, in ``unit``.
 
-    ``metres`` is what one unit of a driver that slides or rolls is.
+    ``metres`` is what one unit of a driver along a line is.
     """
 
     scene: Scene

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import image, letter, second_image
-from graphkin.construction.core.program import ContactName, Part, Program
+from graphkin.construction.core.program import Part, Program, is_in_scene
 from graphkin.text.plain_table import listed
 
 
@@ -50,6 +50,6 @@ def point_words(program: Program, name: str) -> str:
     for quantity, point in program.targets:
         if quantity == "position" and name in (letter(point), image(point), second_image(point)):
             own, _, link = point.partition("@")
-            words = f"the contact {own}" if isinstance(point, ContactName) else own
+            words = own if is_in_scene(point) else f"the contact {own}"
             return f"{words} on link {link}" if link else words
     return name

@@ -300,9 +300,9 @@ def centre_name(letter: str, link: str) -> str:
 
 
 def known_points(pen: Pen, base: Base) -> list[str]:
-    """The constructed points of a link, its own before those under others such as a contact.
+    """The constructed points of a link, its own before those under others.
 
-    The normal at a contact runs through the wheel's centre, as the one there does.
+    The normal where a wheel touches runs through its centre, as the one there does.
     """
     points = [base.start, *([base.end] if base.end else []), *base.others]
     moving = ("position", "velocity", "acceleration")

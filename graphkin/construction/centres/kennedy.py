@@ -1,8 +1,9 @@
 """Relative centres of any two links, by Kennedy's lines or from the velocity plan.
 
-The centres of three links lie on one line (Kennedy, Aronhold). Pins, guides and contacts are
-centres at once; every other one is where two such lines meet. Where the circle diagram stops, in
-groups of class III and higher, the normals to two velocities give a centre against the frame.
+The centres of three links lie on one line (Kennedy, Aronhold). Pins, guides and the
+places where wheels touch are centres at once; every other one is where two such lines meet. Where
+the circle diagram stops, in groups of class III and higher, the normals to two velocities give a
+centre against the frame.
 """
 
 from __future__ import annotations
@@ -90,18 +91,17 @@ class Finder:
         return found
 
     @cached_property
-    def contacts(self) -> frozenset[Pair]:
-        """Each wheel and the link on which it rolls: their centre is where they touch."""
-        links = self.pen.scene.links.values()
-        return frozenset(ordered(self.links, w.name, r.on) for w in links for r in w.rolls)
+    def touching(self) -> frozenset[Pair]:
+        """Each wheel and the link that it touches: their centre is where they do."""
+        return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.touching)
 
     @cached_property
     def ways(self) -> dict[Pair, tuple[str, str] | None]:
-        """How each centre is found that is no pin, guide or contact."""
+        """How each centre is found that is no pin, no guide and not where links touch."""
         links = [link for link in self.links if self.moves(link)]
         if len(links) > MANY:
             return {}
-        every = {*self.pins, *self.guides, *self.contacts}
+        every = {*self.pins, *self.guides, *self.touching}
         known = {pair for pair in every if pair[0] in links and pair[1] in links}
         normals = [link for link in links[1:] if len(self.swift(link)) > 1]
         return routes(links, known, self.where, normals)
@@ -212,7 +212,7 @@ class Finder:
                 found=found,
                 ways=ways,
                 crossing=crossing,
-                touching=pair in self.contacts,
+                touching=pair in self.touching,
                 aside=crossing is not None and not self.on_line(pair, point),
             )
         )

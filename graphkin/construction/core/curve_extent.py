@@ -36,7 +36,7 @@ def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
 
 
 def is_straight(points: Sequence[complex]) -> bool:
-    """Whether points all lie on one line, as a rail that a wheel rolls on."""
+    """Whether points all lie on one line."""
     if len(points) < 2:
         return False
     start, far = points[0], max(points, key=lambda point: abs(point - points[0]))

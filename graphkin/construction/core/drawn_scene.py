@@ -146,7 +146,7 @@ class Drawing(Struct, frozen=True, dict=True):
         return self.standing.positions
 
     def corners(self) -> Iterator[complex]:
-        """The corners of the boxes that wheels take up, contacts, and where blocks are drawn."""
+        """The corners of the wheels' boxes, and where wheels touch and blocks are drawn."""
         for disc in self.standing.discs:
             yield disc.centre + disc.outer * (1 + 1j)
             yield disc.centre - disc.outer * (1 + 1j)

@@ -1,4 +1,4 @@
-"""Where the bodies of a mechanism stand: the axes of links, guides, wheels and contacts, in metres.
+"""Where the bodies of a mechanism stand: the axes of links, guides, wheels and touches, in metres.
 
 A step of the trace says it where there is one; else it follows from the points that are placed.
 """
@@ -11,7 +11,7 @@ from functools import cached_property
 from msgspec import Struct
 
 from graphkin.construction.core.bodies import Disc, Guideway, Touch
-from graphkin.construction.core.program import ContactName
+from graphkin.construction.core.program import is_in_scene
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Line, cross, dot
@@ -19,7 +19,7 @@ from graphkin.scene.model import FRAME, Apart, At, Link, Polar, Rolling, Scene, 
 from graphkin.scene.quantity import Quantity
 
 CLEAR = 1.6
-"""How far from a contact the guide of its track is drawn, in radii of the wheel."""
+"""How far from where a wheel touches it the guide of its track is drawn, in radii of the wheel."""
 ALONG = 1e-6
 """Sine of the angle below which two directions are one."""
 APART = 1e-9
@@ -54,7 +54,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
-        """Where every point of the drawing stands, by its letters: A, A3 under it, a contact."""
+        """Where every point of the drawing stands, by its letters: A, A3 under it, T."""
         found = dict(self.positions)
         for point, place in self.known.items():
             found.setdefault(lettered(point), place)
@@ -70,7 +70,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def name_at(self, place: complex) -> str:
         """The name of a point of the drawing that no link owns, where it stands; else nothing."""
         near = APART * self.size
-        found = (n for n in self.known if isinstance(n, ContactName) and "@" not in n)
+        found = (n for n in self.known if not is_in_scene(n) and "@" not in n)
         return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
 
     @cached_property

@@ -29,8 +29,8 @@ def called(drawing: Drawing) -> str:
 def way_of(drawing: Drawing, name: str) -> str:
     """A guide by its block, or a straight track by its wheel."""
     link = drawing.scene.links.get(name)
-    rolls = link is not None and not link.slides
-    return drawing.words("page.track_of" if rolls else "page.guide_of", g=escape(name))
+    key = "page.guide_of" if link is None or link.slides else "page.track_of"
+    return drawing.words(key, g=escape(name))
 
 
 def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:

@@ -14,7 +14,6 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
-    ContactName,
     Drive,
     Given,
     Part,
@@ -24,6 +23,7 @@ from graphkin.construction.core.program import (
     Roles,
     Step,
     Target,
+    is_in_scene,
 )
 from graphkin.construction.core.quantities import TURNING
 from graphkin.construction.core.run import StepFailed, evaluate
@@ -294,17 +294,17 @@ def is_input(step: Step) -> bool:
 def image(point: str) -> str:
     """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3.
 
-    Both points of a contact have one image there, for nothing slips.
+    Both points where links touch have one image there, for nothing slips.
     """
     name, link = ends_of(point)
     small = name.lower() if name.lower() not in (name, "o") else name.lower() + "_v"
-    return f"{small}_{link}" if link and not isinstance(point, ContactName) else small
+    return f"{small}_{link}" if link and is_in_scene(point) else small
 
 
 def second_image(point: str) -> str:
     """Name of a point's image in the acceleration plan: the small letter with a prime."""
     small, _, index = image(point).partition("_")
-    link = ends_of(point)[1] if isinstance(point, ContactName) else ""
+    link = "" if is_in_scene(point) else ends_of(point)[1]
     return f"{small}{PRIME}_{index or link}" if index or link else small + PRIME
 
 
@@ -315,8 +315,8 @@ def ends_of(point: str) -> tuple[str, str]:
 
 
 def letter(point: str) -> str:
-    """A point as the index of a velocity, or in a bar: a contact's is of both its links."""
-    return ends_of(point)[0] if isinstance(point, ContactName) else owned(point)
+    """A point as the index of a velocity, or in a bar: where links touch it is of both."""
+    return owned(point) if is_in_scene(point) else ends_of(point)[0]
 
 
 def owned(point: str) -> str:
@@ -338,7 +338,7 @@ def about(pen: Pen, pin: str, pivot: str) -> str:
 def against(pen: Pen, pin: str, pivot: str) -> str:
     """Index of a relative velocity: B alone about what is fixed, or touches what is."""
     rests = pen.the("velocity", pivot) == pen.pole(Plane.VELOCITIES)
-    fixed = pivot in pen.scene.frame.points or (isinstance(pivot, ContactName) and rests)
+    fixed = pivot in pen.scene.frame.points or (not is_in_scene(pivot) and rests)
     return letter(pin) if fixed else letter(pin) + letter(pivot)
 
 

@@ -1,4 +1,4 @@
-"""What a driver, a trial or a law of rolling gives a slider along its guide, laid off in a plan."""
+"""What a driver, a trial or the turning of a wheel gives along a guide, laid off in a plan."""
 
 from __future__ import annotations
 

@@ -233,8 +233,8 @@ class DrivenWay(NamedTuple):
 
 
 def driven_ways(drawing: Drawing, driver: Driver) -> Iterator[DrivenWay]:
-    """The way of a driven block from the zero of its guide; that of a driven wheel's contact from
-    where its track counts, whose centre has the speed."""
+    """The way of a driven block from the zero of its guide; that of the place where a driven wheel
+    touches, from where its track counts; its centre has the speed."""
     if driver.kind == "slide":
         slide = driven_slide(drawing, driver)
         for way in drawing.standing.guideways:

@@ -14,7 +14,7 @@ from graphkin.construction.core.pen import (
     owned,
     second_image,
 )
-from graphkin.construction.core.program import ContactName, Part, Plane
+from graphkin.construction.core.program import Part, Plane, is_in_scene
 from graphkin.construction.core.quantities import BY_TARGET, EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import in_proportion
 from graphkin.construction.velocity.image_of_link import image_of_link
@@ -87,7 +87,7 @@ def shifted(pen: Pen, link: str, point: str, quantity: str) -> int:
     """The image of a point of a link that only shifts: on that of its others, under its letter."""
     start, name = pen.bases[link].start, under(point, link)
     number = pen.the(quantity, start)
-    if point in pen.scene.link(link).points or isinstance(point, ContactName):
+    if point in pen.scene.link(link).points or not is_in_scene(point):
         return number
     if not pen.has(quantity, name):
         called = image(name) if quantity == "velocity" else second_image(name)

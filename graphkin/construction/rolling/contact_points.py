@@ -270,7 +270,7 @@ def at_contacts(drawing: Drawing) -> Iterator[tuple[str, str, tuple[int, int], s
         match construction(step):
             case PlanPole():
                 pole = number
-            case PerpendicularThrough(contact=contact, p=p, start=start) if contact:
+            case PerpendicularThrough(touch=touch, p=p, start=start) if touch:
                 yield p, p, (pole, start), "no_slip"
             case TurningOfLink(places=(_, place)) as turning if (
                 place in contacts and turning.quantity == OMEGA

@@ -6,10 +6,13 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
+from msgspec import Struct
+
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen
+from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Geared, Train
-from graphkin.structure.pairs import Contact, meshes
+from graphkin.structure.pairs import Contact, contacts, meshes
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -42,3 +45,33 @@ def contact_among(args: tuple[Any, ...]) -> Contact:
             case Train(contacts=contacts):
                 return contacts[0]
     raise TypeError("no contact is given")
+
+
+class TouchingEffect(Struct, frozen=True):
+    """Why the steps that wheels call for are in or out: those in mesh, or those that only roll."""
+
+    effect: Effect
+    in_mesh: bool
+    brings: str
+    lacks: str
+
+    def touching(self, scene: Scene) -> list[str]:
+        """The wheels of a scene with what they touch: 3 on 0."""
+        found = (each for each in contacts(scene) if meshes(scene, each) is self.in_mesh)
+        pairs = (each.links for each in found)
+        return [f"{wheel} on {'the frame' if on == FRAME else on}" for wheel, on in pairs]
+
+    def cause(self, scene: Scene) -> str:
+        """The wheels that bring it in."""
+        return f"{self.brings} {', '.join(self.touching(scene))}"
+
+    def absence(self, scene: Scene) -> str:
+        """That there are none."""
+        return "" if self.touching(scene) else self.lacks
+
+
+TOUCHING = (
+    TouchingEffect(Effect.ROLLING, False, "without slip roll", "no wheel rolls along a track"),
+    TouchingEffect(Effect.GEARS, True, "in mesh are", "no wheels are in mesh"),
+)
+"""The effects that only wheels have."""

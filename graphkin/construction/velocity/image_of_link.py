@@ -24,8 +24,8 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
 
     ``first`` and ``second`` are their images, ``ratio`` says how r lies to p and q, and ``hand`` is
     the step that finds the same by crossing two lines, None where similarity alone does. ``whole``
-    is the index of its own vector. ``touching`` are the names of the images where p and q are
-    points of contact.
+    is the index of its own vector. ``touching`` are the names of the images where links touch
+    in p and q.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("image",)

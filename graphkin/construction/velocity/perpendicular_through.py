@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen, against, image, letter
-from graphkin.construction.core.program import ContactName
+from graphkin.construction.core.program import is_in_scene
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.about_pivot import AboutPivot
@@ -28,7 +28,7 @@ def square_to(start: Point, p: Point, q: Point) -> Line:
 class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     """The ``line`` through the image ``start`` of a pivot on which that of a pin must lie.
 
-    Where the pivot is a point of contact, ``contact`` is the name of its image.
+    Where the pivot is a point where links touch, ``touch`` is the name of its image.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -37,7 +37,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
 
     start: int
     line: int
-    contact: str = ""
+    touch: str = ""
 
     @property
     def perpendicular_to(self) -> str:
@@ -49,12 +49,12 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         return (self.start,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """Through which point it is drawn; both points of a contact have one image."""
+        """Through which point it is drawn; both points where links touch have one image."""
         start = drawing.trace.program.steps[self.start].name
         key = "square-to"
-        if self.contact:
-            key = "square-to-both" if self.contact == start else "square-to-touch"
-        fields = {"s": symbol(start), "c": symbol(self.contact), **self.symbols()}
+        if self.touch:
+            key = "square-to-both" if self.touch == start else "square-to-touch"
+        fields = {"s": symbol(start), "c": symbol(self.touch), **self.symbols()}
         return drawing.words(f"step.{key}", **fields)
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -71,9 +71,9 @@ def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
     start, p, q = pen.the("velocity", pivot), letter(pivot), letter(pin)
     ends = pen.the("position", pivot), pen.the("position", pin)
     line = pen.draw(square_to, start, *ends)
-    index, contact = q + ("" if p in pen.scene.frame.points else p), ""
-    if isinstance(pivot, ContactName):
-        index, contact = against(pen, pin, pivot), image(pivot)
+    index, touch = q + ("" if p in pen.scene.frame.points else p), ""
+    if not is_in_scene(pivot):
+        index, touch = against(pen, pin, pivot), image(pivot)
     names = {"p": p, "q": q, "index": index, "whole": q, "base": p}
-    pen.make(PerpendicularThrough(**names, start=start, line=line, contact=contact))
+    pen.make(PerpendicularThrough(**names, start=start, line=line, touch=touch))
     return line
