@@ -23,7 +23,7 @@ KINDS = {
     ".woff2": "font/woff2",
 }
 JSON = "application/json"
-WORK = ("look", "write", "save", "sheets")
+WORK = ("look", "build", "write", "save", "sheets")
 """What the page asks the desk to do."""
 
 
@@ -68,7 +68,7 @@ def start_page(session: Session) -> Any:
         str(request.query.getunicode(key, "")) for key in ("scene", "lab", "lang")
     )
     try:
-        opened = session.open(scene, lab)
+        opened = session.open(scene, lab, empty="empty" in request.query)
     except GraphkinError as error:
         return answer(404, "text/plain", f"{error}\n".encode())
     words = session.words(opened.text, language if language in LANGUAGES else "")

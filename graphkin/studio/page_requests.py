@@ -11,6 +11,8 @@ MOST_BYTES = 4 * LARGEST
 """Bytes of a request at most: a scene of the largest size, every sign of it written as an escape
 but the rarest."""
 MOST_SETTINGS, LONGEST_SETTING = 200, 100
+MOST_PLACES, FARTHEST = 500, 1e9
+"""Points whose places are told, and how far off one may be."""
 SHORT = 300
 """Signs of names and marks."""
 
@@ -74,6 +76,26 @@ class PageRequest:
             raise PageRequestError(key)
         return tuple(word for word in known if word in found)
 
+    def place(self, key: str) -> complex:
+        """A place in the field; its origin where it is not given."""
+        return place_of(key, self.fields.get(key, [0, 0]))
+
+    def places(self) -> dict[str, complex]:
+        """Where points stand, by their names."""
+        found = self.fields.get("places", {})
+        if not isinstance(found, dict) or len(found) > MOST_PLACES:
+            raise PageRequestError("places")
+        return {name: place_of("places", at) for name, at in found.items() if len(name) <= SHORT}
+
+    def names(self, key: str) -> tuple[str, ...]:
+        """At most two names."""
+        found = self.fields.get(key, [])
+        if not isinstance(found, list) or len(found) > 2:
+            raise PageRequestError(key)
+        if not all(isinstance(name, str) and 0 < len(name) <= SHORT for name in found):
+            raise PageRequestError(key)
+        return tuple(found)
+
     def settings(self) -> dict[str, str]:
         """The values of sliders, as texts."""
         found = self.fields.get("settings", {})
@@ -83,3 +105,14 @@ class PageRequest:
             if not isinstance(value, str) or not 0 < len(value) <= LONGEST_SETTING:
                 raise PageRequestError("settings")
         return dict(found)
+
+
+def place_of(key: str, found: Any) -> complex:
+    """A place as the page tells it. Raises PageRequestError for what is none."""
+    if not isinstance(found, list) or len(found) != 2:
+        raise PageRequestError(key)
+    for value in found:
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not number or not abs(value) <= FARTHEST:
+            raise PageRequestError(key)
+    return complex(*found)

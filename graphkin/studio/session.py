@@ -15,9 +15,10 @@ from graphkin.classroom.lab.new_lab import START
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import tables_of
+from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.folder import ENDING, Folder, completed, shipped, shipped_text, stem_of
 from graphkin.studio.look import Sight, look, spoken_in, told
-from graphkin.studio.page_requests import PageRequest
+from graphkin.studio.page_requests import PageRequest, PageRequestError
 from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.problem_places import marked
 from graphkin.studio.saving import (
@@ -31,11 +32,17 @@ from graphkin.studio.saving import (
     sheets_of,
 )
 from graphkin.studio.scene_edits import edits
+from graphkin.studio.sketch import sketch
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import GraphkinError, SceneError
 
 TABS = 8
 """Pages whose last drawing is remembered."""
+EMPTY = """graphkin = 1
+title = "New mechanism"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+"""
+"""A scene in which nothing is built yet."""
 FIRST = "graphkin ="
 """How the first line of a scene begins."""
 
@@ -81,13 +88,15 @@ class Session:
             return {"lab": name}
         return {"scene": self.folder.name_of(scene_files.find(name))}
 
-    def open(self, scene: str, lab: str) -> Opened:
-        """The text of a scene here, of a shipped lab, or one to start from.
+    def open(self, scene: str, lab: str, *, empty: bool = False) -> Opened:
+        """The text of a scene here, of a shipped lab, one to start from, or an empty field.
 
         Raises SceneError for a name that is none.
         """
         if lab:
             return Opened(f"{lab}{ENDING}", shipped_text(lab))
+        if empty:
+            return Opened(f"new{ENDING}", EMPTY)
         if scene:
             text = self.folder.read(scene)
             return Opened(scene, text, mark_of_file(self.folder.path(scene)))
@@ -112,6 +121,10 @@ class Session:
         try:
             with self.drawing(lambda: self.still_wanted(tab, number)):
                 found = look(sight, self.memory(tab), lambda: self.still_wanted(tab, number))
+                if order.flag("building"):
+                    places = order.places()
+                    seen = sketch(sight.text, sight.name, places, sight.settings)
+                    found["sketch"] = seen and to_builtins(seen)
         except StaleError:
             found = {"stale": True}
         return found | {"number": number}
@@ -160,6 +173,28 @@ class Session:
             return {"edits": [to_builtins(edit) for edit in edits(text, settings)], "problems": []}
         except GraphkinError as error:
             return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
+
+    def build(self, order: PageRequest) -> dict[str, Any]:
+        """The text after an act of the hand, or why it is impossible."""
+        of, places = order.names("of"), order.places()
+        act = Act(
+            order.choice("kind", tuple(KINDS)),
+            of,
+            order.place("at"),
+            places,
+            order.text("words"),
+            order.place("speed").real,
+        )
+        if act.kind != "pivot" and not of:
+            raise PageRequestError("of")
+        text = order.scene()
+        try:
+            with self.drawing():
+                after = built(text, act)
+        except GraphkinError as error:
+            return {"text": text, "problems": [told(mark) for mark in marked(error.problems, text)]}
+        stand = {name: [at.real, at.imag] for name, at in after.places.items()}
+        return {"text": after.text, "places": stand, "problems": []}
 
     def save(self, order: PageRequest) -> dict[str, Any]:
         """Save the text of a scene, whatever is wrong with it."""

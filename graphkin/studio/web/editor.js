@@ -121,9 +121,22 @@ export function change(edits) {
   text.focus();
   for (const { start, end, text: words } of edits) {
     text.setSelectionRange(start, end);
-    if (!document.execCommand("insertText", false, words)) text.setRangeText(words);
+    const done = words ? document.execCommand("insertText", false, words) : document.execCommand("delete");
+    if (!done) text.setRangeText(words);
   }
   forget();
+}
+
+/** Put another text in place of this one, as one change of what differs. */
+export function replace(words) {
+  const before = text.value;
+  const least = Math.min(before.length, words.length);
+  let start = 0;
+  while (start < least && before[start] === words[start]) start++;
+  let same = 0;
+  while (same < least - start && before.at(-1 - same) === words.at(-1 - same)) same++;
+  const [end, stop] = [before.length - same, words.length - same];
+  if (start !== end || start !== stop) change([{ start, end, text: words.slice(start, stop) }]);
 }
 
 text.addEventListener("scroll", follow, { passive: true });

@@ -1,5 +1,6 @@
 // The page: what is written or moved is asked of the studio, and what it answers is shown.
 
+import { building, onBuilding, placesFields, showSketch } from "./build.js";
 import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
 import { change, onWriting, showProblems, written } from "./editor.js";
@@ -32,7 +33,7 @@ async function look(quick) {
   const own = ++number;
   const waiting = setTimeout(() => drawings.setAttribute("aria-busy", "true"), LONG);
   try {
-    const fields = { ...scene(), number: own, mechanism: onMechanism(), quick };
+    const fields = { ...scene(), number: own, mechanism: onMechanism(), quick, ...placesFields() };
     const answer = await ask("look", fields);
     if (answer.stale || own < shown) return false;
     shown = own;
@@ -44,6 +45,7 @@ async function look(quick) {
     }
     markSliders(answer.problems);
     showDrawings(answer);
+    showSketch(answer.sketch);
     document.body.dataset.shown = String(own);
     document.body.dataset.settled = String(!quick);
     unsaved();
@@ -207,6 +209,10 @@ find("new").addEventListener("click", () => {
   state();
   go("?");
 });
+find("empty").addEventListener("click", () => {
+  state();
+  go("?empty=yes");
+});
 find("open").addEventListener("click", () => {
   state();
   choose(go).catch((error) => tell(error.message, "wrong"));
@@ -229,7 +235,9 @@ addEventListener("keydown", (event) => {
 addEventListener("beforeunload", (event) => {
   if (!isSafe()) event.preventDefault();
 });
-look(false);
+onBuilding(() => look(false));
+if (new URLSearchParams(location.search).has("empty")) building(true);
+else look(false);
 find("language").value = language;
 if (new URLSearchParams(location.search).get("lang") === language) chosen = language;
 if (sessionStorage.getItem(TO_TEXT)) {

@@ -1,0 +1,440 @@
+"""Acts of a hand that builds in the field: each is one edit of the text, comments kept."""
+
+from __future__ import annotations
+
+from cmath import phase, rect
+from collections.abc import Callable, Iterator, Mapping
+from itertools import count, product
+from math import degrees, radians
+from string import ascii_uppercase
+from typing import Any
+
+import tomlkit
+from msgspec import Struct
+from tomlkit.exceptions import TOMLKitError
+
+from graphkin.construction.core.branches import block_of, choosing
+from graphkin.mechanism import Mechanism
+from graphkin.scene.file_limits import tables_of
+from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.phrases import KEYWORDS
+from graphkin.scene.read_scene import read_text
+from graphkin.structure.decomposition import decompose
+from graphkin.structure.groups import Dyad, Group, Stretched
+from graphkin.structure.pairs import Pin
+from graphkin.studio.sketch import (
+    Places,
+    frame_places,
+    grid_of,
+    is_number,
+    is_place,
+    links_of,
+    points_of,
+    solved,
+    table_of,
+    unit_of,
+)
+from graphkin.text.errors import GraphkinError, Problem, SceneError
+
+TURN = 0.5
+"""The step of angles that a hand draws, in degrees."""
+ASKED = ("velocity", "acceleration", "omega", "epsilon", "slides", "centres", "poles")
+TRIED = 64
+"""Combinations of closures that are compared with what was drawn."""
+
+
+class Act(Struct, frozen=True):
+    """What a hand does: its kind, what it is done to, and where.
+
+    ``of`` names points and links; ``words`` is a closure that is chosen, ``speed`` a driver's.
+    """
+
+    kind: str
+    of: tuple[str, ...]
+    at: complex
+    places: Places
+    words: str = ""
+    speed: float = 0.0
+
+
+class Built(Struct, frozen=True):
+    """The text after an act, and where its points stand that no text places."""
+
+    text: str
+    places: Places
+
+
+def built(text: str, act: Act) -> Built:
+    """Do one act. Raises SceneError for what is impossible, in words for the pointer."""
+    try:
+        document = tomlkit.parse(text)
+        tables = tables_of(text)
+    except TOMLKitError:
+        raise SceneError(Problem("text", "is no TOML", "", "mend its mistakes first")) from None
+    work = Builder(document, {**act.places, **frame_places(tables)}, unit_of(tables))
+    KINDS[act.kind](work, act)
+    after = tomlkit.dumps(work.document)
+    if act.kind != "close":
+        after = closed(after, work.places)
+    return Built(after, work.places)
+
+
+class Builder:
+    """A text that is changed, with the places of its points."""
+
+    def __init__(self, document: tomlkit.TOMLDocument, places: Places, unit: str) -> None:
+        self.document = document
+        self.places = dict(places)
+        self.grid = grid_of(unit)
+
+    @property
+    def links(self) -> dict[str, list[str]]:
+        """The points of each moving link."""
+        return {name: points_of(table) for name, table in links_of(self.document).items()}
+
+    @property
+    def fixed(self) -> list[str]:
+        """The points of the frame."""
+        return points_of(table_of(self.document, "frame"))
+
+    def table(self, name: str, *, headed: bool = True) -> Any:
+        """A table of the text, made where there is none."""
+        if name not in self.document:
+            self.document[name] = tomlkit.table(is_super_table=not headed)
+        return self.document[name]
+
+    def point_name(self) -> str:
+        """The first letter that no point has."""
+        used = {*self.fixed, *(point for points in self.links.values() for point in points)}
+        letters = (f"{letter}{n or ''}" for n in count() for letter in ascii_uppercase)
+        return next(name for name in letters if name not in used and name[0] not in "IJO")
+
+    def new_link(self) -> tuple[str, Any]:
+        """A new link after all others: its name and its table."""
+        used = self.links
+        name = next(str(n) for n in count(1) if str(n) not in used)
+        links = self.table("links", headed=False)
+        links[name] = tomlkit.table()
+        return name, links[name]
+
+    def length(self, value: float) -> Any:
+        """A length on the grid, at least one step of it."""
+        return number(max(1, round(value / self.grid)) * self.grid)
+
+    def pair(self, at: complex) -> Any:
+        """Coordinates on the grid."""
+        steps = (round(part / self.grid) * self.grid for part in (at.real, at.imag))
+        found = tomlkit.array()
+        found.extend(number(step) for step in steps)
+        return found
+
+    def place(self, point: str) -> complex:
+        """Where a point stands. Raises SceneError for one that is not in the field."""
+        if point not in self.places:
+            raise SceneError(Problem(point, "is at no known place", "a point that is drawn"))
+        return self.places[point]
+
+    def known_link(self, name: str) -> Any:
+        """The table of a link. Raises SceneError where there is none."""
+        if name not in self.links:
+            raise SceneError(Problem(f"link {name}", "is not there", "a moving link"))
+        return self.document["links"][name]
+
+
+def number(value: float) -> int | float:
+    """A number as it is written: whole where it can be."""
+    rounded = round(value, 6)
+    return int(rounded) if rounded == int(rounded) else rounded
+
+
+def pivot(work: Builder, act: Act) -> None:
+    """A fixed pin."""
+    name = next(name for n in count(1) if (name := f"O{n}") not in work.fixed)
+    work.table("frame")[name] = work.pair(act.at)
+
+
+def bar(work: Builder, act: Act) -> None:
+    """A link of two pins, from a pin to another or to a new one."""
+    start, *rest = act.of
+    if rest:
+        end = rest[0]
+        refuse_bar(work, start, end)
+        length = work.length(abs(work.place(end) - work.place(start)))
+    else:
+        way, end = act.at - work.place(start), work.point_name()
+        length = work.length(abs(way))
+        work.places[end] = work.place(start) + rect(length, radians(turned(way)))
+    _, table = work.new_link()
+    table[f"{start}-{end}"] = length
+
+
+def refuse_bar(work: Builder, start: str, end: str) -> None:
+    """Raise SceneError where two pins cannot be the ends of a bar."""
+    line = f"{start}-{end}"
+    if start == end:
+        raise SceneError(Problem(line, "begins and ends at one pin", "two pins"))
+    for name, points in {FRAME: work.fixed, **work.links}.items():
+        if start in points and end in points:
+            whole = "the frame" if name == FRAME else f"link {name}"
+            raise SceneError(Problem(line, f"both pins belong to {whole}", "pins of two links"))
+
+
+def plate(work: Builder, act: Act) -> None:
+    """One more pin of a link: by its distances to the first two, or on their line."""
+    table = work.known_link(act.of[0])
+    points = work.links[act.of[0]]
+    if len(points) < 2:
+        expected = "a link with two pins at least"
+        raise SceneError(Problem(f"link {act.of[0]}", "has one pin alone", expected))
+    first, second = points[:2]
+    start, end = work.place(first), work.place(second)
+    name, across = work.point_name(), (act.at - start) / (end - start)
+    aside = across.imag * abs(end - start)
+    if abs(aside) < work.grid:
+        reach = work.length(abs(across.real) * abs(end - start))
+        table[f"{first}-{name}"] = reach
+        line = f"{first}-{second}"
+        table[name] = f"on {line}" if across.real > 0 else f"beyond {first} on {line}"
+        sign = 1 if across.real > 0 else -1
+        work.places[name] = start + sign * reach * (end - start) / abs(end - start)
+    else:
+        table[f"{first}-{name}"] = work.length(abs(act.at - start))
+        table[f"{second}-{name}"] = work.length(abs(act.at - end))
+        table[name] = f"{'left' if aside > 0 else 'right'} of {first}-{second}"
+        work.places[name] = act.at
+
+
+def block(work: Builder, act: Act) -> None:
+    """A block pinned at a point, on a fixed guide or in the slot of a link."""
+    point, *rest = act.of
+    slides = tomlkit.inline_table()
+    if rest:
+        work.known_link(rest[0])
+        ends = work.links[rest[0]]
+        if point in ends:
+            found = f"{point} is a pin of link {rest[0]} itself"
+            raise SceneError(Problem("block", found, "the guide of another link"))
+        if len(ends) < 2:
+            raise SceneError(Problem("block", f"link {rest[0]} has no line", "a bar"))
+        slides.update({"on": key_of(rest[0]), "along": "-".join(ends[:2])})
+    else:
+        if point in work.fixed:
+            hint = "press on a moving pin"
+            raise SceneError(Problem("block", f"{point} is fixed", "a pin that moves", hint))
+        at = work.place(point)
+        slides.update(
+            {"on": 0, "through": work.pair(at), "angle": number(turned(act.at - at, 5.0))}
+        )
+    tables = links_of(work.document)
+    if any(
+        "slides" in tables[name] and points[:1] == [point] for name, points in work.links.items()
+    ):
+        raise SceneError(Problem("block", f"{point} has a block already", "one block at a pin"))
+    _, table = work.new_link()
+    table[point] = work.pair(0j)
+    table["slides"] = slides
+
+
+def driver(work: Builder, act: Act) -> None:
+    """A bar on a fixed pin is turned from where it lies."""
+    name = act.of[0]
+    work.known_link(name)
+    points = work.links[name]
+    if not set(points) & set(work.fixed) or len(points) < 2:
+        hint = "a bar that turns about a fixed pin can be driven"
+        raise SceneError(Problem(f"link {name}", "is at no fixed pin", "a crank", hint))
+    if "drivers" not in work.document:
+        work.document.add(tomlkit.nl())
+        work.document["drivers"] = tomlkit.aot()
+    drivers: Any = work.document["drivers"]
+    if any(str(each.get("turn")) == name for each in drivers):
+        raise SceneError(Problem(f"link {name}", "is driven already", "another link"))
+    table = tomlkit.table()
+    table["turn"] = key_of(name)
+    table["angle"] = number(turned(work.place(points[1]) - work.place(points[0])))
+    table["speed"] = number(act.speed)
+    drivers.append(table)
+
+
+def move(work: Builder, act: Act) -> None:
+    """A point goes elsewhere: the numbers that say where it lies follow."""
+    point = act.of[0]
+    work.place(point)
+    frame, changed = table_of(work.document, "frame"), False
+    work.places[point] = act.at
+    if point in frame:
+        if not is_place(frame[point]):
+            raise SceneError(Problem(f"frame.{point}", "is written as an expression", "numbers"))
+        frame[point] = work.pair(act.at)
+        work.places[point] = complex(*frame[point])
+        changed = True
+    for name, table in links_of(work.document).items():
+        for key in [key for key in table if key not in KEYWORDS and "-" in key]:
+            ends = key.split("-")
+            if point in ends and len(ends) == 2 and is_number(raw(table[key])):
+                one, other = (work.place(end) for end in ends)
+                table[key] = work.length(abs(other - one))
+                changed = True
+        changed |= turned_driver(work, name, point)
+    if not changed:
+        found = "its place follows from expressions or from the rest"
+        raise SceneError(Problem(point, found, "a point whose lengths are numbers"))
+
+
+def turned_driver(work: Builder, link: str, point: str) -> bool:
+    """Turn the driver of a link whose point has moved; whether its angle is a number."""
+    points, found = work.links[link], False
+    for each in work.document.get("drivers", ()):
+        if str(each.get("turn")) != link or point not in points[:2]:
+            continue
+        if is_number(raw(each.get("angle"))):
+            each["angle"] = number(turned(work.place(points[1]) - work.place(points[0])))
+            found = True
+    return found
+
+
+def delete(work: Builder, act: Act) -> None:
+    """Take away a point or a link, and what is said of them and of what is left alone."""
+    name, links = act.of[0], table_of(work.document, "links")
+    if act.words == "link":
+        links.pop(name, None)
+    else:
+        tables = [table_of(work.document, "frame"), *links_of(work.document).values()]
+        for table in tables:
+            for key in [key for key in table if says(name, key, table[key])]:
+                table.pop(key)
+    for link, points in work.links.items():
+        if "slides" not in links[link] and len(points) < 2:
+            links.pop(link)
+    for link, points in work.links.items():
+        others = {point for name, held in work.links.items() if name != link for point in held}
+        if "slides" in links[link] and not others & set(points):
+            links.pop(link)
+    for key in ("links", "frame"):
+        if key in work.document and not table_of(work.document, key):
+            work.document.pop(key)
+    forget(work)
+
+
+def says(point: str, key: str, value: object) -> bool:
+    """Whether a key of a link, or what it says, names a point."""
+    if key == "slides" and isinstance(value, Mapping):
+        named = (str(value.get("along", "")), str(value.get("through", "")))
+        return any(point in each.split("-") for each in named)
+    phrase = raw(value)
+    words = phrase.replace("-", " ").split()[1:] if isinstance(phrase, str) else []
+    return point in key.split("-") or point in words
+
+
+def forget(work: Builder) -> None:
+    """Take out drivers, branches and wishes about what is there no longer."""
+    links = work.links
+    known = {*links, *work.fixed, *(point for points in links.values() for point in points)}
+    drivers = work.document.get("drivers", [])
+    for n in reversed(range(len(drivers))):
+        if str(drivers[n].get("turn", drivers[n].get("slide"))) not in known:
+            del drivers[n]
+    if "drivers" in work.document and not len(drivers):
+        work.document.pop("drivers")
+    branches, ask = (table_of(work.document, key) for key in ("branches", "ask"))
+    for key in list(branches):
+        if key not in known or not set(str(branches[key]).replace("-", " ").split()[2:]) <= known:
+            branches.pop(key)
+    for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
+        for n in reversed(range(len(ask[key]))):
+            if not {str(ask[key][n]).partition("@")[0]} <= known:
+                del ask[key][n]
+
+
+def close(work: Builder, act: Act) -> None:
+    """Choose a closure."""
+    work.table("branches")[act.of[0]] = act.words
+
+
+KINDS: Mapping[str, Callable[[Builder, Act], None]] = {
+    each.__name__: each for each in (pivot, bar, plate, block, driver, move, delete, close)
+}
+
+
+def raw(value: object) -> object:
+    """A value without the style in which it is written."""
+    return value.unwrap() if hasattr(value, "unwrap") else value
+
+
+def key_of(link: str) -> int | str:
+    """The name of a link as a value."""
+    return int(link) if link.isdecimal() else link
+
+
+def turned(way: complex, step: float = TURN) -> float:
+    """The direction of a way in degrees, on the grid of angles."""
+    return round(degrees(phase(way)) / step) * step
+
+
+def closed(text: str, places: Places) -> str:
+    """The text with the branches that it lacks, as the closure nearest to what was drawn."""
+    try:
+        scene = read_text(text, "scene", None, {})
+        groups = decompose(scene)
+    except GraphkinError:
+        return text
+    document = tomlkit.parse(text)
+    allowed = choosing(groups)
+    kept = {name for name in scene.branches if name in allowed and fits(groups, name, document)}
+    branches = table_of(document, "branches")
+    for name in [name for name in branches if name not in kept]:
+        branches.pop(name)
+    wanted = {key: words for key, words in ways(scene, groups) if key not in kept}
+    if not wanted:
+        return tomlkit.dumps(document)
+    if "branches" not in document:
+        document["branches"] = tomlkit.table()
+    best, nearest = text, float("inf")
+    for n, words in enumerate(product(*wanted.values())):
+        if n == TRIED:
+            break
+        for key, each in zip(wanted, words, strict=True):
+            document["branches"][key] = each
+        tried = tomlkit.dumps(document)
+        far = apart(tried, places)
+        if far < nearest or best is text:
+            best, nearest = tried, far
+    return best
+
+
+def ways(scene: Scene, groups: tuple[Group, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Under each name that may state a branch the words that it may say."""
+    for group in groups:
+        for name in choosing((group,))[:1]:
+            dyad = group.dyad if isinstance(group, Stretched) else group
+            if isinstance(dyad, Dyad) and dyad.type == "RRR":
+                yield name, tuple(f"{side} of {line_of(dyad)}" for side in ("left", "right"))
+            elif isinstance(dyad, Dyad) and name == block_of(dyad):
+                yield name, ("forward", "backward")
+            else:
+                yield name, ("closure 1",)
+
+
+def line_of(dyad: Dyad) -> str:
+    """The line between the two known pins of a dyad."""
+    ends = (pair.point.partition("@")[0] for pair in dyad.outer if isinstance(pair, Pin))
+    return "-".join(ends)
+
+
+def fits(groups: tuple[Group, ...], name: str, document: tomlkit.TOMLDocument) -> bool:
+    """Whether a stated side still names the two known pins of its dyad."""
+    words = str(table_of(document, "branches").get(name, ""))
+    for group in groups:
+        dyad = group.dyad if isinstance(group, Stretched) else group
+        if isinstance(dyad, Dyad) and dyad.type == "RRR" and name in choosing((group,)):
+            return {*line_of(dyad).split("-")} == {*words.rpartition(" ")[2].split("-")}
+    return True
+
+
+def apart(text: str, places: Places) -> float:
+    """How far the points of a mechanism lie from where they were drawn, in all."""
+    try:
+        found = solved(Mechanism(read_text(text, "scene", None, {})))
+    except GraphkinError:
+        return float("inf")
+    return sum(abs(at - places[name]) for name, at in found.items() if name in places)

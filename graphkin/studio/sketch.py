@@ -1,0 +1,188 @@
+"""What the field for building shows of a text, also of one that is not yet a whole mechanism.
+
+The text says how long bars are, and not where they lie: while the mechanism does not close, points
+stand where the hand has put them, and as soon as it closes, where the construction finds them.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Iterator, Mapping
+from math import radians
+from typing import Any
+
+from msgspec import Struct
+
+from graphkin.construction.core.branches import choosing
+from graphkin.construction.core.drawn_scene import METRES
+from graphkin.diagnosis.closures import choices
+from graphkin.mechanism import Mechanism
+from graphkin.scene.file_limits import tables_of
+from graphkin.scene.model import FRAME
+from graphkin.scene.phrases import KEYWORDS
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import GraphkinError
+
+Places = Mapping[str, complex]
+"""Where points stand, in the unit of the scene."""
+GRIDS = {"mm": 5.0, "cm": 0.5, "m": 0.01, "in": 0.25}
+"""The steps of lengths that a hand draws, by the unit of the scene."""
+NOTHING: Mapping[str, str] = {}
+GHOSTS = 8
+"""Closures that are offered beside the one that is drawn."""
+
+
+class Block(Struct, frozen=True):
+    """A block: its link, the point at which it is drawn, and a direction of its guide."""
+
+    link: str
+    point: str
+    along: tuple[float, float]
+
+
+class Ghost(Struct, frozen=True):
+    """A point where it lies in another closure, and the words that choose it."""
+
+    point: str
+    at: tuple[float, float]
+    key: str
+    words: str
+    neighbours: tuple[str, ...]
+
+
+class Sketch(Struct, frozen=True):
+    """Points by name, the points of each link, blocks, driven links, other closures."""
+
+    unit: str
+    grid: float
+    points: dict[str, tuple[float, float]]
+    fixed: list[str]
+    links: dict[str, list[str]]
+    blocks: list[Block]
+    driven: list[str]
+    ghosts: list[Ghost]
+
+
+def sketch(
+    text: str, name: str, places: Places, settings: Mapping[str, str] = NOTHING
+) -> Sketch | None:
+    """The sketch of a text, its free points where they were put; None for what is no TOML."""
+    try:
+        tables = tables_of(text)
+    except GraphkinError:
+        return None
+    unit = unit_of(tables)
+    found = {**places, **frame_places(tables)}
+    ghosts: list[Ghost] = []
+    try:
+        mechanism = Mechanism(read_text(text, name, None, settings))
+        found |= solved(mechanism)
+        ghosts = list(others(mechanism))
+    except GraphkinError:
+        pass
+    links = {key: points_of(table) for key, table in links_of(tables).items()}
+    fixed = points_of(table_of(tables, "frame"))
+    named = dict.fromkeys([*fixed, *(point for points in links.values() for point in points)])
+    return Sketch(
+        unit,
+        grid_of(unit),
+        {point: (found[point].real, found[point].imag) for point in named if point in found},
+        fixed,
+        links,
+        [block for block in blocks_of(tables, found) if block.point in found],
+        [str(each.get("turn")) for each in drivers_of(tables) if "turn" in each],
+        ghosts[:GHOSTS],
+    )
+
+
+def unit_of(tables: Mapping[str, Any]) -> str:
+    """The unit of lengths of a scene; millimetres where it names none that is known."""
+    unit = table_of(tables, "units").get("length")
+    return unit if isinstance(unit, str) and unit in GRIDS else "mm"
+
+
+def grid_of(unit: str) -> float:
+    """The step to which lengths and coordinates are rounded."""
+    return GRIDS[unit]
+
+
+def table_of(tables: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """A table of a text; an empty one where there is none."""
+    found = tables.get(key)
+    return found if isinstance(found, dict) else {}
+
+
+def links_of(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The tables of the moving links."""
+    found = table_of(tables, "links")
+    return {name: table for name, table in found.items() if isinstance(table, dict)}
+
+
+def drivers_of(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The tables of the drivers."""
+    found = tables.get("drivers")
+    return [each for each in found if isinstance(each, dict)] if isinstance(found, list) else []
+
+
+def points_of(table: Mapping[str, Any]) -> list[str]:
+    """The points that the keys of a link name, in the order of their first mention."""
+    keys = (key for key in table if key not in KEYWORDS)
+    return list(dict.fromkeys(point for key in keys for point in key.split("-")))
+
+
+def frame_places(tables: Mapping[str, Any]) -> dict[str, complex]:
+    """The points of the frame that the text gives by two numbers."""
+    return {point: complex(*at) for point, at in table_of(tables, "frame").items() if is_place(at)}
+
+
+def is_place(value: object) -> bool:
+    """Whether a value is a pair of numbers."""
+    return isinstance(value, list) and len(value) == 2 and all(map(is_number, value))
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is a number, and no expression."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def blocks_of(tables: Mapping[str, Any], places: Places) -> Iterator[Block]:
+    """The blocks on straight guides whose direction the text gives by a number or two points."""
+    for name, table in links_of(tables).items():
+        slides, points = table.get("slides"), points_of(table)
+        if not isinstance(slides, dict) or not points:
+            continue
+        angle, along = slides.get("angle"), str(slides.get("along", "")).split("-")
+        if str(slides.get("on")) == FRAME and isinstance(angle, int | float):
+            way = rect(1.0, radians(angle))
+            yield Block(name, points[0], (way.real, way.imag))
+        elif len(along) == 2 and all(point in places for point in along):
+            way = places[along[1]] - places[along[0]]
+            yield Block(name, points[0], (way.real, way.imag))
+
+
+def solved(mechanism: Mechanism) -> dict[str, complex]:
+    """Where the construction finds the points. Raises GraphkinError where it does not close."""
+    metre = METRES[mechanism.scene.units["length"]]
+    found = mechanism.solve().points
+    return {
+        name: complex(point.position) / metre
+        for name, point in found.items()
+        if point.position is not None
+    }
+
+
+def others(mechanism: Mechanism) -> Iterator[Ghost]:
+    """The closures that are not drawn, each with the branch that chooses it."""
+    scene = mechanism.scene
+    metre = METRES[scene.units["length"]]
+    names = choosing(mechanism.groups)
+    for choice in choices(scene, mechanism.groups, mechanism.program):
+        key = next((name for name in (choice.pin, *choice.links) if name in names), None)
+        for closure in choice.closures:
+            if key is None or closure.picked or closure.fails or closure.place is None:
+                continue
+            at = closure.place / metre
+            holders = (link.points for link in scene.links.values() if choice.pin in link.points)
+            near = dict.fromkeys(p for points in holders for p in points if p != choice.pin)
+            fit = tuple(near)
+            yield Ghost(choice.pin, (at.real, at.imag), key, closure.words, fit)

@@ -1,0 +1,284 @@
+// The field in which a mechanism is built by hand: every act is asked of the studio as an edit.
+
+import { replace, written } from "./editor.js";
+import { sentence } from "./mistakes.js";
+import { ask, find, onSpeaking, say } from "./talk.js";
+
+const canvas = find("canvas");
+const svg = canvas.querySelector("svg");
+const told = find("told");
+const toggle = find("build");
+const NEAR = 10; // px within which a pin or a bar is meant
+const WIDE = 160; // steps of the grid across an empty field
+const ROOM = 0.2; // of the mechanism's size around it
+const PIN = 6; // px
+const LETTER = 15; // px
+const stood = new Map(); // where points stood, by the text
+let sketch = null;
+let view = null; // the left and upper edge and the width of what is seen, in the scene's unit
+let press = null; // what a drag began with
+let busy = false;
+let changed = () => {};
+
+/** Whether a mechanism is being built. */
+export const isBuilding = () => toggle.getAttribute("aria-pressed") === "true";
+
+/** What a look is told of the field: where the points stand. */
+export const placesFields = () => ({ building: isBuilding(), places: places() });
+
+/** Call back when the field is opened. */
+export function onBuilding(work) {
+  changed = work;
+}
+
+const places = () => stood.get(written()) ?? sketch?.points ?? {};
+const tool = () => find("tools").elements.tool.value;
+
+/** Show what the text holds now; nothing changes for a text that cannot be read. */
+export function showSketch(found) {
+  if (!found) return;
+  sketch = found;
+  stood.set(written(), found.points);
+  draw();
+}
+
+/** Open or close the field. */
+export function building(open) {
+  toggle.setAttribute("aria-pressed", String(open));
+  find("field").hidden = !open;
+  find("drawings").classList.toggle("building", open);
+  if (open) changed();
+}
+
+/** How much of the scene a pixel is. */
+const pixel = () => view.width / svg.clientWidth;
+
+/** Let all points be seen; a view that holds them stays. */
+function fit() {
+  const at = [...Object.values(sketch.points), ...sketch.ghosts.map((ghost) => ghost.at)];
+  const [width, height] = [svg.clientWidth || 1, svg.clientHeight || 1];
+  const steep = height / width;
+  if (!view) view = { x: (-WIDE * sketch.grid) / 2, y: (-WIDE * sketch.grid * steep) / 2, width: WIDE * sketch.grid };
+  const inside = ([x, y]) =>
+    x > view.x && x < view.x + view.width && -y > view.y && -y < view.y + view.width * steep;
+  if (at.every(inside)) return;
+  const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
+  const middle = (all) => (Math.min(...all) + Math.max(...all)) / 2;
+  const size = (all) => (Math.max(...all) - Math.min(...all)) * (1 + 2 * ROOM);
+  const across = Math.max(size(xs), size(ys) / steep, (WIDE * sketch.grid) / 4, view.width);
+  view = { x: middle(xs) - across / 2, y: middle(ys) - (across * steep) / 2, width: across };
+}
+
+function element(name, look, attributes, words = "") {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  made.setAttribute("class", look);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.textContent = words;
+  return made;
+}
+
+const line = (look, [x1, y1], [x2, y2]) => element("line", look, { x1, y1: -y1, x2, y2: -y2 });
+
+/** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
+function draw(shift = {}, drawn = []) {
+  if (!sketch || !svg.clientWidth) return;
+  fit();
+  const one = pixel();
+  const points = { ...sketch.points, ...shift };
+  svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
+  const marks = [];
+  for (const block of sketch.blocks) {
+    const [x, y] = points[block.point];
+    const [dx, dy] = block.along.map((part) => part / (Math.hypot(...block.along) || 1));
+    const turn = `rotate(${(-Math.atan2(dy, dx) * 180) / Math.PI} ${x} ${-y})`;
+    const reach = 60 * one;
+    marks.push(line("guide", [x - dx * reach, y - dy * reach], [x + dx * reach, y + dy * reach]));
+    const [width, height] = [26 * one, 16 * one];
+    const box = { x: x - width / 2, y: -y - height / 2, width, height, transform: turn };
+    marks.push(element("rect", "slider", { ...box, "vector-effect": "non-scaling-stroke" }));
+  }
+  for (const [name, held] of Object.entries(sketch.links)) {
+    const at = held.filter((point) => points[point]).map((point) => points[point]);
+    const look = `bar${sketch.driven.includes(name) ? " driven" : ""}`;
+    const list = at.map(([x, y]) => `${x},${-y}`).join(" ");
+    if (at.length > 1) marks.push(element("polygon", look, { points: list, "data-link": name }));
+  }
+  for (const ghost of sketch.ghosts) {
+    for (const near of ghost.neighbours) {
+      if (points[near]) marks.push(line("ghost", points[near], ghost.at));
+    }
+    marks.push(element("circle", "ghost", { cx: ghost.at[0], cy: -ghost.at[1], r: PIN * one, "data-ghost": ghost.point }));
+  }
+  for (const [name, [x, y]] of Object.entries(points)) {
+    const look = `pin${sketch.fixed.includes(name) ? " fixed" : ""}`;
+    marks.push(element("circle", look, { cx: x, cy: -y, r: PIN * one, "data-point": name }));
+    const letter = { x: x + 9 * one, y: -y - 9 * one, "font-size": LETTER * one };
+    marks.push(element("text", "letter", letter, name));
+  }
+  svg.replaceChildren(...marks, ...drawn);
+}
+
+/** Where a pointer is in the scene. */
+function spot(event) {
+  const box = svg.getBoundingClientRect();
+  const one = pixel();
+  return [view.x + (event.clientX - box.left) * one, -(view.y + (event.clientY - box.top) * one)];
+}
+
+const away = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
+
+/** How far a place lies from a segment. */
+function beside(at, from, to) {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const part = ((at[0] - from[0]) * dx + (at[1] - from[1]) * dy) / (dx * dx + dy * dy || 1);
+  const held = Math.max(0, Math.min(1, part));
+  return away(at, [from[0] + held * dx, from[1] + held * dy]);
+}
+
+/** What lies nearest at a place within reach: of all `things`, by their distance. */
+function nearest(things, distance) {
+  const near = NEAR * pixel();
+  const all = things.map((thing) => [distance(thing), thing]).filter(([far]) => far <= near);
+  return all.sort(([one], [other]) => one - other)[0]?.[1];
+}
+
+const pointAt = (at) => nearest(Object.keys(sketch.points), (name) => away(at, sketch.points[name]));
+const ghostAt = (at) => nearest(sketch.ghosts, (ghost) => away(at, ghost.at));
+
+/** The bar at a place, but for those of a point. */
+function linkAt(at, but = "") {
+  const free = Object.keys(sketch.links).filter((name) => !sketch.links[name].includes(but));
+  return nearest(free, (name) => {
+    const held = sketch.links[name].map((point) => sketch.points[point]).filter(Boolean);
+    const sides = held.map((point, i) => beside(at, held[i - 1] ?? held.at(-1), point));
+    return held.length > 1 ? Math.min(...sides) : Infinity;
+  });
+}
+
+/** Say something beside the pointer until the next act. */
+function tellAt(event, words) {
+  const box = canvas.getBoundingClientRect();
+  told.hidden = !words;
+  told.textContent = words;
+  told.style.left = `${Math.min(event.clientX - box.left + 14, box.width * 0.6)}px`;
+  told.style.top = `${event.clientY - box.top + 14}px`;
+}
+
+/** Ask for an act; the text is changed as if it were written. */
+async function act(event, kind, of, at, more = {}) {
+  if (busy) return;
+  busy = true;
+  svg.setAttribute("aria-busy", "true");
+  try {
+    const text = written();
+    const answer = await ask("build", { text, kind, of, at, places: places(), ...more });
+    if (answer.problems.length) {
+      tellAt(event, answer.problems.map(sentence).join(" "));
+      draw();
+    } else if (text === written()) {
+      stood.set(answer.text, answer.places);
+      replace(answer.text);
+      svg.focus();
+    }
+  } catch (error) {
+    tellAt(event, error.message);
+  } finally {
+    busy = false;
+    svg.removeAttribute("aria-busy");
+  }
+}
+
+svg.addEventListener("pointerdown", (event) => {
+  if (!sketch || event.button) return;
+  tellAt(event, "");
+  const at = spot(event);
+  press = { at, point: pointAt(at), link: linkAt(at), ghost: ghostAt(at), tool: tool() };
+  svg.setPointerCapture(event.pointerId);
+});
+
+svg.addEventListener("pointermove", (event) => {
+  if (!press) return;
+  const at = spot(event);
+  if (press.tool === "move" && press.point) draw({ [press.point]: at });
+  if (!["bar", "plate", "block"].includes(press.tool)) return;
+  const from = sketch.points[press.point] ?? press.at;
+  const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
+  const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
+  const angle = Math.round((Math.atan2(dy, dx) * 360) / Math.PI) / 2;
+  const words = `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
+  const one = pixel();
+  const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
+  draw({}, [line("drawn", from, at), element("text", "letter", letter, words)]);
+});
+
+svg.addEventListener("pointerup", (event) => {
+  const from = press;
+  press = null;
+  if (!from) return;
+  const at = spot(event);
+  const dragged = away(at, from.at) > 3 * pixel();
+  const end = pointAt(at);
+  draw();
+  if (from.tool === "pivot") act(event, "pivot", [], at);
+  else if (from.tool === "move" && from.point && dragged) act(event, "move", [from.point], at);
+  else if (from.tool === "move" && from.ghost && !from.point) {
+    act(event, "close", [from.ghost.key], at, { words: from.ghost.words });
+  } else if (from.tool === "bar" && from.point && dragged) {
+    act(event, "bar", end ? [from.point, end] : [from.point], at);
+  } else if (from.tool === "plate" && from.link) act(event, "plate", [from.link], at);
+  else if (from.tool === "block" && from.point && dragged) {
+    const slot = linkAt(at, from.point);
+    act(event, "block", slot ? [from.point, slot] : [from.point], at);
+  } else if (from.tool === "driver" && from.link) {
+    act(event, "driver", [from.link], at, { speed: [Number(find("speed").value) || 0, 0] });
+  } else if (from.tool === "delete" && (from.point || from.link)) {
+    act(event, "delete", [from.point ?? from.link], at, { words: from.point ? "point" : "link" });
+  } else if (from.tool !== "move") tellAt(event, say(`studio.how_${from.tool}`));
+});
+
+svg.addEventListener("pointercancel", () => {
+  press = null;
+  draw();
+});
+
+svg.addEventListener(
+  "wheel",
+  (event) => {
+    if (!sketch || !view) return;
+    event.preventDefault();
+    const [x, y] = spot(event);
+    const factor = 1.0015 ** event.deltaY;
+    view = { x: x + (view.x - x) * factor, y: -y + (view.y + y) * factor, width: view.width * factor };
+    draw();
+  },
+  { passive: false },
+);
+
+/** Go a step back or forth in the text, as its own keys do. */
+function again(which) {
+  find("text").focus();
+  document.execCommand(which);
+  svg.focus();
+}
+
+svg.addEventListener("keydown", (event) => {
+  if (!(event.ctrlKey || event.metaKey)) return;
+  const key = event.key.toLowerCase();
+  if (key !== "z" && key !== "y") return;
+  event.preventDefault();
+  again(key === "y" || event.shiftKey ? "redo" : "undo");
+});
+
+function explain() {
+  find("how").textContent = say(`studio.how_${tool()}`);
+  find("driven").hidden = tool() !== "driver";
+}
+
+find("undo").addEventListener("click", () => again("undo"));
+find("redo").addEventListener("click", () => again("redo"));
+find("tools").addEventListener("change", explain);
+find("tools").addEventListener("submit", (event) => event.preventDefault());
+toggle.addEventListener("click", () => building(!isBuilding()));
+new ResizeObserver(() => draw()).observe(svg);
+onSpeaking(explain);
+explain();
