@@ -46,11 +46,12 @@ if TYPE_CHECKING:
 @click.option(
     "--format",
     "formats",
-    metavar="svg,pdf,html",
+    metavar="svg,pdf,html,dxf",
     default="svg,pdf",
     show_default=True,
     help="Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
-    " which draws itself step by step (key and steps alike), or holds the task.",
+    " which draws itself step by step (key and steps alike), or holds the task. dxf: the drawings"
+    " at true scale for a CAD program, a layer for each class of line; needs the extra [cad].",
 )
 @force_option
 def sheet(
@@ -77,7 +78,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
-    kinds = formats_of(formats, (*FORMATS, "html"))
+    kinds = formats_of(formats, (*FORMATS, "html", "dxf"))
     from graphkin.writers.files import file_stem, rendered, write_all
 
     mechanism = mechanism_of(name, settings)

@@ -10,7 +10,7 @@ import click
 
 from graphkin.cli.options import current, tell
 
-NEEDED = ("bottle", "waitress")
+NEEDED = ("bottle", "tomlkit", "waitress")
 """The packages of the extra [studio]."""
 
 

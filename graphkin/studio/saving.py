@@ -24,7 +24,7 @@ from graphkin.writers.files import file_stem, rendered, write_all
 
 VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
-FORMATS = ("svg", "pdf", PAGE)
+FORMATS = ("svg", "pdf", PAGE, "dxf")
 MOST_LINES = 12
 """Lines that are shown of what saving would change in a file that is in the way."""
 

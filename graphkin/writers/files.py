@@ -56,7 +56,7 @@ def rendered(
     *,
     steps: bool = False,
 ) -> dict[str, bytes]:
-    """The files of one sheet by name: an SVG for each page, one PDF for all of them.
+    """The files of one sheet by name: an SVG, a DXF for each page, one PDF for all of them.
 
     The pages of a sheet that grows by ``steps`` are numbered; else the first is the sheet itself.
     """
@@ -67,6 +67,12 @@ def rendered(
         for number, page in enumerate(pages, 1):
             tail = f"-{number}" if steps or number > 1 else ""
             files[f"{stem}{tail}.svg"] = write_svg(page, ink).encode("utf-8")
+    if "dxf" in formats and kind != PDF_ONLY:
+        from graphkin.writers.dxf import write_dxf
+
+        for number, page in enumerate(pages, 1):
+            tail = f"-{number}" if steps or number > 1 else ""
+            files[f"{stem}{tail}.dxf"] = write_dxf(page, ink)
     if "pdf" in formats:
         from graphkin.writers.pdf import write_pdf
 

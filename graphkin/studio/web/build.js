@@ -59,8 +59,10 @@ function fit() {
   const [width, height] = [svg.clientWidth || 1, svg.clientHeight || 1];
   const steep = height / width;
   if (!view) view = { x: (-WIDE * sketch.grid) / 2, y: (-WIDE * sketch.grid * steep) / 2, width: WIDE * sketch.grid };
+  const edge = (3 * PIN * view.width) / width;
+  const [right, lower] = [view.x + view.width, view.y + view.width * steep];
   const inside = ([x, y]) =>
-    x > view.x && x < view.x + view.width && -y > view.y && -y < view.y + view.width * steep;
+    x > view.x + edge && x < right - edge && -y > view.y + edge && -y < lower - edge;
   if (at.every(inside)) return;
   const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
   const middle = (all) => (Math.min(...all) + Math.max(...all)) / 2;
