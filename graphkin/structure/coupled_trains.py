@@ -9,38 +9,47 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from graphkin.structure.groups import CoupledTrain, Geared, TriedLink
-from graphkin.structure.joints import Joints
+from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import geared_of
 from graphkin.structure.pairs import Contact, Pin
 
 
 def next_coupled(joints: Joints, known: Collection[str]) -> CoupledTrain | None:
     """The train of fewest links that closes once one link on a known pin is tried."""
+    contacts = [*left_over(joints, known)]
+    if not contacts:
+        return None
     found = (
         train
         for link in joints.unknown(known)
-        for last in left_over(joints, known, link)
-        if (train := closed(joints, known, link, last))
+        for pin in pins_held(joints, known, link)
+        for last in contacts
+        if (train := closed(joints, known, TriedLink(link, pin), last))
     )
     return min(found, key=lambda train: len(train.links), default=None)
 
 
-def left_over(joints: Joints, known: Collection[str], tried: str) -> Iterator[Contact]:
-    """The contacts with wheels of known links by which a trial of a link may be judged."""
-    held = [pair for pair in joints.between(tried, known) if pair.taken == 2]
-    if len(held) != 1 or not isinstance(held[0], Pin):
-        return
+def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
+    """The contacts of wheels with known ones, about arms that do not stand yet."""
     for link in joints.unknown(known):
-        for pair in joints.between(link, known):
-            if isinstance(pair, Contact) and pair.track is not None and pair.arm not in known:
+        for pair in joints.others[link]:
+            if not isinstance(pair, Contact) or pair.track is None or pair.arm in known:
+                continue
+            if partner(pair, link) in known:
                 yield pair
 
 
+def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
+    """The one pin that holds a link, where nothing else that takes two freedoms does."""
+    held = [pair for pair in joints.between(link, known) if pair.taken == 2]
+    return [pair for pair in held if isinstance(pair, Pin)] if len(held) == 1 else []
+
+
 def closed(
-    joints: Joints, known: Collection[str], tried: str, last: Contact
+    joints: Joints, known: Collection[str], trial: TriedLink, last: Contact
 ) -> CoupledTrain | None:
     """The train that a tried link and a last contact make, wheel after wheel, if they make one."""
-    grown, chain, ends = {*known, tried}, list[Geared](), {*last.links, last.arm}
+    grown, chain, ends = {*known, trial.link}, list[Geared](), {*last.links, last.arm}
     while not ends <= {*grown}:
         wheel = next_wheel(joints, grown, last)
         if wheel is None:
@@ -52,8 +61,7 @@ def closed(
         if each.link in needs:
             kept.insert(0, each)
             needs = {*needs, each.contact.arm, *each.contact.links, *each.pair.links}
-    pin = next(pair for pair in joints.between(tried, known) if pair.taken == 2)
-    return CoupledTrain(TriedLink(tried, pin), tuple(kept), last) if tried in needs else None
+    return CoupledTrain(trial, tuple(kept), last) if trial.link in needs else None
 
 
 def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared | None:

@@ -5,9 +5,11 @@ What the last contact misses grows in proportion to how far the tried link has t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import bases, trial_base
+from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
@@ -26,9 +28,30 @@ from graphkin.construction.rolling.wheel_actions import rolled_on_wheel
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.structure.groups import CoupledTrain
 from graphkin.structure.pairs import Contact
+from graphkin.text.errors import Problem
 
 FREE = 1e-12
 """Ratios that differ less than this leave the tried link free."""
+
+
+class SettledTurn(Determined, frozen=True, kw_only=True):
+    """The ``turn`` of a tried ``link``, which a contact settles with all wheels between."""
+
+    gives: ClassVar[tuple[str, ...]] = ("turn",)
+    has_angle: ClassVar[bool] = False
+
+    link: str
+    wheels: tuple[str, ...]
+    turn: int
+
+    def undetermined(self, args: Sequence[Any]) -> Problem:
+        """The ratios of the wheels cancel."""
+        return Problem(
+            f"position of link {self.link}",
+            f"the wheels of links {', '.join(self.wheels)} let link {self.link} turn as it likes",
+            "ratios of the wheels that do not cancel",
+            "change a wheel, or drive one link more",
+        )
 
 
 def position(pen: Pen, shapes: LinkShapes, group: CoupledTrain, each: Each) -> None:
@@ -75,7 +98,11 @@ def turn_of_tried(pen: Pen, shapes: LinkShapes, group: CoupledTrain) -> int:
     ends = rolled_to(pen, shapes, group.last, own, turns), rate_rolled(pen, group.last, own, rates)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         missed = pen.draw(difference, turns[own], ends[0])
-        return pen.draw(closing_turn, missed, pen.draw(difference, rates[own], ends[1]))
+        rate = pen.draw(difference, rates[own], ends[1])
+        turn = pen.draw(closing_turn, missed, rate)
+    wheels = tuple(wheel.link for wheel in group.chain)
+    pen.make(SettledTurn(link=group.trial.link, wheels=wheels, turn=turn))
+    return turn
 
 
 @by_contact
