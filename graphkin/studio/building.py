@@ -67,16 +67,31 @@ class Built(Struct, frozen=True):
 def built(text: str, act: Act) -> Built:
     """Do one act. Raises SceneError for what is impossible, in words for the pointer."""
     try:
-        document = tomlkit.parse(text)
         tables = tables_of(text)
+        document = tomlkit.parse(text)
     except TOMLKitError:
         raise SceneError(Problem("text", "is no TOML", "", "mend its mistakes first")) from None
+    refuse_shapes(tables)
     work = Builder(document, {**act.places, **frame_places(tables)}, unit_of(tables))
     KINDS[act.kind](work, act)
     after = tomlkit.dumps(work.document)
     if act.kind != "close":
         after = closed(after, work.places)
     return Built(after, work.places)
+
+
+def refuse_shapes(tables: Mapping[str, Any]) -> None:
+    """Raise SceneError where what holds links, points or drivers is no table."""
+    wanted = {key: tables.get(key, {}) for key in ("units", "frame", "links", "branches", "ask")}
+    links = wanted["links"]
+    wanted |= {f"links.{k}": v for k, v in links.items()} if isinstance(links, dict) else {}
+    drivers = tables.get("drivers", [])
+    wanted |= dict.fromkeys(["drivers"], {} if isinstance(drivers, list) else drivers)
+    if isinstance(drivers, list):
+        wanted |= {f"drivers[{n}]": each for n, each in enumerate(drivers)}
+    wrong = [place for place, value in wanted.items() if not isinstance(value, dict)]
+    if wrong:
+        raise SceneError([Problem(place, "is no table", "a table") for place in wrong])
 
 
 class Builder:

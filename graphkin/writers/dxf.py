@@ -8,7 +8,7 @@ from io import StringIO
 from math import isclose, radians
 from typing import Any
 
-from graphkin.drawing.glyphs import capital
+from graphkin.drawing.glyphs import advance, capital
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Polyline, Text
 from graphkin.drawing.richtext import runs
 from graphkin.drawing.style import Ink, Style, style_of
@@ -36,7 +36,7 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
     try:
         document = ezdxf.new("R2010", units=MILLIMETRES)
         document.styles.add(FACE, font="DejaVuSans.ttf")
-        drawn = Drawer(document, page.height, ink, TextEntityAlignment.LEFT)
+        drawn = Drawer(document, page.height, ink, TextEntityAlignment.FIT)
         drawn.all(page.marks)
         document.set_modelspace_vport(page.height, (page.width / 2, page.height / 2))
         text = StringIO()
@@ -49,12 +49,12 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
 class Drawer:
     """Puts marks into the model space of a document, each on the layer of its class."""
 
-    def __init__(self, document: Any, height: float, ink: Ink, level: Any) -> None:
+    def __init__(self, document: Any, height: float, ink: Ink, fit: Any) -> None:
         self.document = document
         self.space = document.modelspace()
         self.height = height
         self.ink = ink
-        self.level = level
+        self.fit = fit
 
     def all(self, marks: Iterable[Mark]) -> None:
         """Draw marks in their order."""
@@ -127,11 +127,13 @@ class Drawer:
         return self.space.add_hatch(dxfattribs=own).paths
 
     def lettering(self, text: Text, look: dict[str, Any]) -> None:
-        """A text, each of its runs at its own place."""
+        """A text, each of its runs at its own place, as wide as on the page in any face."""
         turn = rect(1.0, radians(text.rotate))
         for run in runs(text.markup, text.height):
             along = complex(text.left() + run.x, -run.y) * turn
             x, y = self.up(text.x, text.y)
-            own = {**look, "style": FACE, "rotation": text.rotate, "oblique": 12 * run.italic}
+            own = {**look, "style": FACE, "oblique": 12 * run.italic}
+            width = advance(run.text, run.italic) * run.size
             made = self.space.add_text(run.text, height=capital() * run.size, dxfattribs=own)
-            made.set_placement((x + along.real, y + along.imag), align=self.level)
+            start, end = complex(x, y) + along, complex(x, y) + along + width * turn
+            made.set_placement((start.real, start.imag), (end.real, end.imag), self.fit)

@@ -182,6 +182,42 @@ def test_what_the_page_does_not_ask_is_refused(served, body):
     assert asked(served, "POST", "look", body, **JSON)[0].status == 400
 
 
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"kind": "explode", "of": ["A"]},
+        {"kind": "move"},
+        {"kind": "move", "of": "A"},
+        {"kind": "move", "of": ["A", "B", "C"]},
+        {"kind": "move", "of": [""]},
+        {"kind": "pivot", "at": [1]},
+        {"kind": "pivot", "at": [1, "2"]},
+        {"kind": "pivot", "at": [1, True]},
+        {"kind": "pivot", "at": [1, 1e300]},
+        {"kind": "pivot", "places": [1]},
+        {"kind": "pivot", "places": {"A": None}},
+        {"kind": "pivot", "places": {f"A{n}": [0, 0] for n in range(501)}},
+    ],
+)
+def test_an_act_that_the_page_does_not_ask_is_refused(served, fields):
+    order = {"text": PUMP, "language": "en"} | fields
+    assert asked(served, "POST", "build", json.dumps(order), **JSON)[0].status == 400
+    nan = '{"text": "", "kind": "pivot", "at": [NaN, 0]}'
+    assert asked(served, "POST", "build", nan, **JSON)[0].status == 400
+
+
+def test_an_act_answers_with_the_text_and_writes_no_file(served, tmp_path):
+    order = {"text": PUMP, "language": "en", "kind": "pivot", "at": [11, 4]}
+    found = json.loads(asked(served, "POST", "build", json.dumps(order), **JSON)[1])
+    assert found["text"] == PUMP.replace("O2 = [0, -30]\n", "O2 = [0, -30]\nO3 = [11, 4]\n")
+    broken = json.loads(
+        asked(served, "POST", "build", json.dumps(order | {"text": "= ="}), **JSON)[1]
+    )
+    assert broken["problems"]
+    assert broken["text"] == "= ="
+    assert not list(tmp_path.iterdir())
+
+
 def test_scene_and_sheets_are_saved_where_it_was_started(served, tmp_path):
     order = {"text": PUMP, "name": "mine.toml", "language": "en", "settings": {"n": "9"}}
     assert json.loads(asked(served, "POST", "save", json.dumps(order), **JSON)[1])["files"]

@@ -1,0 +1,104 @@
+"""Each act of the hand is one edit of the text, and what is impossible changes nothing."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.scene.read_scene import read_text
+from graphkin.studio.building import KINDS, Act, built
+from graphkin.studio.sketch import sketch
+from graphkin.text.errors import SceneError
+from tests.studio.pump import PUMP
+
+
+def places_of(text: str) -> dict[str, complex]:
+    """Where the points of a text stand."""
+    return {name: complex(*at) for name, at in sketch(text, "own", {}).points.items()}
+
+
+def done(text: str, kind: str, *of: str, at: complex = 0j, **more) -> str:
+    """The text after an act."""
+    return built(text, Act(kind, of, at, places_of(text), **more)).text
+
+
+def changed(before: str, after: str) -> list[str]:
+    """The new lines of a text."""
+    old = before.split("\n")
+    return [line for line in after.split("\n") if line not in old]
+
+
+def test_a_dragged_pin_changes_its_lengths_alone():
+    at = places_of(PUMP)["B"] + 2
+    assert [line.split(" = ")[0] for line in changed(PUMP, done(PUMP, "move", "B", at=at))] == [
+        "O2-B", "A-B", "B-C",
+    ]  # fmt: skip
+
+
+def test_an_angle_that_is_an_expression_stays():
+    at = places_of(PUMP)["A"] * 1.2
+    after = done(PUMP, "move", "A", at=at)
+    assert 'angle = "30 + 2*n"' in after
+    assert "O1-A = 36\n" in after
+
+
+def test_comments_stay_through_every_act():
+    places = places_of(PUMP)
+    acts = [
+        ("pivot", (), 50 + 50j, {}),
+        ("bar", ("C",), 40 + 30j, {}),
+        ("plate", ("2",), -20 - 20j, {}),
+        ("move", ("O2",), -32j, {}),
+        ("close", ("5",), 0j, {"words": "backward"}),
+    ]
+    for kind, of, at, more in acts:
+        after = built(PUMP, Act(kind, of, at, places, **more)).text
+        assert [line for line in PUMP.split("\n") if "#" in line] == [
+            line for line in after.split("\n") if "#" in line
+        ], kind
+
+
+def test_what_is_deleted_is_nowhere_named_and_the_rest_stands():
+    after = done(PUMP, "delete", "D", words="point")
+    scene = read_text(after, "own", None, {})
+    assert set(scene.links) == {"1", "2", "3"}
+    assert set(scene.branches) == {"B"}
+    assert "D" not in (*scene.ask.velocity, *scene.ask.acceleration)
+
+
+def test_a_pin_on_the_line_of_a_bar_is_written_so():
+    places = places_of(PUMP)
+    at = (places["O2"] + places["B"]) / 2
+    after = done(PUMP, "plate", "2", at=at)
+    assert 'E = "on O2-B"' in after
+    assert "O2-E = 15" in after
+    assert abs(places_of(after)["E"] - at) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("kind", "of", "words"),
+    [
+        ("bar", ("O1", "O2"), "both pins belong to the frame"),
+        ("bar", ("A", "C"), "both pins belong to link 3"),
+        ("bar", ("A", "A"), "begins and ends at one pin"),
+        ("bar", ("Q",), "is at no known place"),
+        ("plate", ("9",), "is not there"),
+        ("block", ("O1",), "O1 is fixed"),
+        ("block", ("A", "3"), "a pin of link 3 itself"),
+        ("block", ("D",), "has a block already"),
+        ("driver", ("1",), "is driven already"),
+        ("driver", ("4",), "is at no fixed pin"),
+    ],
+)
+def test_what_is_impossible_is_said(kind, of, words):
+    with pytest.raises(SceneError, match=words):
+        done(PUMP, kind, *of, at=3 + 4j)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", ["", "links", "slides", "A-B", "O1", "A", "5", "999"])
+def test_no_act_ends_in_a_fault(kind, name):
+    for text in (PUMP, "", "graphkin = 1", "links = 5\nframe = 3", "drivers = 1\nbranches = 2"):
+        try:
+            built(text, Act(kind, (name,), 1 + 1j, {"A": 0j, "O1": 1j}))
+        except SceneError as error:
+            assert error.problems
