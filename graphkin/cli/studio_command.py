@@ -36,7 +36,7 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     stand, a slider for each parameter, the mechanism, both plans, results, flattest crossings and
     the independent check; all of it follows what is written and moved. Scenes and sheets are saved
     into the current folder, and nothing outside it is read or written. Without SCENE it begins with
-    a slider-crank.
+    a choice of what to start from: pictures of the labs and of the scenes here, or an empty field.
 
     The page's address holds a token that nobody else knows; it ends with this command (Ctrl+C).
 
@@ -59,7 +59,7 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
 
     session = Session(Folder(Path()), lang)
     redirect = Redirect()
-    served = serve(session, port, session.address_of(name), redirect.remove)
+    served = serve(session, port, session.address_of(name) or {"gallery": "yes"}, redirect.remove)
     tell([served.address])
     try:
         if not no_browser:

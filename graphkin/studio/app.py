@@ -23,7 +23,7 @@ KINDS = {
     ".woff2": "font/woff2",
 }
 JSON = "application/json"
-WORK = ("look", "build", "write", "save", "sheets")
+WORK = ("look", "build", "picture", "write", "save", "sheets")
 """What the page asks the desk to do."""
 
 

@@ -174,6 +174,17 @@ class Session:
         except GraphkinError as error:
             return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
 
+    def picture(self, order: PageRequest) -> dict[str, Any]:
+        """The sketch of a scene here or of a lab; none of one that cannot be read."""
+        scene, lab = order.text("scene"), order.text("lab")
+        try:
+            with self.drawing():
+                opened = self.open(scene, lab)
+                seen = sketch(opened.text, stem_of(opened.name), {})
+        except GraphkinError:
+            return {"sketch": None}
+        return {"sketch": seen and to_builtins(seen)}
+
     def build(self, order: PageRequest) -> dict[str, Any]:
         """The text after an act of the hand, or why it is impossible."""
         of, places = order.names("of"), order.places()

@@ -221,3 +221,26 @@ def test_comments_and_order_of_an_opened_scene_are_kept(hand, served):
     changed = [pair for pair in pairs if pair[0] != pair[1]]
     assert [old for old, _ in changed] == ["O2 = [0, -30]", "O2-B = 30"]
     assert changed[0][1] == "O2 = [0, -26]"
+
+
+def test_one_starts_from_a_gallery_with_a_picture_of_each(hand, served, tmp_path):
+    page = hand.page
+    (tmp_path / "broken.toml").write_text("= =", encoding="utf-8")
+    (tmp_path / "own.toml").write_text(hand.text, encoding="utf-8")
+    page.goto(f"{served.address}?gallery=yes")
+    page.wait_for_selector("#opening[open]")
+    for lab in ("pump", "slotted-lever", "offset-slider-crank", "pump-collinear"):
+        picture = page.locator(f"#labs [data-name='{lab}'] svg")
+        picture.scroll_into_view_if_needed(timeout=LONG)
+        links = set(load(lab).scene.links)
+        bars = picture.locator("polygon[data-link]")
+        assert {bar.get_attribute("data-link") for bar in bars.all()} <= links
+        assert bars.count() >= 3 or lab == "offset-slider-crank"
+    assert page.locator("[data-name='broken.toml'] svg").count() == 0
+    assert not barred(page)
+    page.click("#labs [data-name='slotted-lever']")
+    page.wait_for_selector("#file[value='slotted-lever.toml']")
+    page.goto(f"{served.address}?gallery=yes")
+    page.click("#from-nothing")
+    page.wait_for_selector("#canvas svg[viewBox]")
+    assert "[" not in hand.text

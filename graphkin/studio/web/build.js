@@ -13,6 +13,7 @@ const WIDE = 160; // steps of the grid across an empty field
 const ROOM = 0.2; // of the mechanism's size around it
 const PIN = 6; // px
 const LETTER = 15; // px
+const SMALL = [180, 110]; // px of a small picture
 const stood = new Map(); // where points stood, by the text
 let sketch = null;
 let view = null; // the left and upper edge and the width of what is seen, in the scene's unit
@@ -81,13 +82,9 @@ function element(name, look, attributes, words = "") {
 
 const line = (look, [x1, y1], [x2, y2]) => element("line", look, { x1, y1: -y1, x2, y2: -y2 });
 
-/** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
-function draw(shift = {}, drawn = []) {
-  if (!sketch || !svg.clientWidth) return;
-  fit();
-  const one = pixel();
-  const points = { ...sketch.points, ...shift };
-  svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
+/** The marks of a sketch whose points stand so, where a pixel is so much of the scene; `named`
+ * with the letters of its points. */
+function marksOf(sketch, points, one, named = true) {
   const marks = [];
   for (const block of sketch.blocks) {
     const [x, y] = points[block.point];
@@ -114,9 +111,37 @@ function draw(shift = {}, drawn = []) {
   for (const [name, [x, y]] of Object.entries(points)) {
     const look = `pin${sketch.fixed.includes(name) ? " fixed" : ""}`;
     marks.push(element("circle", look, { cx: x, cy: -y, r: PIN * one, "data-point": name }));
+    if (!named) continue;
     const letter = { x: x + 9 * one, y: -y - 9 * one, "font-size": LETTER * one };
     marks.push(element("text", "letter", letter, name));
   }
+  return marks;
+}
+
+/** A small picture of a mechanism. */
+export function picture(sketch) {
+  const small = element("svg", "mechanism", { "aria-hidden": "true" });
+  const at = Object.values(sketch.points);
+  if (!at.length) return small;
+  const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
+  const [left, upper] = [Math.min(...xs), Math.min(...ys)];
+  const [width, height] = [Math.max(...xs) - left, Math.max(...ys) - upper];
+  const one = Math.max(width / SMALL[0], height / SMALL[1]) || 1;
+  const [across, down] = [(SMALL[0] + 60) * one, (SMALL[1] + 30) * one];
+  const edge = [left + width / 2 - across / 2, upper + height / 2 - down / 2];
+  small.setAttribute("viewBox", [...edge, across, down].join(" "));
+  small.append(...marksOf({ ...sketch, ghosts: [] }, sketch.points, one, false));
+  return small;
+}
+
+/** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
+function draw(shift = {}, drawn = []) {
+  if (!sketch || !svg.clientWidth) return;
+  fit();
+  const one = pixel();
+  const points = { ...sketch.points, ...shift };
+  svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
+  const marks = marksOf(sketch, points, one);
   svg.replaceChildren(...marks, ...drawn);
 }
 

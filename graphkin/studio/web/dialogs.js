@@ -1,5 +1,6 @@
 // Opening and saving, and the questions before anything is replaced or lost.
 
+import { picture } from "./build.js";
 import { sentence } from "./mistakes.js";
 import { values } from "./sliders.js";
 import { ask, find, language, listed, say, tell } from "./talk.js";
@@ -41,6 +42,24 @@ export async function saved(what, fields) {
   return answer;
 }
 
+/** Draw what comes into sight, one after another. */
+function pictured(items) {
+  let last = Promise.resolve();
+  const seen = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      if (!isIntersecting) continue;
+      seen.unobserve(target);
+      last = last.then(async () => {
+        if (!find("opening").open) return;
+        const { sketch } = await ask("picture", { [target.dataset.key]: target.dataset.name });
+        if (sketch) target.prepend(picture(sketch));
+      }).catch(() => {});
+    }
+  });
+  for (const item of items) seen.observe(item);
+  find("opening").addEventListener("close", () => seen.disconnect(), { once: true });
+}
+
 /** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
 export async function choose(go) {
   const { scenes, labs } = await listed();
@@ -48,6 +67,7 @@ export async function choose(go) {
     const item = document.createElement("li");
     const button = document.createElement("button");
     button.type = "button";
+    Object.assign(button.dataset, { key, name });
     button.textContent = title ? `${name} – ${title}` : name;
     button.addEventListener("click", () => {
       find("opening").close();
@@ -59,7 +79,12 @@ export async function choose(go) {
   find("scenes").replaceChildren(...scenes.map((name) => entry("scene", name)));
   find("labs").replaceChildren(...labs.map(([name, title]) => entry("lab", name, title)));
   find("no-scenes").hidden = scenes.length > 0;
+  find("from-nothing").onclick = () => {
+    find("opening").close();
+    go("?empty=yes");
+  };
   find("opening").showModal();
+  pictured(find("opening").querySelectorAll("li button"));
 }
 
 /** Let the kinds of files be chosen, then draw and save them; `fields` gives the scene as it is. */

@@ -238,6 +238,9 @@ addEventListener("beforeunload", (event) => {
 onBuilding(() => look(false));
 if (new URLSearchParams(location.search).has("empty")) building(true);
 else look(false);
+if (new URLSearchParams(location.search).has("gallery")) {
+  choose(go).catch((error) => tell(error.message, "wrong"));
+}
 find("language").value = language;
 if (new URLSearchParams(location.search).get("lang") === language) chosen = language;
 if (sessionStorage.getItem(TO_TEXT)) {
