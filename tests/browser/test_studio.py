@@ -312,6 +312,28 @@ def test_it_can_be_used_by_keys_alone(studio, place):
     assert page.evaluate("document.activeElement.id") == "open"
 
 
+def test_what_is_not_saved_is_kept_over_a_reload_and_replaces_no_newer_file(studio, place):
+    page = studio()
+    write(page, "C-D = 20", "C-D = 21")
+    (place / "mine.toml").write_text(PUMP.replace("A-B = 40", "A-B = 41"), encoding="utf-8")
+    page.reload()
+    at_rest(page)
+    assert "C-D = 21" in page.input_value("#text")
+    assert page.inner_text("#status") == "not saved"
+    page.click("#save")
+    page.wait_for_selector("#asking[open]")
+    assert "A-B = 41" in page.inner_text("#asked-lines")
+    page.click("#no")
+    assert "A-B = 41" in (place / "mine.toml").read_text(encoding="utf-8")
+    page.click("#save")
+    page.click("#yes")
+    said(page, "Saved: mine.toml")
+    page.reload()
+    at_rest(page)
+    assert "C-D = 21" in page.input_value("#text")
+    assert page.inner_text("#status") == ""
+
+
 def test_hostile_titles_are_shown_as_text(studio, place):
     evil = "<img src=x onerror=alert(1)><script>alert(2)</script>"
     text = PUMP.replace('en = "Pump mechanism"', f'en = "{evil}"') + f"# </textarea>{evil}\n"

@@ -3,7 +3,7 @@
 import { building, onBuilding, placesFields, showSketch } from "./build.js";
 import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
-import { change, onWriting, showProblems, written } from "./editor.js";
+import { change, onWriting, replace, showProblems, written } from "./editor.js";
 import { counted, sentence } from "./mistakes.js";
 import { forgetMoves, held as isHeld, markSliders, onMoving, settings, showSliders } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
@@ -85,8 +85,32 @@ function state() {
   unsaved();
 }
 
+/** Under which name this tab keeps what is not saved of what its address opens. */
+function draft() {
+  const query = new URLSearchParams(location.search);
+  query.delete("lang");
+  return `draft ${query}`;
+}
+
+/** Keep what is not saved over a reload, with the file from which it was written. */
+function keep() {
+  const kept = { text: written(), mark: held.mark, name: held.name };
+  if (isSafe()) sessionStorage.removeItem(draft());
+  else sessionStorage.setItem(draft(), JSON.stringify(kept));
+}
+
+/** What was kept of this address stands in the text again, as a change that can be undone; a file
+ * that has changed since is still not replaced unasked. */
+function recall() {
+  const kept = JSON.parse(sessionStorage.getItem(draft()) ?? "null");
+  if (!kept || kept.name !== held.name || kept.text === written()) return;
+  held = { name: kept.name, mark: kept.mark };
+  replace(kept.text);
+}
+
 /** Say at the top whether something is not saved, but for what has just failed. */
 function unsaved() {
+  keep();
   document.title = `${isSafe() ? "" : "• "}${file.value} – graphkin`;
   if (find("status").classList.contains("wrong")) return;
   if (!isSafe()) tell(say("studio.unsaved"));
@@ -96,6 +120,7 @@ function unsaved() {
 /** Leave for another scene, after asking where something would be lost. */
 async function go(address) {
   if (!isSafe() && !(await agreed(say("studio.leave"), say("studio.go_on")))) return;
+  sessionStorage.removeItem(draft());
   safe = written();
   sessionStorage.setItem(TO_TEXT, "yes");
   location.assign(chosen ? `${address}${address === "?" ? "" : "&"}lang=${chosen}` : address);
@@ -136,6 +161,7 @@ async function save() {
       tell(answer.problems.map(sentence).join(" "), "wrong");
       return;
     }
+    sessionStorage.removeItem(draft());
     safe = text;
     file.value = answer.files[0];
     held = { name: file.value, mark: answer.mark };
@@ -235,6 +261,7 @@ addEventListener("keydown", (event) => {
 addEventListener("beforeunload", (event) => {
   if (!isSafe()) event.preventDefault();
 });
+recall();
 onBuilding(() => look(false));
 if (new URLSearchParams(location.search).has("empty")) building(true);
 else look(false);
