@@ -16,12 +16,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-EXTRAS = ("class", "cluster", "fast", "studio")
+EXTRAS = ("cad", "class", "cluster", "fast", "studio")
 NEWEST = (3, 12)
 """The newest Python for which the lowest versions were published."""
 REQUIREMENT = re.compile(r"([\w.-]+)>=([\w.]+)")
 COMMANDS = (
-    "sheet pump --set n=7 -o out --format svg,pdf,html",
+    "sheet pump --set n=7 -o out --format svg,pdf,html,dxf",
     "cycle pump --set n=7 -o out --steps 24 --format svg,png,gif,html",
     "accuracy pump --quick -o out",
     "solve pump --set n=7 --digits 20 --json",
