@@ -30,6 +30,10 @@ STEP = 0.12
 """Distance, across a line, of the places where it is looked for, in mm."""
 ENDS = 1.6
 """Millimetres at both ends of a line that are not looked at: heads, circles, letters."""
+LEAST_ERROR = 0.1
+"""Standard deviation of a line across, at least, in mm: a hand's lines are not quite straight."""
+BOW = 5.0
+"""Half the length of a compass arc that is looked at, in mm."""
 COVERED = 0.3
 """A place of a line counts as drawn from this part of a usual line on."""
 
@@ -83,34 +87,36 @@ class DrawnInk(Struct, frozen=True):
             return []
         way = (end - start) / long
         along = np.linspace(inset, long - inset, count)
-        half = int(max(beside, beyond) / STEP) + 2
-        across = np.arange(-half, half + 1) * STEP
+        across = offsets(max(beside, beyond))
         strip, known = self.at(start + way * (along[:, None] + 1j * across[None, :]))
-        strip = np.clip(strip, 0, 1) * known
-        middle = len(across) // 2
-        first = np.arange(-round(beside / STEP), round(beside / STEP) + 1)
-        last = np.arange(-round(beyond / STEP), round(beyond / STEP) + 1)
-        part = along / long
-        where = middle + np.rint(
-            first[:, None, None] * (1 - part) + last[None, :, None] * part
-        ).astype(np.int32)
-        rows = np.arange(count)
-        seen = known[:, middle].sum()
-        if seen < max(5, 0.3 * count):
+        return [
+            InkLine(start + 1j * way * near, end + 1j * way * distant, cover, error)
+            for near, distant, cover, error in fitted(
+                strip, known, across, along / long, (beside, beyond), most
+            )
+        ]
+
+    def arcs(
+        self, centre: complex, radius: float, place: complex, beside: float
+    ) -> list[InkLine]:
+        """Arcs about a centre near a place, each as the line that touches it there."""
+        if not abs(place - centre) > BOW:
             return []
-        score = strip[rows, where].sum(axis=2) / seen
-        found: list[InkLine] = []
-        for _ in range(most):
-            i, j = np.unravel_index(score.argmax(), score.shape)
-            if score[i, j] < 0.3:
-                break
-            line = refined(strip, known, across, along, long, first[i] * STEP, last[j] * STEP)
-            if line is not None:
-                near, distant, cover, error = line
-                ends = start + 1j * way * near, end + 1j * way * distant
-                found.append(InkLine(*ends, cover, error))
-            score[max(0, i - 3) : i + 4, max(0, j - 3) : j + 4] = 0
-        return found
+        out = (place - centre) / abs(place - centre)
+        along = np.linspace(-BOW, BOW, int(6 * BOW))
+        across = offsets(beside)
+        turned = out * np.exp(1j * along / radius)
+        shift = abs(place - centre) - radius
+        strip, known = self.at(
+            centre + turned[:, None] * (radius + shift + across[None, :])
+        )
+        found = fitted(strip, known, across, (along + BOW) / (2 * BOW), (beside, beside), 3)
+        lines = []
+        for near, distant, cover, error in found:
+            if abs(near - distant) < 0.12 * BOW:
+                ends = (place + near * out - 1j * BOW * out, place + distant * out + 1j * BOW * out)
+                lines.append(InkLine(*ends, cover, error))
+        return lines
 
     def cover(self, start: complex, end: complex, beside: float = 0.3) -> float:
         """How much of the way between two places is drawn, straight but for so many mm beside."""
@@ -126,13 +132,50 @@ class DrawnInk(Struct, frozen=True):
         return float((drawn & whole).sum() / max(whole.sum(), 1))
 
 
+def offsets(far: float) -> Any:
+    """Distances across a line, so far to both sides."""
+    half = int(far / STEP) + 2
+    return np.arange(-half, half + 1) * STEP
+
+
+Fitted = tuple[float, float, float, float]
+"""How far a line lies to the side at both ends, how much of it is drawn, its deviation."""
+
+
+def fitted(
+    strip: Any, known: Any, across: Any, part: Any, windows: tuple[float, float], most: int
+) -> list[Fitted]:
+    """The lines along a strip that pass within windows at both of its ends, the best first.
+
+    ``part`` is where its rows stand, from 0 at one end to 1 at the other.
+    """
+    strip = np.clip(strip, 0, 1) * known
+    middle, count = len(across) // 2, len(part)
+    first, last = (np.arange(-round(w / STEP), round(w / STEP) + 1) for w in windows)
+    place = first[:, None, None] * (1 - part) + last[None, :, None] * part
+    where = middle + np.rint(place).astype(np.int32)
+    seen = known[:, middle].sum()
+    if seen < max(5, 0.3 * count):
+        return []
+    score = strip[np.arange(count), where].sum(axis=2) / seen
+    found: list[Fitted] = []
+    for _ in range(most):
+        i, j = np.unravel_index(score.argmax(), score.shape)
+        if score[i, j] < 0.3:
+            break
+        line = refined(strip, known, across, part, first[i] * STEP, last[j] * STEP)
+        if line is not None:
+            found.append(line)
+        score[max(0, i - 3) : i + 4, max(0, j - 3) : j + 4] = 0
+    return found
+
+
 def refined(
-    strip: Any, known: Any, across: Any, along: Any, long: float, near: float, distant: float
-) -> tuple[float, float, float, float] | None:
+    strip: Any, known: Any, across: Any, part: Any, near: float, distant: float
+) -> Fitted | None:
     """Where the line of a strip really runs: its distance at both ends, how much of it is drawn,
     and its standard deviation.
     """
-    part = along / long
     for width in (0.5, 0.35):
         centre = near * (1 - part) + distant * part
         weight = strip * (abs(across[None, :] - centre[:, None]) < width)
@@ -152,7 +195,7 @@ def refined(
     whole = known[:, len(across) // 2] > 0
     cover = float((there & whole).sum() / max(whole.sum(), 1))
     spread = float(np.median(off)) * 1.5
-    return near, distant, cover, max(0.05, spread)
+    return near, distant, cover, max(LEAST_ERROR, spread)
 
 
 def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:

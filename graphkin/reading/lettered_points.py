@@ -19,7 +19,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page
-from graphkin.numbers.plane import Line, Ratio
+from graphkin.numbers.plane import Circle, Line, Ratio
 
 LETTERED = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.CENTRE, Part.POLE)
 """The parts of the work whose points are read."""
@@ -32,11 +32,12 @@ AHEAD = 40.0
 class Leading(Struct, frozen=True):
     """What leads to a point: the step of its other end, a point, or a line that begins there.
 
-    ``given`` tells that the line is printed.
+    ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass.
     """
 
     far: int
     given: bool = False
+    bow: bool = False
 
 
 class LetteredSheet(Struct, frozen=True, dict=True):
@@ -73,6 +74,8 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             value = value.start + value.shift / value.size
         elif isinstance(value, Line):
             value = value.point
+        elif isinstance(value, Circle):
+            value = value.centre
         field = self.field(number)
         shift = (value - field.middle) * field.mm
         return complex(*field.at) + shift.conjugate()
@@ -88,6 +91,25 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     def points(self) -> tuple[int, ...]:
         """The steps of the points that are read, in the order of the construction."""
         return tuple(number for number in self.exact.order if self.is_read(number))
+
+    @cached_property
+    def corners(self) -> tuple[int, ...]:
+        """The steps of the corners of the plan that bear no letter of their own: ends of components
+        from which lines are drawn.
+        """
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        lettered = set(self.points)
+        return tuple(
+            number
+            for number in self.exact.order
+            if steps[number].plane is self.drawing.plane
+            and isinstance(values[number], complex)
+            and number not in lettered
+            and steps[number].args
+            and not steps[number].name
+            and steps[number].aside is None
+            and any(steps[other].arrow and number in steps[other].args for other in values)
+        )
 
     def is_read(self, number: int) -> bool:
         """Whether a step is a lettered point of this sheet that a hand finds."""
@@ -109,7 +131,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     @cached_property
     def leading(self) -> Mapping[int, tuple[Leading, ...]]:
         """What leads to each point that is read."""
-        return {number: tuple(dict.fromkeys(self.led(number))) for number in self.points}
+        return {number: tuple(dict.fromkeys(self.led(number))) for number in (*self.points, *self.corners)}
 
     def led(self, number: int) -> Iterator[Leading]:
         """What leads to a point: its own lines, then arrows, then bars."""
@@ -119,6 +141,8 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             for arg in steps[way].args:
                 if isinstance(values.get(arg), Line) and steps[arg].plane is steps[number].plane:
                     yield Leading(arg, self.is_given(arg))
+                elif isinstance(values.get(arg), Circle):
+                    yield Leading(arg, bow=True)
         for other in values:
             step = steps[other]
             if step.arrow and step.action is join and step.plane is steps[number].plane:

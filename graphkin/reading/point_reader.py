@@ -29,7 +29,7 @@ CLOSE, ROOM, WIDEST = 0.7, 0.3, 5.0
 """Least half width of the window for a point, what is added to its cloud's, and the most, in mm."""
 KNOWN, GUESSED = 0.6, 1.6
 """Half width of the window at the other end of a line: a point that was read, one that was not."""
-CROSSING = 0.22
+CROSSING = 0.12
 """Least sine of the angle at which lines cross that give a point."""
 PASSES = 0.45
 """A line passes through a point that lies so many mm beside it at most."""
@@ -38,10 +38,14 @@ SURE, FITS, OFF = 6.5, 11.0, 16.0
 the second it fits, and above the third of what is not expected it does not."""
 DRAWN = 0.7
 """The share of a line that must be there for it to count."""
+PRINTED = 0.3
+"""Standard deviation of a hand's mark across the printed line of a guide, in mm."""
 PAPER = 0.08
 """Standard deviation of a place that is read, whatever the lines say: the map's, in mm."""
 TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays in degrees and mm, and where rays begin."""
+AGREED = 0.5
+"""The share of the ways from known ends to a point that is drawn at least."""
 RAY = 7.0
 """The shortest ray that counts, in mm."""
 TRIED = 14
@@ -82,6 +86,12 @@ class Expected(Struct, frozen=True):
         off = np.array([(place - self.middle).real, (place - self.middle).imag])
         return float(off @ np.linalg.solve(self.spread + error, off))
 
+    def weighed(self, found: Crossing) -> complex:
+        """A place that fits, drawn to what is expected as far as its lines leave it open."""
+        off = np.array([(found.place - self.middle).real, (found.place - self.middle).imag])
+        share = np.linalg.solve(self.spread + found.error, off)
+        return self.middle + complex(*(self.spread @ share))
+
 
 class Crossing(Struct, frozen=True):
     """A place where lines cross: its covariance, and how many lines and how well they are there."""
@@ -114,6 +124,8 @@ class PointReader:
         self.sheet, self.ink, self.pencil = sheet, ink, pencil
         self.own: dict[int, complex] = {}
         self.bad: set[int] = set()
+        self.noted: set[int] = set()
+        self.unread: set[int] = set()
         self.readings: dict[int, PointReading] = {}
         self.next: Mapping[int, Any] = {}
 
@@ -123,15 +135,20 @@ class PointReader:
         keys = self.clouds()
         found = dict(exact.trace.values)
         self.next = found
-        wanted = set(self.sheet.points)
+        wanted, corners = set(self.sheet.points), set(self.sheet.corners)
         stale = True
         with np.errstate(all="ignore"):
             for number in exact.order:
                 found[number] = self.drawn(number, found, DRAWINGS)
-                if number not in wanted:
+                if number not in wanted and number not in corners:
                     continue
                 if stale:
                     self.next = self.ahead({})
+                if number in corners:
+                    stale = self.read_corner(number, expected(self.sheet.place(number, found[number])))
+                    if number in self.own:
+                        found[number] = self.sheet.value(number, self.own[number])
+                    continue
                 key = expected(self.sheet.place(number, keys[number]))
                 own = expected(self.sheet.place(number, found[number]))
                 reading = self.read_point(number, key, own)
@@ -141,6 +158,20 @@ class PointReader:
                     self.own[number] = complex(*reading.at)
                     found[number] = self.sheet.value(number, self.own[number])
         return tuple(self.readings.values())
+
+    def read_corner(self, number: int, where: Expected) -> bool:
+        """A corner without a letter: taken where lines cross there; what is off is a mistake."""
+        best = self.best_near(number, where) if np.isfinite(where.middle) else None
+        if best is None or best.cover < DRAWN:
+            self.unread.add(number)
+            return False
+        if where.away(best.place, best.error) > FITS:
+            self.bad.add(number)
+            self.noted.add(number)
+            self.own[number] = best.place
+        else:
+            self.own[number] = where.weighed(best)
+        return True
 
     # --- what is expected -----------------------------------------------------------------------
 
@@ -196,33 +227,73 @@ class PointReader:
     def read_point(self, number: int, key: Expected, own: Expected) -> PointReading:
         """A point, looked for where it is expected, then where it may be after a mistake."""
         if not np.isfinite(own.middle):
-            return self.told(number, key, own, None, "unread")
+            return self.told(number, key, own, None)
         best = self.best_near(number, own)
         if best is not None and own.away(best.place, best.error) <= FITS:
-            return self.told(number, key, own, best)
-        if abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
+            if self.agreement(number, best.place) >= AGREED:
+                return self.told(number, key, own, best)
+        elif abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
             other = self.best_near(number, key)
             if other is not None and key.away(other.place, other.error) <= FITS:
-                return self.told(number, key, own, other)
+                if self.agreement(number, other.place) >= AGREED:
+                    return self.told(number, key, own, other)
         far = self.best_far(number, own)
-        if far is not None and (best is None or far.cover > best.cover + 0.15):
-            best = far
-        return self.told(number, key, own, best, "" if best is not None else "missing")
+        if far is not None:
+            there = self.agreement(number, far.place)
+            here = self.agreement(number, best.place) if best is not None else 0.0
+            if there > here + 0.15:
+                best = far
+        return self.told(number, key, own, best, doubtful=True)
+
+    def agreement(self, number: int, place: complex) -> float:
+        """How much of the ways from known ends to a place is drawn: the worst of a plan's arrows
+        and lines, the best two of a mechanism's bars, which nobody draws all.
+        """
+        covers = [
+            found
+            for each in self.sheet.leading[number]
+            if (found := self.cover_of(number, each, place)) is not None
+        ]
+        if not covers:
+            return 1.0
+        if self.sheet.field(number) is self.sheet.layout.mechanism:
+            return float(np.mean(sorted(covers, reverse=True)[:2]))
+        return min(covers)
+
+    def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
+        """How much of what leads to a place is drawn; None where that tells nothing."""
+        far = self.far_place(leading, self.next)
+        if leading.given or leading.bow or abs(far - place) < 2 * SHORT:
+            return None
+        if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
+            return self.ink.cover(far, place, 0.4)
+        value = self.sheet.exact.trace.values[leading.far]
+        if not isinstance(value, Line) and leading.far not in self.unread:
+            return None
+        found = self.ink.lines(far, place, GUESSED, 0.5)
+        return max((line.cover for line in found), default=0.0)
 
     def told(
-        self, number: int, key: Expected, own: Expected, best: Crossing | None, said: str = ""
+        self, number: int, key: Expected, own: Expected, best: Crossing | None, *, doubtful: bool = False
     ) -> PointReading:
         """The verdict on what was found of a point."""
-        after = bool(self.bad & self.behind(number))
+        behind = self.behind(number)
+        after, fresh = bool(self.bad & behind), bool(self.noted & behind)
+        self.noted -= behind
+        place = None if best is None else best.place
         verdict: ReadVerdict
         if best is None:
-            verdict, ask = ("unread" if said == "unread" else "missing"), True
+            verdict, ask = ("missing" if np.isfinite(own.middle) else "unread"), True
         else:
             away = own.away(best.place, best.error)
+            if away <= FITS:
+                place = own.weighed(best)
             from_key = key.away(best.place, best.error)
             apart = Expected(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
-            ask = away > SURE or best.count < 2 or best.cover < DRAWN
-            if away <= FITS and not after:
+            ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful
+            if away <= FITS and fresh and from_key > FITS:
+                verdict = "wrong"
+            elif away <= FITS and not after:
                 verdict = "right"
                 ask = ask or from_key > OFF
             elif away <= FITS:
@@ -235,7 +306,7 @@ class PointReader:
         return PointReading(
             self.sheet.exact.program.steps[number].name,
             number,
-            None if best is None else pair(best.place),
+            None if place is None else pair(place),
             verdict,
             ask,
             pair(key.middle),
@@ -278,7 +349,7 @@ class PointReader:
                     if found is None:
                         continue
                     away = where.away(found.place, found.error)
-                    score = found.cover * found.count - 0.06 * min(away, 40.0)
+                    score = found.cover * found.count - 0.03 * min(away, 40.0)
                     if score > most:
                         best, most = found, score
         return best
@@ -290,7 +361,9 @@ class PointReader:
             line = values[leading.far]
             start = self.far_place(leading, values)
             way = complex(np.ravel(line.along)[0]).conjugate()
-            return [InkLine(start, start + 100 * way / abs(way), 1.0, 0.05)]
+            return [InkLine(start, start + 100 * way / abs(way), 1.0, PRINTED)]
+        if leading.bow:
+            return self.arcs_near(leading, where)
         far = self.far_place(leading, values)
         target, beside = where.middle, KNOWN if self.is_known(leading) else GUESSED
         value = values[leading.far]
@@ -301,13 +374,21 @@ class PointReader:
             return []
         return self.ink.lines(far, target, beside, where.reach)
 
+    def arcs_near(self, leading: Leading, where: Expected) -> list[InkLine]:
+        """The arc of a compass near where a point is expected, as the line that touches it there."""
+        circle = self.next[leading.far]
+        field = self.sheet.field(leading.far)
+        centre = complex(np.ravel(self.sheet.place(leading.far, circle.centre))[0])
+        radius = float(np.ravel(circle.radius)[0]) * field.mm
+        return self.ink.arcs(centre, radius, where.middle, where.reach)
+
     # --- after a mistake ------------------------------------------------------------------------
 
     def best_far(self, number: int, where: Expected) -> Crossing | None:
         """The best place of a point that is not where it is expected, by the rays that leave the
         known ends of what leads to it, and by what would follow from it.
         """
-        known = [each for each in self.sheet.leading[number] if self.is_known(each)]
+        known = [e for e in self.sheet.leading[number] if self.is_known(e) and not e.bow]
         ends = list(dict.fromkeys(self.far_place(each, self.next) for each in known))
         ends = [end for end in ends if np.isfinite(end)]
         apart = [
@@ -343,6 +424,8 @@ class PointReader:
         for support, place in first[:TRIED]:
             if support < DRAWN:
                 break
+            if self.agreement(number, place) < AGREED:
+                continue
             score = support + self.followed(number, place) - 0.003 * abs(place - where.middle)
             if score > most:
                 best, most = place, score
@@ -381,7 +464,7 @@ class PointReader:
         covers = [
             self.ink.cover(place, self.far_place(each, values), 0.8)
             for each in self.sheet.leading[number]
-            if not self.is_known(each)
+            if not self.is_known(each) and not each.bow
         ]
         if not covers:
             return 0.75
@@ -393,7 +476,7 @@ class PointReader:
         lines = []
         for leading in self.sheet.leading[number]:
             far = self.far_place(leading, values)
-            if np.isfinite(far) and abs(far - place) > 2 * SHORT:
+            if not leading.bow and np.isfinite(far) and abs(far - place) > 2 * SHORT:
                 some = self.ink.lines(far, place, 0.8, 1.2)
                 lines += [some] if some else []
         found = through(place, distinct(lines, place), 1.2)
