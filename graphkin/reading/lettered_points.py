@@ -19,12 +19,14 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page
-from graphkin.numbers.plane import Circle, Line, Ratio
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 LETTERED = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.CENTRE, Part.POLE)
 """The parts of the work whose points are read."""
 SHORT = 3.0
 """Millimetres from a point within which the beginning of a line tells nothing of it."""
+EXACT = 1e-6
+"""Millimetres within which a line passes exactly through a point."""
 AHEAD = 40.0
 """How far along a line that begins at the point itself it is looked for, in mm."""
 
@@ -32,12 +34,14 @@ AHEAD = 40.0
 class Leading(Struct, frozen=True):
     """What leads to a point: the step of its other end, a point, or a line that begins there.
 
-    ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass.
+    ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass, ``after``
+    that it is drawn through the point or from it when that is there.
     """
 
     far: int
     given: bool = False
     bow: bool = False
+    after: bool = False
 
 
 class LetteredSheet(Struct, frozen=True, dict=True):
@@ -76,6 +80,8 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             value = value.point
         elif isinstance(value, Circle):
             value = value.centre
+        elif isinstance(value, Vector):
+            value = value.tip
         field = self.field(number)
         shift = (value - field.middle) * field.mm
         return complex(*field.at) + shift.conjugate()
@@ -150,6 +156,27 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                 if number in (tail, tip):
                     yield Leading(tip if number == tail else tail)
         yield from (Leading(far) for far in self.bars.get(number, ()))
+        yield from (Leading(other, after=True) for other in self.after(number))
+
+    def after(self, number: int) -> Iterator[int]:
+        """The lines that are drawn through a point when it is there, and the arrows set at it."""
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        own = values[number]
+        if not isinstance(own, complex):
+            return
+        later = self.exact.program.descendants(number)
+        for other, value in values.items():
+            step = steps[other]
+            here = step.plane is self.drawing.plane or other in self.on_mechanism
+            if other not in later or step.plane is not steps[number].plane or not here:
+                continue
+            if isinstance(value, Line):
+                off = ((own - value.point) * value.along.conjugate()).imag / abs(value.along)
+                if abs(off) * self.field(number).mm < EXACT:
+                    yield other
+            elif isinstance(value, Vector) and step.action is not join:
+                if abs(value.tail - own) * self.field(number).mm < EXACT:
+                    yield other
 
     def is_given(self, number: int) -> bool:
         """Whether a line is that of a printed guide: nothing of it was drawn."""

@@ -217,6 +217,8 @@ class PointReader:
         """Whether the other end was read, or is printed, or a line from a point that is."""
         steps = self.sheet.exact.program.steps
         step = steps[leading.far]
+        if leading.after:
+            return False
         if isinstance(self.sheet.exact.trace.values[leading.far], Line):
             first = step.args[0] if step.args else leading.far
             return first in self.own or not steps[first].args
@@ -263,7 +265,7 @@ class PointReader:
     def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
         """How much of what leads to a place is drawn; None where that tells nothing."""
         far = self.far_place(leading, self.next)
-        if leading.given or leading.bow or abs(far - place) < 2 * SHORT:
+        if leading.given or leading.bow or leading.after or abs(far - place) < 2 * SHORT:
             return None
         if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
             return self.ink.cover(far, place, 0.4)
@@ -388,7 +390,7 @@ class PointReader:
         """The best place of a point that is not where it is expected, by the rays that leave the
         known ends of what leads to it, and by what would follow from it.
         """
-        known = [e for e in self.sheet.leading[number] if self.is_known(e) and not e.bow]
+        known = [e for e in self.sheet.leading[number] if self.is_known(e) and not (e.bow or e.after)]
         ends = list(dict.fromkeys(self.far_place(each, self.next) for each in known))
         ends = [end for end in ends if np.isfinite(end)]
         apart = [
@@ -464,7 +466,7 @@ class PointReader:
         covers = [
             self.ink.cover(place, self.far_place(each, values), 0.8)
             for each in self.sheet.leading[number]
-            if not self.is_known(each) and not each.bow
+            if each.after or not (self.is_known(each) or each.bow)
         ]
         if not covers:
             return 0.75
