@@ -100,7 +100,7 @@ SHOWN = 10
 )
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context
-def grade(
+def grade(  # noqa: PLR0915
     context: click.Context,
     folder: Path,
     answers: Path,
@@ -118,7 +118,8 @@ def grade(
 ) -> None:
     """Mark the answers of a class.
 
-    DIR is what graphkin variants wrote, ANSWERS a table, a folder or a ZIP file.
+    DIR is what graphkin variants wrote, ANSWERS a table, a folder or a ZIP file, or what graphkin
+    read wrote.
 
     ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
     v_D, omega_3, omega_3_sense, …), a row for each student; or a folder or a ZIP file with a file
@@ -191,6 +192,7 @@ def grade(
     if both := ", ".join(who for who in held if who in settled(decisions)):
         said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
         raise click.UsageError(said, context)
+    answers = drawn_table(opened, answers)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
     turns = read_turns(answers, ids)
     words = words_of(opened, lang)
@@ -217,6 +219,24 @@ def grade(
         say(path)
     if given.unread:
         context.exit(FAILED)
+
+
+def is_read(answers: Path) -> bool:
+    """Whether the answers are a folder of drawings that graphkin read."""
+    from graphkin.reading.kept_readings import READING
+
+    return answers.is_dir() and any(answers.glob(f"*{READING}"))
+
+
+def drawn_table(opened: ClassFolder, folder: Path) -> Path:
+    """Of a folder of readings the table of what was read and decided by now; else what it is."""
+    if not is_read(folder):
+        return folder
+    from graphkin.reading.drawn_answers import ANSWERS
+    from graphkin.reading.read_run import write_answers
+
+    write_answers(opened, folder)
+    return folder / ANSWERS
 
 
 def refuse_strangers(

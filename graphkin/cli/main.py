@@ -29,6 +29,7 @@ LATER = {
     "accuracy": "graphkin.cli.draw_commands:accuracy",
     "print": "graphkin.cli.print_command:print_sheets",
     "grade": "graphkin.cli.grade_command:grade",
+    "read": "graphkin.cli.read_command:read",
     "quiz": "graphkin.cli.quiz_command:quiz",
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",

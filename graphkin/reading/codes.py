@@ -22,7 +22,9 @@ def codes_in(grey: Any) -> list[FoundCode]:
     import zxingcpp
 
     for picture, times in ways_to_look(grey):
-        found = zxingcpp.read_barcodes(picture, formats=zxingcpp.BarcodeFormat.QRCode)
+        found = zxingcpp.read_barcodes(
+            picture, formats=zxingcpp.BarcodeFormats(zxingcpp.BarcodeFormat.QRCode)
+        )
         if found:
             return [FoundCode(each.text, corners_of(each.position) * times) for each in found]
     return []

@@ -10,7 +10,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.drawing.areas import AREA
-from graphkin.drawing.marks import Mark, Page, Text, reach
+from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, reach
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import PaperMap
 
@@ -96,9 +96,7 @@ class DrawnInk(Struct, frozen=True):
             )
         ]
 
-    def arcs(
-        self, centre: complex, radius: float, place: complex, beside: float
-    ) -> list[InkLine]:
+    def arcs(self, centre: complex, radius: float, place: complex, beside: float) -> list[InkLine]:
         """Arcs about a centre near a place, each as the line that touches it there."""
         if not abs(place - centre) > BOW:
             return []
@@ -107,9 +105,7 @@ class DrawnInk(Struct, frozen=True):
         across = offsets(beside)
         turned = out * np.exp(1j * along / radius)
         shift = abs(place - centre) - radius
-        strip, known = self.at(
-            centre + turned[:, None] * (radius + shift + across[None, :])
-        )
+        strip, known = self.at(centre + turned[:, None] * (radius + shift + across[None, :]))
         found = fitted(strip, known, across, (along + BOW) / (2 * BOW), (beside, beside), 3)
         lines = []
         for near, distant, cover, error in found:
@@ -163,7 +159,7 @@ def fitted(
         i, j = np.unravel_index(score.argmax(), score.shape)
         if score[i, j] < 0.3:
             break
-        line = refined(strip, known, across, part, first[i] * STEP, last[j] * STEP)
+        line = refined(strip, known, across, part, float(first[i]) * STEP, float(last[j]) * STEP)
         if line is not None:
             found.append(line)
         score[max(0, i - 3) : i + 4, max(0, j - 3) : j + 4] = 0
@@ -251,12 +247,11 @@ def outlines(mark: Mark) -> Iterator[tuple[list[tuple[float, float]], float]]:
     if right < AREA[0] or left > AREA[2] or bottom < AREA[1] or top > AREA[3]:
         return
     width = style_of(mark.cls, "black").width
-    points = getattr(mark, "points", None)
     if isinstance(mark, Text):
         yield list(mark.corners()), 0.0
-    elif points is not None:
-        yield [*points, points[0]], width
-    elif hasattr(mark, "x1"):
+    elif isinstance(mark, Polyline):
+        yield [*mark.points, mark.points[0]], width
+    elif isinstance(mark, LineMark):
         yield [(mark.x1, mark.y1), (mark.x2, mark.y2)], width
     else:
         turns = np.linspace(0, 2 * np.pi, 24)

@@ -17,6 +17,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
+from graphkin.construction.guides.guide_line import GuideLine
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
@@ -101,7 +102,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     @cached_property
     def corners(self) -> tuple[int, ...]:
         """The steps of the corners of the plan that bear no letter of their own: ends of components
-        from which lines are drawn.
+        from which lines are drawn, and the points of trial plans.
         """
         steps, values = self.exact.program.steps, self.exact.trace.values
         lettered = set(self.points)
@@ -112,8 +113,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             and isinstance(values[number], complex)
             and number not in lettered
             and steps[number].args
-            and not steps[number].name
-            and steps[number].aside is None
+            and (not steps[number].name or steps[number].aside is not None)
             and any(steps[other].arrow and number in steps[other].args for other in values)
         )
 
@@ -137,13 +137,16 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     @cached_property
     def leading(self) -> Mapping[int, tuple[Leading, ...]]:
         """What leads to each point that is read."""
-        return {number: tuple(dict.fromkeys(self.led(number))) for number in (*self.points, *self.corners)}
+        return {
+            number: tuple(dict.fromkeys(self.led(number)))
+            for number in (*self.points, *self.corners)
+        }
 
     def led(self, number: int) -> Iterator[Leading]:
         """What leads to a point: its own lines, then arrows, then bars."""
         steps, values = self.exact.program.steps, self.exact.trace.values
-        ways = [number] + [hand for hand in (steps[number].by_hand,) if hand in values]
-        for way in ways:
+        hand = steps[number].by_hand
+        for way in (number, hand) if hand is not None and hand in values else (number,):
             for arg in steps[way].args:
                 if isinstance(values.get(arg), Line) and steps[arg].plane is steps[number].plane:
                     yield Leading(arg, self.is_given(arg))
@@ -171,11 +174,12 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             if other not in later or step.plane is not steps[number].plane or not here:
                 continue
             if isinstance(value, Line):
-                off = ((own - value.point) * value.along.conjugate()).imag / abs(value.along)
-                if abs(off) * self.field(number).mm < EXACT:
+                beside = ((own - value.point) * value.along.conjugate()).imag / abs(value.along)
+                if abs(beside) * self.field(number).mm < EXACT:
                     yield other
             elif isinstance(value, Vector) and step.action is not join:
-                if abs(value.tail - own) * self.field(number).mm < EXACT:
+                off = value.tail - own
+                if abs(off) * self.field(number).mm < EXACT:
                     yield other
 
     def is_given(self, number: int) -> bool:
@@ -197,7 +201,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return frozenset(
             number
             for number, value in self.exact.trace.values.items()
-            if isinstance(value, Line) and type(steps[number].of).__name__ == "GuideLine"
+            if isinstance(value, Line) and isinstance(steps[number].of, GuideLine)
         )
 
     @cached_property

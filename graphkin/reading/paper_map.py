@@ -18,9 +18,7 @@ MIDDLE, HALF = (210.0, 148.5), 210.0
 FLAT = 148.5 / 210.0
 DEGREE = 5
 """Highest degree of the paper's bending."""
-BENDS = tuple(
-    (i, j) for i, j in product(range(DEGREE + 1), repeat=2) if 2 <= i + j <= DEGREE
-)
+BENDS = tuple((i, j) for i, j in product(range(DEGREE + 1), repeat=2) if 2 <= i + j <= DEGREE)
 """The degrees across and down of each bending."""
 TILTS, LENS, PLAIN = slice(6, 8), 8, 9
 """Where the parameters stand: eight of the perspective, one of the lens, then those of bending."""
@@ -51,7 +49,9 @@ class PaperMap(Struct, frozen=True, dict=True):
     def ways(self, places: Any) -> tuple[Any, Any]:
         """By how many pixels a mm to the right goes, and a mm down, about some places."""
         right, down = np.array([0.5, 0.0]), np.array([0.0, 0.5])
-        return self(places + right) - self(places - right), self(places + down) - self(places - down)
+        return self(places + right) - self(places - right), self(places + down) - self(
+            places - down
+        )
 
 
 def pixels_of(parameters: Any, places: Any, width: int, height: int) -> Any:
@@ -92,7 +92,7 @@ def legendre(x: Any) -> list[Any]:
 
 
 def prior(bent: float) -> Any:
-    """How large each parameter is expected to be; ``bent`` is that of the simplest bending in mm."""
+    """How large each parameter is expected to be; ``bent``: the simplest bending, in mm."""
     found = np.full(COUNT, 10.0)
     found[TILTS] = 0.25
     found[LENS] = 0.1

@@ -8,9 +8,9 @@ directions from the points that are known.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
@@ -21,8 +21,8 @@ from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, SHORT, Leading, LetteredSheet
+from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 
-ReadVerdict = Literal["right", "follows", "wrong", "missing", "unread"]
 DRAWINGS, SEED = 300, 23
 """Drawings in a cloud, and the seed of their errors."""
 CLOSE, ROOM, WIDEST = 0.7, 0.3, 5.0
@@ -40,6 +40,10 @@ DRAWN = 0.7
 """The share of a line that must be there for it to count."""
 PRINTED = 0.3
 """Standard deviation of a hand's mark across the printed line of a guide, in mm."""
+END = 0.4
+"""The same of the end of a line."""
+VAGUE = 5.0
+"""Where the pencil explains so many mm, a point that fits is looked at all the same."""
 PAPER = 0.08
 """Standard deviation of a place that is read, whatever the lines say: the map's, in mm."""
 TURN, PACE, BEGIN = 0.3, 0.5, 2.5
@@ -52,24 +56,7 @@ TRIED = 14
 """Places that are tried with what would follow from them."""
 
 
-class PointReading(Struct, frozen=True):
-    """A lettered point: where it was read (mm of paper, y down), what is right of it, and whether a
-    person is to look at it. ``key`` is where it should be, ``own`` where it follows from the own
-    earlier points; ``off`` is how far it lies from that, ``error`` what the pencil explains (mm).
-    """
-
-    name: str
-    step: int
-    at: tuple[float, float] | None
-    verdict: ReadVerdict
-    ask: bool
-    key: tuple[float, float]
-    own: tuple[float, float]
-    off: float | None = None
-    error: float = 0.0
-
-
-class Expected(Struct, frozen=True):
+class ExpectedPlace(Struct, frozen=True):
     """Where a point is expected: the middle of a cloud (complex mm), and its covariance."""
 
     middle: complex
@@ -81,19 +68,24 @@ class Expected(Struct, frozen=True):
         wide = 3 * float(np.sqrt(max(np.linalg.eigvalsh(self.spread)[-1], 0.0)))
         return min(max(wide, CLOSE) + ROOM, WIDEST)
 
+    @property
+    def radius(self) -> float:
+        """Within so many mm of the middle 95 of 100 drawings have it."""
+        return 2.4477 * float(np.sqrt(np.trace(self.spread) / 2))
+
     def away(self, place: complex, error: Any) -> float:
         """The squared distance of a place in deviations of both."""
         off = np.array([(place - self.middle).real, (place - self.middle).imag])
         return float(off @ np.linalg.solve(self.spread + error, off))
 
-    def weighed(self, found: Crossing) -> complex:
+    def weighed(self, found: LinesCrossing) -> complex:
         """A place that fits, drawn to what is expected as far as its lines leave it open."""
         off = np.array([(found.place - self.middle).real, (found.place - self.middle).imag])
         share = np.linalg.solve(self.spread + found.error, off)
         return self.middle + complex(*(self.spread @ share))
 
 
-class Crossing(Struct, frozen=True):
+class LinesCrossing(Struct, frozen=True):
     """A place where lines cross: its covariance, and how many lines and how well they are there."""
 
     place: complex
@@ -102,19 +94,19 @@ class Crossing(Struct, frozen=True):
     cover: float
 
 
-def expected(cloud: Any) -> Expected:
+def expected(cloud: Any) -> ExpectedPlace:
     """What a cloud expects."""
     cloud = np.atleast_1d(np.asarray(cloud, dtype=complex))
     cloud = cloud[np.isfinite(cloud)]
     if not len(cloud):
-        return Expected(complex("nan"), np.eye(2))
+        return ExpectedPlace(complex("nan"), np.eye(2))
     middle = complex(np.median(cloud.real), np.median(cloud.imag))
     off = cloud - middle
     near = off[abs(off) <= np.percentile(abs(off), 98)]
     if len(near) < 8:
-        return Expected(middle, np.eye(2) * PAPER**2)
+        return ExpectedPlace(middle, np.eye(2) * PAPER**2)
     spread = np.cov(np.stack([near.real, near.imag])) * 1.08 + np.eye(2) * PAPER**2
-    return Expected(middle, spread)
+    return ExpectedPlace(middle, spread)
 
 
 class PointReader:
@@ -145,7 +137,9 @@ class PointReader:
                 if stale:
                     self.next = self.ahead({})
                 if number in corners:
-                    stale = self.read_corner(number, expected(self.sheet.place(number, found[number])))
+                    stale = self.read_corner(
+                        number, expected(self.sheet.place(number, found[number]))
+                    )
                     if number in self.own:
                         found[number] = self.sheet.value(number, self.own[number])
                     continue
@@ -159,7 +153,7 @@ class PointReader:
                     found[number] = self.sheet.value(number, self.own[number])
         return tuple(self.readings.values())
 
-    def read_corner(self, number: int, where: Expected) -> bool:
+    def read_corner(self, number: int, where: ExpectedPlace) -> bool:
         """A corner without a letter: taken where lines cross there; what is off is a mistake."""
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
         if best is None or best.cover < DRAWN:
@@ -172,6 +166,10 @@ class PointReader:
         else:
             self.own[number] = where.weighed(best)
         return True
+
+    def corners(self) -> dict[int, tuple[float, float]]:
+        """Where the corners without letters were read, by their steps."""
+        return {n: pair(self.own[n]) for n in self.sheet.corners if n in self.own}
 
     # --- what is expected -----------------------------------------------------------------------
 
@@ -226,19 +224,17 @@ class PointReader:
 
     # --- one point ------------------------------------------------------------------------------
 
-    def read_point(self, number: int, key: Expected, own: Expected) -> PointReading:
+    def read_point(self, number: int, key: ExpectedPlace, own: ExpectedPlace) -> PointReading:
         """A point, looked for where it is expected, then where it may be after a mistake."""
         if not np.isfinite(own.middle):
             return self.told(number, key, own, None)
         best = self.best_near(number, own)
-        if best is not None and own.away(best.place, best.error) <= FITS:
-            if self.agreement(number, best.place) >= AGREED:
-                return self.told(number, key, own, best)
-        elif abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
+        if self.holds(number, best, own):
+            return self.told(number, key, own, best)
+        if abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
             other = self.best_near(number, key)
-            if other is not None and key.away(other.place, other.error) <= FITS:
-                if self.agreement(number, other.place) >= AGREED:
-                    return self.told(number, key, own, other)
+            if self.holds(number, other, key):
+                return self.told(number, key, own, other)
         far = self.best_far(number, own)
         if far is not None:
             there = self.agreement(number, far.place)
@@ -246,6 +242,12 @@ class PointReader:
             if there > here + 0.15:
                 best = far
         return self.told(number, key, own, best, doubtful=True)
+
+    def holds(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
+        """Whether what was found of a point fits, and all is there that leads to it."""
+        if best is None or where.away(best.place, best.error) > FITS:
+            return False
+        return self.agreement(number, best.place) >= AGREED
 
     def agreement(self, number: int, place: complex) -> float:
         """How much of the ways from known ends to a place is drawn: the worst of a plan's arrows
@@ -276,7 +278,13 @@ class PointReader:
         return max((line.cover for line in found), default=0.0)
 
     def told(
-        self, number: int, key: Expected, own: Expected, best: Crossing | None, *, doubtful: bool = False
+        self,
+        number: int,
+        key: ExpectedPlace,
+        own: ExpectedPlace,
+        best: LinesCrossing | None,
+        *,
+        doubtful: bool = False,
     ) -> PointReading:
         """The verdict on what was found of a point."""
         behind = self.behind(number)
@@ -291,8 +299,9 @@ class PointReader:
             if away <= FITS:
                 place = own.weighed(best)
             from_key = key.away(best.place, best.error)
-            apart = Expected(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
-            ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful
+            apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
+            vague = own.radius > VAGUE
+            ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful or vague
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
@@ -313,8 +322,8 @@ class PointReader:
             ask,
             pair(key.middle),
             pair(own.middle),
-            None if best is None else abs(best.place - own.middle),
-            2.4477 * float(np.sqrt(np.trace(own.spread) / 2)),
+            None if best is None else round(abs(best.place - own.middle), 3),
+            round(own.radius, 3),
         )
 
     def behind(self, number: int) -> frozenset[int]:
@@ -332,7 +341,7 @@ class PointReader:
 
     # --- near what is expected ------------------------------------------------------------------
 
-    def best_near(self, number: int, where: Expected) -> Crossing | None:
+    def best_near(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
         """The best crossing of what leads to a point near where it is expected."""
         lines = [
             some
@@ -354,9 +363,27 @@ class PointReader:
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
                     if score > most:
                         best, most = found, score
-        return best
+        return best or self.end_near(lines, where)
 
-    def lines_near(self, number: int, leading: Leading, where: Expected) -> list[InkLine]:
+    def end_near(
+        self, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace
+    ) -> LinesCrossing | None:
+        """Where a single line ends that leads to a point, near where the point is expected."""
+        for line in (line for some in lines for line in some):
+            if line.cover < DRAWN or abs(line.off(where.middle)) > where.reach:
+                continue
+            foot = where.middle - 1j * line.way * line.off(where.middle)
+            along = np.arange(-3.0, where.reach + 3.0, 0.2)
+            dark, _ = self.ink.at(np.atleast_2d(foot + line.way * along))
+            drawn = dark[0] > COVERED
+            gone = np.flatnonzero(~drawn & (along > -2.0))
+            if not drawn[:5].any() or not len(gone) or along[gone[0]] > where.reach:
+                continue
+            place = foot + line.way * float(along[gone[0]])
+            return LinesCrossing(place, np.eye(2) * END**2, 1, line.cover)
+        return None
+
+    def lines_near(self, number: int, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
         """The drawn lines that may be what leads to a point."""
         values = self.next
         if leading.given:
@@ -376,8 +403,8 @@ class PointReader:
             return []
         return self.ink.lines(far, target, beside, where.reach)
 
-    def arcs_near(self, leading: Leading, where: Expected) -> list[InkLine]:
-        """The arc of a compass near where a point is expected, as the line that touches it there."""
+    def arcs_near(self, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
+        """The arc of a compass near where a point is expected, as the line touching it there."""
         circle = self.next[leading.far]
         field = self.sheet.field(leading.far)
         centre = complex(np.ravel(self.sheet.place(leading.far, circle.centre))[0])
@@ -386,17 +413,17 @@ class PointReader:
 
     # --- after a mistake ------------------------------------------------------------------------
 
-    def best_far(self, number: int, where: Expected) -> Crossing | None:
+    def best_far(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
         """The best place of a point that is not where it is expected, by the rays that leave the
         known ends of what leads to it, and by what would follow from it.
         """
-        known = [e for e in self.sheet.leading[number] if self.is_known(e) and not (e.bow or e.after)]
+        known = [
+            e for e in self.sheet.leading[number] if self.is_known(e) and not (e.bow or e.after)
+        ]
         ends = list(dict.fromkeys(self.far_place(each, self.next) for each in known))
         ends = [end for end in ends if np.isfinite(end)]
         apart = [
-            end
-            for i, end in enumerate(ends)
-            if all(abs(end - other) > SHORT for other in ends[:i])
+            end for i, end in enumerate(ends) if all(abs(end - other) > SHORT for other in ends[:i])
         ]
         rays = [self.rays(end) for end in apart]
         places: list[complex] = []
@@ -447,7 +474,7 @@ class PointReader:
         sums = np.cumsum(np.clip(dark, 0, 1) * known, axis=1)
         reach = np.clip(((lengths - BEGIN) / PACE).astype(int), 0, len(radii) - 1)
         strength = sums[np.arange(len(angles)), reach]
-        found = []
+        found: list[tuple[complex, float]] = []
         for i in np.argsort(-strength):
             if lengths[i] < RAY or strength[i] < 5 or len(found) >= 10:
                 break
@@ -472,7 +499,7 @@ class PointReader:
             return 0.75
         return max(covers)
 
-    def settled(self, number: int, place: complex) -> Crossing | None:
+    def settled(self, number: int, place: complex) -> LinesCrossing | None:
         """A place that was found, where the lines that lead to it cross exactly."""
         values = self.ahead({number: place})
         lines = []
@@ -482,12 +509,7 @@ class PointReader:
                 some = self.ink.lines(far, place, 0.8, 1.2)
                 lines += [some] if some else []
         found = through(place, distinct(lines, place), 1.2)
-        return found or Crossing(place, np.eye(2) * 0.25, 1, DRAWN)
-
-
-def pair(place: complex) -> tuple[float, float]:
-    """A place as it is written, to the thousandth of a mm."""
-    return round(place.real, 3), round(place.imag, 3)
+        return found or LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
 
 
 def in_fields(place: complex) -> bool:
@@ -527,7 +549,7 @@ def is_same(one: InkLine, other: InkLine, place: complex) -> bool:
 
 def through(
     place: complex, lines: Sequence[Sequence[InkLine]], within: float = PASSES
-) -> Crossing | None:
+) -> LinesCrossing | None:
     """The place nearest to all lines that pass through about a place, one of each."""
     chosen = []
     for some in lines:
@@ -545,9 +567,4 @@ def through(
     shift = np.linalg.solve(normal_matrix, -(normals * trust[:, None]).T @ offs)
     error = np.linalg.inv(normal_matrix) + np.eye(2) * PAPER**2 / 2
     cover = float(np.mean(sorted((line.cover for line in chosen), reverse=True)[:2]))
-    return Crossing(place + complex(*shift), error, len(chosen), cover)
-
-
-def iterated(readings: Sequence[PointReading]) -> Iterator[PointReading]:
-    """The readings that a person is to look at."""
-    return (each for each in readings if each.ask)
+    return LinesCrossing(place + complex(*shift), error, len(chosen), cover)

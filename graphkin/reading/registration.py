@@ -8,6 +8,7 @@ is fitted anew to all that were found. Perspective, lens and bending are fitted 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import cv2
@@ -61,7 +62,7 @@ LEAST_SIDE = 0.25
 
 
 class PrintedLines(Struct, frozen=True):
-    """Where printed lines are measured: places, unit normals (mm), widths, lines all sheets have."""
+    """Where printed lines are measured: places, normals (mm), widths; which all sheets have."""
 
     places: Any
     normals: Any
@@ -113,7 +114,7 @@ def segments(page: Page) -> Iterator[tuple[float, float, float, float, str]]:
             yield mark.x1, mark.y1, mark.x2, mark.y2, mark.cls
         elif isinstance(mark, Polyline):
             ends = (*mark.points, mark.points[0]) if mark.closed else mark.points
-            for (x1, y1), (x2, y2) in zip(ends, ends[1:], strict=False):
+            for (x1, y1), (x2, y2) in pairwise(ends):
                 yield x1, y1, x2, y2, mark.cls
 
 
@@ -138,7 +139,7 @@ def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
         return None
     height, width = grey.shape
     lines = printed_lines(page)
-    fit = Fit(width, height, square, corners)
+    fit = MapFit(width, height, square, corners)
     smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
@@ -151,7 +152,7 @@ def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
     return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines)
 
 
-class Measured(Struct, frozen=True):
+class MeasuredLines(Struct, frozen=True):
     """What was found of some lines: how far from its place each lies along its normal (mm), whether
     it was found, and whether it lies in the picture at all.
     """
@@ -162,7 +163,7 @@ class Measured(Struct, frozen=True):
     seen: Any
 
 
-def measure(grey: Any, over: PaperMap, lines: PrintedLines, reach: float) -> Measured:
+def measure(grey: Any, over: PaperMap, lines: PrintedLines, reach: float) -> MeasuredLines:
     """Where lines lie, looked for to both sides of where a map puts them."""
     across = np.arange(-reach - 1.0, reach + 1.0 + STEP / 2, STEP)
     right, down = over.ways(lines.places)
@@ -189,7 +190,7 @@ def measure(grey: Any, over: PaperMap, lines: PrintedLines, reach: float) -> Mea
     for width_of in np.unique(lines.widths):
         rows = lines.widths == width_of
         off[rows], found[rows] = peaks(dark[rows], across, float(width_of), reach)
-    return Measured(lines, off, found & inside, inside)
+    return MeasuredLines(lines, off, found & inside, inside)
 
 
 def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
@@ -213,7 +214,7 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
     return centre, (stands[rows, best] > DARK) & (total > 0) & ~edge
 
 
-class Fit:
+class MapFit:
     """A map that is fitted, again and again, to what was measured with it."""
 
     def __init__(self, width: int, height: int, square: Any, corners: Any) -> None:
@@ -228,7 +229,7 @@ class Fit:
         """The map as it is fitted so far."""
         return PaperMap(self.width, self.height, tuple(self.parameters.tolist()))
 
-    def to(self, measured: Measured, *, lens: bool, bent: bool) -> None:
+    def to(self, measured: MeasuredLines, *, lens: bool, bent: bool) -> None:
         """Fit the map to what was measured with it, by least squares that forget outliers."""
         known = measured.found
         lines = measured.lines.some(known)
@@ -262,10 +263,17 @@ class Fit:
                 nudged[number] += NUDGE
                 columns.append((errors(pixels_with(nudged)) - here) / NUDGE)
             if bent:
-                across = (pixels_with(self.parameters, du=NUDGE) - pixels_with(self.parameters)) / NUDGE
-                along = (pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)) / NUDGE
+                across = (
+                    pixels_with(self.parameters, du=NUDGE) - pixels_with(self.parameters)
+                ) / NUDGE
+                along = (
+                    pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)
+                ) / NUDGE
                 for k in range(len(BENDS)):
-                    columns += [errors(bends[:, k, None] * across), errors(bends[:, k, None] * along)]
+                    columns += [
+                        errors(bends[:, k, None] * across),
+                        errors(bends[:, k, None] * along),
+                    ]
             off, jacobian = here - goal, np.stack(columns, axis=1)
             spread = max(1.5 * float(np.median(abs(off))), 1.0)
             weights = np.ones(len(off))
@@ -289,7 +297,7 @@ def start(width: int, height: int, square: Any, corners: Any) -> Any:
     return found
 
 
-def judged(over: PaperMap, last: Measured, lines: PrintedLines) -> Registration:
+def judged(over: PaperMap, last: MeasuredLines, lines: PrintedLines) -> Registration:
     """A map with how well it holds; refused where lines are missing, or off."""
     seen, found = last.seen, last.found
     share = float(found.sum() / max(seen.sum(), 1))

@@ -1,4 +1,4 @@
-"""A simulated camera: a sheet that lies on a table, bent, lit and photographed; and its true map."""
+"""A simulated camera: a sheet lies on a table, bent and lit, and is photographed; its true map."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from msgspec import Struct
 from tests.reading.hand import DENSITY
 
 WIDE, HIGH = 420.0, 297.0
+RIGHT, DOWN = np.array([0.5, 0.0]), np.array([0.0, 0.5])
 
 
 class Shot(Struct, frozen=True):
@@ -89,8 +90,8 @@ def backward(where: Callable[[Any], Any], size: tuple[int, int]) -> Any:
     paper = np.clip(paper, -300, 800)
     for _ in range(6):
         here = where(paper)
-        right = where(paper + [0.5, 0.0]) - where(paper - [0.5, 0.0])
-        down = where(paper + [0.0, 0.5]) - where(paper - [0.0, 0.5])
+        right = where(paper + RIGHT) - where(paper - RIGHT)
+        down = where(paper + DOWN) - where(paper - DOWN)
         size_of = right[..., 0] * down[..., 1] - right[..., 1] * down[..., 0]
         off = pixels - here
         first = (off[..., 0] * down[..., 1] - off[..., 1] * down[..., 0]) / size_of
@@ -100,8 +101,7 @@ def backward(where: Callable[[Any], Any], size: tuple[int, int]) -> Any:
         paper.astype(np.float32), (len(xs) * 8, len(ys) * 8), interpolation=cv2.INTER_LINEAR
     )
     shift = np.float32([[1, 0, -3.5], [0, 1, -3.5]])  # resize puts samples at centres of blocks
-    full = cv2.warpAffine(full, shift, size, borderMode=cv2.BORDER_REPLICATE)
-    return full
+    return cv2.warpAffine(full, shift, size, borderMode=cv2.BORDER_REPLICATE)
 
 
 def photograph(image: Any, shot: Shot, seed: int) -> Picture:
@@ -111,9 +111,9 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
     width, height = shot.size
     paper = backward(where, shot.size)
     source = paper * np.float32(DENSITY) - np.float32(0.5)
-    seen = cv2.remap(
-        image, source[..., 0], source[..., 1], cv2.INTER_LINEAR, borderValue=0
-    ).astype(np.float32)
+    seen = cv2.remap(image, source[..., 0], source[..., 1], cv2.INTER_LINEAR, borderValue=0).astype(
+        np.float32
+    )
     on = (paper[..., 0] > 0) & (paper[..., 0] < WIDE) & (paper[..., 1] > 0) & (paper[..., 1] < HIGH)
     small = rng.normal(0, 1, (height // 16 + 1, width // 16 + 1)).astype(np.float32)
     grain = cv2.resize(cv2.GaussianBlur(small, (0, 0), 2), (width, height))

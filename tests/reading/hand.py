@@ -8,6 +8,7 @@ comes after it is drawn rightly from there.
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 from math import radians
 from pathlib import Path
 from typing import Any
@@ -273,8 +274,6 @@ def pencilled(
             continue
         if isinstance(mark, Text) and not habits.letters:
             continue
-        if mark.cls.split()[0] == "plate" and isinstance(mark, Polyline):
-            mark = replace(mark, closed=True)
         for path in strokes(mark, habits, rng):
             stroke(ink, path, habits, rng)
     for _ in range(habits.stray):
@@ -293,7 +292,7 @@ def strokes(mark: Any, habits: Habits, rng: Any) -> list[Any]:
         return [wobbled((mark.x1, mark.y1), (mark.x2, mark.y2), habits, rng)]
     if isinstance(mark, Polyline):
         ends = [*mark.points, mark.points[0]] if mark.closed else list(mark.points)
-        return [wobbled(a, b, habits, rng) for a, b in zip(ends, ends[1:], strict=False)]
+        return [wobbled(a, b, habits, rng) for a, b in pairwise(ends)]
     if isinstance(mark, Arc):
         turns = np.radians(np.linspace(mark.start, mark.end, 24))
         return [np.stack([mark.cx + mark.r * np.cos(turns), mark.cy - mark.r * np.sin(turns)], 1)]
@@ -338,7 +337,7 @@ def stroke(ink: Any, path: Any, habits: Habits, rng: Any, share: float = 1.0) ->
         return
     layer = np.zeros((high[1] - low[1], high[0] - low[0]), np.uint8)
     points = np.round((path * DENSITY - low - 0.5) * 2**SHIFT).astype(np.int32)
-    for i, (a, b) in enumerate(zip(points, points[1:], strict=False)):
+    for i, (a, b) in enumerate(pairwise(points)):
         tone = int(np.clip(255 * grey * (1 + 0.25 * np.sin(i * 0.7 + path[0, 0])), 0, 255))
         cv2.line(layer, a.tolist(), b.tolist(), tone, width, cv2.LINE_AA, SHIFT)
     part = ink[low[1] : high[1], low[0] : high[0]]

@@ -32,6 +32,7 @@ ORDER = (
     "documents",
     "web",
     "classroom",
+    "reading",
     "studio",
     "cli",
 )
@@ -39,7 +40,7 @@ ORDER = (
 FACES = {"__init__", "__main__"}
 """What stands before the rooms: the public names, loaded where they are first used, and the
 command line."""
-MOST = 20
+MOST = 21
 """Entries of the package that one takes in at a glance."""
 
 
