@@ -20,8 +20,8 @@ from graphkin.writers.files import file_part
 
 KINDS = (".jpg", ".jpeg", ".png", ".pdf")
 """The files that are read."""
-FORMATS = ("JPEG", "PNG", "MPO")
-"""What they hold; MPO is a JPEG of some telephones, with more pictures behind the first."""
+FORMATS = ("JPEG", "PNG")
+"""What they hold; of several pictures in one file the first."""
 MOST_BYTES = 200 << 20
 MOST_PIXELS, LEAST_SIDE = 120_000_000, 900
 """Pixels of a picture at most, and those of its shorter side at least."""

@@ -15,13 +15,14 @@ import msgspec
 from msgspec import Struct
 
 from graphkin.classroom.grading.class_folder import ClassFolder
+from graphkin.classroom.printing.journal import key_of
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.csv_text import safe
 from graphkin.documents.sheet_documents import language_of
 from graphkin.reading.drawn_answers import ANSWERS, answers_table
 from graphkin.reading.kept_readings import PICTURE, READING, kept
-from graphkin.reading.pictures import Photograph
+from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
 from graphkin.writers.files import put_in_place
 from graphkin.writers.lock import locked
@@ -90,8 +91,8 @@ def reading_key(order: ReadOrder, picture: Photograph) -> str:
     """What decides a reading: the photograph, the student's data, how it is read."""
     students = {code: dict(each.settings) for code, each in order.variants.items()}
 
-
-X
+    how = msgspec.to_builtins(order.grid), order.by_hand
+    return key_of(METHOD, hash_of_picture(picture), students, order.order.scene, how)
 
 
 def put(out: Path, one: SheetRead) -> None:
