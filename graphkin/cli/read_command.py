@@ -16,7 +16,12 @@ from graphkin.text.errors import PageError, Problem
 if TYPE_CHECKING:
     from graphkin.reading.read_sheet import Grid
 
-NEEDED = {"cv2": "opencv-python-headless", "zxingcpp": "zxing-cpp"}
+NEEDED = {
+    "bottle": "bottle",
+    "cv2": "opencv-python-headless",
+    "waitress": "waitress",
+    "zxingcpp": "zxing-cpp",
+}
 """The packages of the extra [read], by what they are imported as."""
 MOST_PLACES = 10_000
 """Places of a grid."""
@@ -133,3 +138,54 @@ def read_grid(path: Path | None) -> Grid:
         found = f"has {len(grid.x) * len(grid.y)} places"
         raise PageError(Problem(f"--grid {path}", found, f"1 to {MOST_PLACES}"))
     return grid
+
+
+@click.command("desk")
+@click.argument("folder", metavar="READ", type=click.Path(path_type=Path))
+@click.option(
+    "--port",
+    metavar="N",
+    type=click.IntRange(0, 65535),
+    default=0,
+    help="Port to listen at; a free one by default.",
+)
+@click.option("--no-browser", is_flag=True, help="Only print the address, open no browser.")
+@click.option(
+    "--lang", type=click.Choice(["ro", "en", "it"]), default="en", help="Language of the page."
+)
+@click.pass_context
+def desk(context: click.Context, folder: Path, port: int, no_browser: bool, lang: str) -> None:
+    """Decide what graphkin read asks, in a browser.
+
+    READ is the folder that graphkin read wrote. The page shows one doubtful point after the other,
+    enlarged, with the key over the drawing: a key or a click settles it. Each decision is written
+    at once into READ/decisions.jsonl, and can be undone.
+
+    The page is for this computer alone, and its address holds a token that nobody else knows; it
+    ends with this command (Ctrl+C).
+
+    \b
+    Examples:
+      graphkin desk read
+      graphkin desk read --lang it --no-browser --port 8080
+    """
+    refuse_without_libraries("desk", context)
+    from graphkin.reading.desk_app import DeskSession, desk_application
+    from graphkin.studio.redirect import Redirect
+    from graphkin.studio.server import served
+    from graphkin.text import words
+    from graphkin.writers.lock import locked
+
+    session = DeskSession(folder, words(lang))
+    redirect = Redirect()
+    with locked(folder):
+        found = served(lambda: desk_application(session), port, known=redirect.remove)
+        tell([found.address])
+        try:
+            if not no_browser:
+                import webbrowser
+
+                webbrowser.open(redirect.write(found.address))
+            found.server.run()
+        finally:
+            redirect.remove()

@@ -28,6 +28,8 @@ SHORT = 3.0
 """Millimetres from a point within which the beginning of a line tells nothing of it."""
 EXACT = 1e-6
 """Millimetres within which a line passes exactly through a point."""
+LONGEST = 420.0
+"""Lines longer than the paper, in mm, lead to what lies off it."""
 AHEAD = 40.0
 """How far along a line that begins at the point itself it is looked for, in mm."""
 
@@ -141,6 +143,20 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             number: tuple(dict.fromkeys(self.led(number)))
             for number in (*self.points, *self.corners)
         }
+
+    @cached_property
+    def key_lines(self) -> tuple[tuple[float, float, float, float], ...]:
+        """The ways that lead to the points of the key, in mm: what a person holds drawings to."""
+        values, found = self.exact.trace.values, dict[tuple[float, float, float, float], None]()
+        for number, every in self.leading.items():
+            end = complex(self.place(number, values[number]))
+            for each in every:
+                start = complex(self.place(each.far, values[each.far]))
+                far = each.given or each.bow or each.after or abs(end - start) < SHORT
+                if not far and abs(end - start) < LONGEST:
+                    ends = start.real, start.imag, end.real, end.imag
+                    found[tuple(round(part, 2) for part in ends)] = None  # type: ignore[index]
+        return tuple(found)
 
     def led(self, number: int) -> Iterator[Leading]:
         """What leads to a point: its own lines, then arrows, then bars."""

@@ -512,6 +512,19 @@ class PointReader:
         return found or LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
 
 
+def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:
+    """The points of a sheet of which nothing is read, with what the pencil explains."""
+    empty = np.zeros((2, 2), np.float32)
+    keys = PointReader(sheet, DrawnInk(empty, empty), pencil).clouds()
+    found = []
+    for number in sheet.points:
+        key = expected(sheet.place(number, keys[number]))
+        name, place = sheet.exact.program.steps[number].name, pair(key.middle)
+        error = round(key.radius, 3)
+        found.append(PointReading(name, number, None, "unread", True, place, place, error=error))
+    return tuple(found)
+
+
 def in_fields(place: complex) -> bool:
     """Whether a place lies where is drawn."""
     return bool(AREA[0] < place.real < AREA[2] and AREA[1] < place.imag < AREA[3])

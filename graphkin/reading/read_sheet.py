@@ -49,6 +49,7 @@ class SheetRecord(Struct, frozen=True):
     seconds: float = 0.0
     points: tuple[PointReading, ...] = ()
     corners: dict[int, tuple[float, float]] = {}
+    key_lines: tuple[tuple[float, float, float, float], ...] = ()
     residual: float = 0.0
 
 
@@ -94,7 +95,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         grey = grey_of(photograph)
         code, corners = known_code(grey, order.variants)
         found = found_sheet(grey, order, code, corners)
-        points, corners_at = unread(found.sheet) if order.by_hand else read_points(grey, found)
+        points, corners_at = unread(found) if order.by_hand else read_points(grey, found)
     except (Unreadable, GraphkinError) as error:
         spent = round(perf_counter() - start, 3)
         refused = str(error).splitlines()[0]
@@ -109,6 +110,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         seconds=spent,
         points=points,
         corners=corners_at,
+        key_lines=found.sheet.key_lines,
         residual=round(found.residual, 3),
     )
     return SheetRead(read, flat_picture(grey, found.map))
@@ -197,16 +199,12 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
     return points, reader.corners()
 
 
-def unread(sheet: LetteredSheet) -> Points:
+def unread(found: FoundSheet) -> Points:
     """The points of a sheet that a person is to click: nothing of them is read."""
-    from graphkin.reading.point_reading import pair
+    from graphkin.reading.point_reader import forecast_points
 
-    values, found = sheet.exact.trace.values, []
-    for number in sheet.points:
-        key = pair(complex(sheet.place(number, values[number])))
-        name = sheet.exact.program.steps[number].name
-        found.append(PointReading(name, number, None, "unread", True, key, key))
-    return tuple(found), {}
+    rubric = found.sheets.lab.rubric
+    return forecast_points(found.sheet, Pencil(rubric.point, rubric.line)), {}
 
 
 def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:

@@ -113,11 +113,15 @@ def test_a_sheet_is_found_by_its_frame(taken: Path, code: str, name: str) -> Non
 def test_points_are_read_where_they_were_drawn(taken: Path, name: str) -> None:
     found, true = read_and_true(taken, name)
     by_step = {point["step"]: point for point in found["points"]}
+    placed = []
     for letter, step, at, verdict in true["points"]:
         point = by_step[step]
         assert point["name"] == letter
-        assert verdict == "wrong" or np.hypot(*(np.array(point["at"]) - at)) < 1.0, letter
         assert point["ask"] or point["verdict"] == verdict, letter
+        close = point["at"] is not None and np.hypot(*(np.array(point["at"]) - at)) < 1.0
+        assert close or point["ask"], letter
+        placed.append(close)
+    assert np.mean(placed) >= (1.0 if name == "plain" else 0.6)
 
 
 def test_nobody_is_asked_of_a_right_sheet_and_of_every_mistake_somebody_is(taken: Path) -> None:
@@ -177,7 +181,8 @@ def png_head(width: int, height: int) -> bytes:
 
     head = b"IHDR" + struct.pack(">IIBBBBB", width, height, 1, 0, 0, 0, 0)
     chunk = struct.pack(">I", 13) + head + struct.pack(">I", zlib.crc32(head))
-    return b"\x89PNG\r\n\x1a\n" + chunk
+    data = struct.pack(">I", 0) + b"IDAT" + struct.pack(">I", zlib.crc32(b"IDAT"))
+    return b"\x89PNG\r\n\x1a\n" + chunk + data
 
 
 def empty_pdf() -> bytes:

@@ -32,8 +32,8 @@ ORDER = (
     "documents",
     "web",
     "classroom",
-    "reading",
     "studio",
+    "reading",
     "cli",
 )
 """The rooms, each of which may import from those before it."""
