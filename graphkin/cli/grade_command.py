@@ -192,7 +192,7 @@ def grade(  # noqa: PLR0915
     if both := ", ".join(who for who in held if who in settled(decisions)):
         said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
         raise click.UsageError(said, context)
-    answers = drawn_table(opened, answers)
+    drawings, answers = answers, drawn_table(opened, answers)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
     turns = read_turns(answers, ids)
     words = words_of(opened, lang)
@@ -200,6 +200,8 @@ def grade(  # noqa: PLR0915
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     given.unread = open_cells(found.result, given.unread)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
+    if drawings != answers:
+        files |= marked_drawings(opened, drawings, words, kinds)
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
     files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
@@ -237,6 +239,17 @@ def drawn_table(opened: ClassFolder, folder: Path) -> Path:
 
     write_answers(opened, folder)
     return folder / ANSWERS
+
+
+def marked_drawings(
+    opened: ClassFolder, folder: Path, words: Words, kinds: tuple[str, ...]
+) -> dict[str, bytes]:
+    """The drawings of all who were read, with green and red over them."""
+    from graphkin.classroom.grading.grading_files import FEEDBACK
+    from graphkin.reading.marked_drawing import drawings_of_class
+
+    found = drawings_of_class(opened, folder, words, kinds)
+    return {f"{FEEDBACK}/{name}": data for name, data in found.items()}
 
 
 def refuse_strangers(

@@ -324,7 +324,18 @@ class PointReader:
             pair(own.middle),
             None if best is None else round(abs(best.place - own.middle), 3),
             round(own.radius, 3),
+            *self.tail(number),
         )
+
+    def tail(self, number: int) -> tuple[tuple[float, float] | None, str]:
+        """A known point from which a point is drawn, and its letter."""
+        steps = self.sheet.exact.program.steps
+        for each in self.sheet.leading[number]:
+            name = steps[each.far].name
+            plain = not (each.given or each.bow or each.after) and steps[each.far].aside is None
+            if plain and name and self.is_known(each):
+                return pair(self.far_place(each, self.next)), name
+        return None, ""
 
     def behind(self, number: int) -> frozenset[int]:
         """The steps from which a hand draws a point."""

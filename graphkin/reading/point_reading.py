@@ -14,6 +14,7 @@ class PointReading(Struct, frozen=True):
     """A lettered point: where it was read (mm of paper, y down), what is right of it, and whether a
     person is to look at it. ``key`` is where it should be, ``own`` where it follows from the own
     earlier points; ``off`` is how far it lies from that, ``error`` what the pencil explains (mm).
+    ``tail`` is a known point from which it is drawn, with its letter.
     """
 
     name: str
@@ -25,6 +26,8 @@ class PointReading(Struct, frozen=True):
     own: tuple[float, float]
     off: float | None = None
     error: float = 0.0
+    tail: tuple[float, float] | None = None
+    tail_name: str = ""
 
 
 def pair(place: complex) -> tuple[float, float]:

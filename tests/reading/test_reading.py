@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from pathlib import Path
+from wsgiref.util import setup_testing_defaults
 
 import cv2
 import msgspec
@@ -15,7 +16,9 @@ from PIL import Image
 from pypdf import PdfWriter
 
 from graphkin.cli.main import app
+from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
 from graphkin.reading.kept_readings import READING, kept, records_in
+from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord
 from graphkin.reading.settled_points import (
@@ -24,6 +27,8 @@ from graphkin.reading.settled_points import (
     SettledPoints,
     settled_points,
 )
+from graphkin.studio.guard import Guard
+from graphkin.text import words
 from tests.reading.camera import Picture, Shot, photograph
 from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, sheets_of
 
@@ -300,3 +305,97 @@ def test_one_seed_is_one_picture(a_class: Path, code: str) -> None:
         return photograph(drawing.image, Shot(size=(1000, 750)), 2)
 
     assert made().data == made().data
+
+
+# --- the desk and what goes back -------------------------------------------------------------
+
+
+def asking(taken: Path) -> DeskSession:
+    return DeskSession(taken / "read", words("en"))
+
+
+def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> None:
+    session = asking(taken)
+    record = session.records["hard"]
+    asked = next(point for point in record.points if point.ask)
+    said = {"sheet": "hard", "step": asked.step, "verdict": "wrong", "at": [200.0, 100.0]}
+    told = session.decide(json.dumps(said).encode())
+    (point,) = [each for each in told["points"] if each["step"] == asked.step]
+    assert (point["verdict"], point["ask"], point["decided"]) == ("wrong", False, True)
+    again = asking(taken)  # the page was closed, or the desk was killed
+    (sheet,) = [each for each in again.sheets() if each["name"] == "hard"]
+    assert {**told, "points": list(told["points"])} == {**sheet, "points": list(sheet["points"])}
+    assert again.undo(b"{}")["step"] == asked.step
+    points = again.told(record, again.settled.standing)["points"]
+    (point,) = [each for each in points if each["step"] == asked.step]
+    assert point["ask"]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        b"nothing",
+        b'{"sheet":"nobody","step":1,"verdict":"missing"}',
+        b'{"sheet":"hard","step":-1,"verdict":"missing"}',
+        b'{"sheet":"hard","step":STEP,"verdict":"right"}',
+        b'{"sheet":"hard","step":STEP,"verdict":"right","at":[1e9,0]}',
+        b'{"sheet":"hard","step":STEP,"verdict":"perhaps","at":[1,1]}',
+        b'{"sheet":"hard","step":STEP,"undo":true}',
+        b'{"sheet":"../hard","step":STEP,"verdict":"missing"}',
+    ],
+)
+def test_the_desk_refuses_what_its_page_does_not_ask(taken: Path, said: bytes) -> None:
+    session = asking(taken)
+    step = str(session.records["hard"].points[0].step).encode()
+    with pytest.raises(NotAsked):
+        session.decide(said.replace(b"STEP", step))
+
+
+def test_only_the_page_with_its_token_gets_pictures(taken: Path) -> None:
+    session = asking(taken)
+    guard = Guard(desk_application(session), "secret", ("127.0.0.1:1",), lambda: None)
+    answers = []
+
+    def get(path: str, host: str = "127.0.0.1:1") -> str:
+        environ = {"REQUEST_METHOD": "GET", "PATH_INFO": path, "HTTP_HOST": host}
+        setup_testing_defaults(environ)
+        environ["HTTP_HOST"] = host
+        list(guard(environ, lambda status, *_: answers.append(status)))
+        return str(answers[-1])
+
+    assert get("/secret/picture/hard.jpg").startswith("200")
+    assert get("/secret/").startswith("200")
+    assert get("/secret/picture/..%2Fclass.jpg").startswith("404")
+    assert get("/guess/picture/hard.jpg").startswith("403")
+    assert get("/secret/picture/hard.jpg", "evil.example:1").startswith("403")
+
+
+@pytest.mark.parametrize("language", ["en", "it", "ro"])
+def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
+    page = desk_page(DeskSession(taken / "read", words(language))).decode()
+    assert words(language)("desk.title") in page
+    assert "<built-in" not in page
+
+
+def test_the_drawing_goes_back_with_green_and_red(a_class: Path, taken: Path) -> None:
+    from graphkin.classroom.grading.class_folder import open_class
+
+    found = drawings_of_class(open_class(a_class), taken / "read", words("en"), ("html", "pdf"))
+    page = found["0042-drawing.html"].decode()
+    assert "<svg" in page
+    assert "data:image/jpeg;base64," in page
+    assert GREEN in page
+    assert found["0042-drawing.pdf"].startswith(b"%PDF")
+    again = drawings_of_class(open_class(a_class), taken / "read", words("en"), ("html", "pdf"))
+    assert found == again
+
+
+def test_a_wrong_point_is_said_by_direction_and_length() -> None:
+    wrong = PointReading(
+        "b", 1, (110.0, 110.0), "wrong", False, (110.0, 100.0), (110.0, 100.0), 10.0, 0.5,
+        (100.0, 100.0), "a",
+    )  # fmt: skip
+    said = sentence(wrong, words("en"))
+    assert "10.0 mm" in said
+    assert "45.0°" in said
+    assert "4.1 mm" in said
