@@ -81,6 +81,8 @@ class DrawnInk(Struct, frozen=True):
     ) -> list[InkLine]:
         """Lines from about a place to about another, that pass so far beside them at most."""
         long = abs(end - start)
+        if not np.isfinite(long):
+            return []
         inset = min(ENDS, 0.2 * long)
         count = int((long - 2 * inset) * 3)
         if count < 6:
@@ -98,7 +100,7 @@ class DrawnInk(Struct, frozen=True):
 
     def arcs(self, centre: complex, radius: float, place: complex, beside: float) -> list[InkLine]:
         """Arcs about a centre near a place, each as the line that touches it there."""
-        if not abs(place - centre) > BOW:
+        if not abs(place - centre) > BOW or not np.isfinite(radius):
             return []
         out = (place - centre) / abs(place - centre)
         along = np.linspace(-BOW, BOW, int(6 * BOW))
@@ -117,7 +119,7 @@ class DrawnInk(Struct, frozen=True):
     def cover(self, start: complex, end: complex, beside: float = 0.3) -> float:
         """How much of the way between two places is drawn, straight but for so many mm beside."""
         long = abs(end - start)
-        if long < 2.5 * ENDS:
+        if not long >= 2.5 * ENDS:  # nor where one end is nowhere
             return 0.0
         way = (end - start) / long
         along = np.linspace(ENDS, long - ENDS, max(8, int(long * 2)))

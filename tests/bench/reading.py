@@ -93,6 +93,8 @@ def main(count: int, keep: Path | None) -> None:
         orders = {lab: read_order(open_class(path), Grid(XS, YS)) for lab, path in classes.items()}
         places = np.stack(np.meshgrid(XS, YS), axis=-1).reshape(-1, 2)
         for i in range(count):
+            if i and i % 20 == 0 and maps:
+                report(tally, placed, maps, spent, asked, refused, wrongly)
             rng = np.random.default_rng([i, 23])
             lab = list(LABS)[i % len(LABS)]
             variants = list(orders[lab].variants)
