@@ -14,7 +14,7 @@ from pathlib import Path
 from statistics import median
 
 from graphkin.documents.scaling import shown
-from graphkin.documents.sheet_documents import drawings_of, drawn, language_of, proved
+from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, language_of, proved
 from graphkin.mechanism import Mechanism, load
 from graphkin.web.moving import moving
 from graphkin.web.screen_sheets import screen_sheets
@@ -46,8 +46,9 @@ def thrice(name: str) -> list[Mechanism]:
 def both_svg(mechanism: Mechanism) -> None:
     """Both sheets with their key, as SVG."""
     verdict = proved(mechanism, shown(mechanism))
-    for drawing in drawings_of(mechanism, verdict, language_of(mechanism, None)):
-        for page in drawn(drawing, "key", "1/1"):
+    drawings = drawings_of(mechanism, verdict, language_of(mechanism, None))
+    for sheet in drawn_sheets(drawings, "key"):
+        for page in sheet.pages:
             write_svg(page)
 
 

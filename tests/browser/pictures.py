@@ -47,7 +47,7 @@ def draw_page(page: Any, path: Path) -> None:
 
 def draw_turn(page: Any, path: Path) -> None:
     """A student's turn at the image of C: one line is right, the next is not."""
-    page.goto(f"{pump_page()}#step=7")
+    page.goto(f"{pump_page()}#step=8")
     page.locator("#turn").click()
     for point, bar in (("a", "AC"), ("b", "CD")):
         page.locator("[data-action=perpendicular]").click()

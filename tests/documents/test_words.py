@@ -15,7 +15,14 @@ import graphkin
 from graphkin.classroom.grading.feedback_rows import SLIPS
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.calculation import calculation
-from graphkin.documents.sheet_documents import drawings_of, drawn, proved
+from graphkin.documents.sheet import Moved
+from graphkin.documents.sheet_documents import (
+    CALCULATED,
+    by_itself,
+    drawings_of,
+    drawn_sheets,
+    proved,
+)
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
@@ -82,8 +89,10 @@ def every_page(
 
 
 def one_page(drawing: Drawing, view: str) -> list[Page]:
-    """One sheet, of several pages where it grows."""
-    return list(drawn(drawing, view, "1/1"))
+    """One sheet, of several pages where it grows or goes on."""
+    if view in CALCULATED:
+        return [page for sheet in drawn_sheets([drawing], view) for page in sheet.pages]
+    return list(by_itself(drawing, view, "1/1"))
 
 
 RARE |= ASKING
@@ -191,6 +200,7 @@ def test_every_sentence_is_used():
     for mechanism in every:
         every_page(mechanism, spoken)
     unused = words("en").sentences.keys() - USED - literals() - {*SLIPS.values()} - palette_keys()
+    unused -= {f"page.{each.value}" for each in Moved}
     assert not unused, " ".join(sorted(unused))
 
 

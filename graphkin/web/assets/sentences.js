@@ -72,7 +72,7 @@ function tell_rates() {
   told.replaceChildren(...read.flatMap(({ row, told: name }, i) => {
     const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`), start = document.createElement("span");
     start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped where it was made
-    return [start, ...(state.dead ? ["?"] : value_of([...cells]))];
+    return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
   }));
 }
 

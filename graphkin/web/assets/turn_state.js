@@ -76,6 +76,7 @@ function show_turn() {
     mark.classList.toggle("now", turn.fresh.includes(Number(mark.dataset.of)));
     mark.classList.remove("rest");
   }
+  for (const part of sheets[sheet].parts) part.classList.toggle("later", Number(part.dataset.from) >= open);
   sheets[sheet].element.classList.remove("growing");
   byId("turn-count").textContent = worded("count", { number: rest.size });
   byId("turn-sheet").hidden = sheets.length < 2;

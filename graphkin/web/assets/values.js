@@ -63,12 +63,12 @@ function asked(cells) {
     value.append("?");
     return value;
   }
-  value.append(...value_of(cells));
+  value.append(...size_read(cells));
   return value;
 }
 
 /** The size of a row, its unit and its sense. */
-function value_of(cells) {
+function size_read(cells) {
   const table = cells[0].closest("table"), place = PLACE[table.className];
   const found = [...copies(cells[place]), " ", ...copies(table.tHead.rows[0].cells[place])];
   return place === 1 && cells[2].textContent ? [...found, ", ", ...copies(cells[2])] : found;
