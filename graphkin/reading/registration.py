@@ -37,12 +37,16 @@ SHARED = ("frame", "border")
 SHORTEST, SPACING, INSET = 4.5, 3.0, 0.8
 """The shortest line that is followed, how far apart it is measured, and how far from its ends, in
 mm."""
-RINGS = (40.0, 52.0, 68.0, 88.0, 114.0, 148.0, 193.0, 250.0, 325.0, 430.0)
+RINGS = (40.0, 52.0, 68.0, 88.0, 114.0, 148.0, 180.0, 215.0, 250.0, 290.0, 335.0, 380.0, 430.0)
 """How far from the square lines are followed, in mm."""
-LENS_FROM, BENT_FROM = 140.0, 240.0
+LENS_FROM, BENT_FROM = 80.0, 100.0
 """Rings from which lens and bending are fitted."""
 REACH, NEAR = 2.0, 1.1
 """How far to both sides a line is looked for while rings grow, and at the end, in mm."""
+TRUSTED, LAST = 0.4, 0.15
+"""The same of how far off a line may be to be believed."""
+FLATNESS, ALIKE = 0.4, 10.0
+"""Paper whose lines are farther off, in deviations, ripples; then so many neighbours count as one."""
 STEP = 0.1
 """Distance of the points of a profile across a line, in mm."""
 ALONG = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
@@ -145,10 +149,9 @@ def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
     for ring in RINGS:
         near = lines.some(far < ring)
         measured = measure(smooth, fit.map, near, REACH)
-        fit.to(measured, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
-    for _ in range(3):
-        measured = measure(smooth, fit.map, lines, NEAR)
-        fit.to(measured, lens=True, bent=True)
+        fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
+    for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
+        fit.to(measure(smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
     return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines)
 
 
@@ -229,7 +232,7 @@ class MapFit:
         """The map as it is fitted so far."""
         return PaperMap(self.width, self.height, tuple(self.parameters.tolist()))
 
-    def to(self, measured: MeasuredLines, *, lens: bool, bent: bool) -> None:
+    def to(self, measured: MeasuredLines, trusted: float, *, lens: bool, bent: bool) -> None:
         """Fit the map to what was measured with it, by least squares that forget outliers."""
         known = measured.found
         lines = measured.lines.some(known)
@@ -275,11 +278,12 @@ class MapFit:
                         errors(bends[:, k, None] * along),
                     ]
             off, jacobian = here - goal, np.stack(columns, axis=1)
-            spread = max(1.5 * float(np.median(abs(off))), 1.0)
+            spread = max(1.5 * float(np.median(abs(off))), trusted / NOISE / 3)
             weights = np.ones(len(off))
             weights[: len(pixels)] = 1 / (1 + (off[: len(pixels)] / (3 * spread)) ** 2) ** 2
             weighted = jacobian * weights[:, None]
-            held = 1 / self.expected[:count] ** 2
+            rippled = 1.4826 * float(np.median(abs(off[: len(pixels)]))) if len(pixels) else 0
+            held = max(1.0, ALIKE * ((rippled / FLATNESS) ** 2 - 1)) / self.expected[:count] ** 2
             normal_matrix = weighted.T @ jacobian + np.diag(held)
             pull = -weighted.T @ off - held * self.parameters[:count]
             self.parameters[:count] += np.linalg.solve(normal_matrix, pull)
