@@ -42,7 +42,7 @@ PRINTED = 0.3
 """Standard deviation of a hand's mark across the printed line of a guide, in mm."""
 END = 0.4
 """The same of the end of a line."""
-VAGUE = 12.0
+VAGUE = 4.0
 """Where the pencil explains so many mm, a point that fits is looked at all the same."""
 PAPER = 0.08
 """Standard deviation of a place that is read, whatever the lines say: the map's, in mm."""

@@ -37,6 +37,8 @@ SHARED = ("frame", "border")
 SHORTEST, SPACING, INSET = 4.5, 3.0, 0.8
 """The shortest line that is followed, how far apart it is measured, and how far from its ends, in
 mm."""
+LEAST = 4
+"""Places at which a tick is measured: far from long lines ticks alone hold the paper."""
 RINGS = (40.0, 52.0, 68.0, 88.0, 114.0, 148.0, 180.0, 215.0, 250.0, 290.0, 335.0, 380.0, 430.0)
 """How far from the square lines are followed, in mm."""
 LENS_FROM, BENT_FROM = 80.0, 100.0
@@ -46,7 +48,7 @@ REACH, NEAR = 2.0, 1.1
 TRUSTED, LAST = 0.4, 0.15
 """The same of how far off a line may be to be believed."""
 FLATNESS, ALIKE = 0.4, 10.0
-"""Paper whose lines are farther off, in deviations, ripples; then so many neighbours count as one."""
+"""Paper whose lines are farther off, in deviations, ripples; so many neighbours are then as one."""
 STEP = 0.1
 """Distance of the points of a profile across a line, in mm."""
 ALONG = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
@@ -98,7 +100,7 @@ def printed_lines(page: Page) -> PrintedLines:
         long = float(np.hypot(x2 - x1, y2 - y1))
         if long < SHORTEST:
             continue
-        count = max(1, int((long - 2 * INSET) / SPACING))
+        count = max(LEAST, int((long - 2 * INSET) / SPACING))
         width = style_of(cls, "black").width
         way = (x2 - x1) / long, (y2 - y1) / long
         for i in range(count):
@@ -147,7 +149,7 @@ def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
     smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
-        near = lines.some(far < ring)
+        near = lines.some((far < ring) & lines.shared)
         measured = measure(smooth, fit.map, near, REACH)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
     for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):

@@ -35,9 +35,9 @@ from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, sheets_of
 ROSTER = "Nr.;Matricol;Nume;Grupa\n7;0042;Ana Pop;A\n12;0043;Dan Ion;A\n"
 XS, YS = [20.0, 120.0, 215.0, 310.0, 410.0], [10.0, 80.0, 150.0, 220.0, 287.0]
 SHOTS = {
-    "plain": Shot(size=(3400, 2500)),
+    "plain": Shot(size=(3000, 2250)),
     "hard": Shot(
-        size=(3400, 2500), tilt=22, k1=-0.06, bow=4, turn=93, light=0.4, shadow=True, blur=0.9
+        size=(3000, 2250), tilt=22, k1=-0.06, bow=4, turn=93, light=0.4, shadow=True, blur=0.9
     ),
 }
 
