@@ -19,6 +19,7 @@ CHOSEN = (
         "centrodes-roller",
         "crank-slot",
         "excavator-relative",
+        "gears-double-planet",
         "gears-pair",
         "gears-rack",
         "inflection-cardan",

@@ -13,7 +13,7 @@ from graphkin.construction.core.vocabulary import coordinate
 from graphkin.construction.drivers import cylinder
 from graphkin.construction.guides import sliding
 from graphkin.construction.guides.guides import axis, standing_guide
-from graphkin.construction.higher_class import higher, two_trials
+from graphkin.construction.higher_class import coupled_train, higher, two_trials
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component import klein
@@ -21,6 +21,7 @@ from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
+    CoupledTrain,
     Crank,
     Driven,
     Dyad,
@@ -93,6 +94,9 @@ def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -
             rolling.train(pen, shapes, group)
         case Tie():
             position.tie(pen, shapes, group)
+        case CoupledTrain():
+            coupled_train.position(pen, shapes, group, place)
+            return
         case Higher():
             higher.position(pen, shapes, group, place)
             return
@@ -140,7 +144,7 @@ def move(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) ->
             wheel_images.train(pen, group)
         case Tie():
             velocity.tie(pen, shapes, group)
-        case Higher():
+        case CoupledTrain() | Higher():
             two_trials.velocity(pen, shapes, group, move)
             return
     for base in found:
@@ -176,7 +180,7 @@ def accelerate(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ..
             wheel_images.second_train(pen, group)
         case Tie():
             acceleration.tie(pen, shapes, group)
-        case Higher():
+        case CoupledTrain() | Higher():
             two_trials.acceleration(pen, shapes, group, accelerate)
             return
     for base in found:

@@ -7,6 +7,7 @@ are joined one after the other. The smallest, two links and three pairs, is the 
 from __future__ import annotations
 
 from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.coupled_trains import next_coupled
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.higher_groups import next_higher
 from graphkin.structure.joints import Joints
@@ -25,6 +26,7 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
             or next_group(joints, known)
             or next_stretched(joints, known, waiting)
             or next_tie(joints, known)
+            or next_coupled(joints, known)
             or next_higher(joints, known, waiting)
             or Unresolved(tuple(joints.unknown(known)))
         )

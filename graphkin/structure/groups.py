@@ -188,6 +188,32 @@ class TriedLink(Struct, frozen=True):
         return (self.link,)
 
 
+class CoupledTrain(Struct, frozen=True):
+    """Wheels that turn one another in a loop: once one link is tried, each follows from the next.
+
+    What closes it at last is a contact with a wheel of a known link.
+    """
+
+    trial: TriedLink
+    chain: tuple[Geared, ...]
+    last: Contact
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All links, that which is tried first."""
+        return (self.trial.link, *(each.link for each in self.chain))
+
+    @property
+    def closing(self) -> str:
+        """The link whose wheel touches that of a known link at last."""
+        return next(link for link in self.last.links if link in self.links)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return "coupled train of wheels"
+
+
 class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
@@ -230,7 +256,9 @@ class Unresolved(Struct, frozen=True):
         return "a group for which no construction was found"
 
 
-Group = Crank | Driven | Dyad | Stretched | Geared | Train | Tie | Higher | Unresolved
+Group = (
+    Crank | Driven | Dyad | Stretched | Geared | Train | Tie | CoupledTrain | Higher | Unresolved
+)
 
 
 def other_of(driver: Driver, link: str) -> str:

@@ -88,6 +88,12 @@ class Contact(Struct, frozen=True):
         """Freedoms that it takes: the slip, and the distance unless an arm keeps that."""
         return 2 if self.arm is None else 1
 
+    def wheel_of(self, link: str) -> Wheel:
+        """The wheel of one of its links."""
+        wheel = self.wheel if self.links[0] == link else self.track
+        assert wheel is not None
+        return wheel
+
     def led_point(self, scene: Scene, link: str) -> str:
         """The point of one of its links that it leads along a line: a wheel's centre."""
         return self.wheel.centre if self.links[0] == link else scene.link(link).points[0]

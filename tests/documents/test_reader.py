@@ -22,6 +22,9 @@ CLOSE = 0.3
 """How near to the key, in mm, the hand must land."""
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 APART = {
+    "gears-double-planet": "trials",
+    "gears-ravigneaux": "trials",
+    "gears-simpson": "trials",
     "inflection-cardan": "inflection circles",
     "klein-engine": "Klein’s construction",
     "rapid-return": "loci and trials",

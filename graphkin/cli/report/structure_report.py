@@ -8,7 +8,17 @@ from graphkin.scene.findings import natural
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.quantity import SI
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
-from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Group, Higher, Tie, Train
+from graphkin.structure.groups import (
+    CoupledTrain,
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Tie,
+    Train,
+)
 from graphkin.structure.joints import partner
 from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Contact, Pair, Pin, Sliding, contacts, pairs, sharers
@@ -220,6 +230,10 @@ def group_words(group: Group) -> str:
             if isinstance(first, Sliding):
                 return f"link {link} led by {held}: both tell how it is turned, so that one is idle"
             return f"link {link} between {held}, which stand already: it must be idle"
+        case CoupledTrain(trial, _, last):
+            names = listed(sorted(group.links, key=natural))
+            start = f"tried at link {trial.link} on {pair_name(trial.pair)}"
+            return f"{group.title} (links {names}): {start}, closed by the {pair_name(last)}"
         case Higher():
             return higher_words(group)
     return f"{group.title}: {joined_words(group.links)}"

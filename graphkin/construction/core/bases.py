@@ -9,6 +9,7 @@ from msgspec import Struct
 from graphkin.construction.core.program import ContactName
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
+    CoupledTrain,
     Crank,
     Driven,
     Dyad,
@@ -90,7 +91,7 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return (base_of(scene, link, scene.link(link).points[0], None),)
         case Tie(link, Pin(point=first), _):
             return (base_of(scene, link, first, None),)
-        case Higher():
+        case CoupledTrain() | Higher():
             chain = [bases(scene, each) for each in (*group.chain, *ending(group))]
             return (trial_base(scene, group.trial), *(base for each in chain for base in each))
     raise no_construction(group)
@@ -125,7 +126,7 @@ def leads_of(group: Group) -> dict[str, str]:
     return {}
 
 
-def ending(group: Higher) -> tuple[Tie, ...]:
+def ending(group: CoupledTrain | Higher) -> tuple[Tie, ...]:
     """The link that closes a group last, if a link does."""
     return (group.last,) if isinstance(group.last, Tie) else ()
 

@@ -27,7 +27,7 @@ from graphkin.construction.velocity.perpendicular_through import perpendicular_t
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
-from graphkin.structure.groups import Higher, Tie
+from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text import MINUS
@@ -183,7 +183,9 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
 # --- the crossing --------------------------------------------------------------------------------
 
 
-def crossed_point(pen: Pen, group: Higher, quantity: str, tried: set[str]) -> str | None:
+def crossed_point(
+    pen: Pen, group: CoupledTrain | Higher, quantity: str, tried: set[str]
+) -> str | None:
     """The point whose right image lies on a line that is known before the trials; None for none.
 
     ``tried`` are the points that two trials move.
@@ -198,7 +200,12 @@ def crossed_point(pen: Pen, group: Higher, quantity: str, tried: set[str]) -> st
 
 
 def crossing(
-    pen: Pen, shapes: LinkShapes, group: Higher, quantity: str, of: str, ends: tuple[int, int]
+    pen: Pen,
+    shapes: LinkShapes,
+    group: CoupledTrain | Higher,
+    quantity: str,
+    of: str,
+    ends: tuple[int, int],
 ) -> CrossedLine:
     """Where the line through both trials of a point cuts the line on which it must lie."""
     locus = locus_of(pen, shapes, group, quantity, of)
@@ -207,7 +214,9 @@ def crossing(
         return pen.make(CrossedLine(*ends, locus, line, pen.draw(meet, line, locus)))
 
 
-def locus_of(pen: Pen, shapes: LinkShapes, group: Higher, quantity: str, of: str) -> int:
+def locus_of(
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, quantity: str, of: str
+) -> int:
     """The line on which a pin must lie in the plan: square to its bar, or parallel to its guide."""
     last = group.last
     assert isinstance(last, Tie)

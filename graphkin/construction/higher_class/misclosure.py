@@ -52,7 +52,7 @@ class Misclosure(Construction, frozen=True, kw_only=True):
 
     def amount(self, drawing: Drawing) -> float:
         """Its size in the unit of the plan."""
-        return float(drawing.trace.values[self.size])
+        return float(drawing.settled(drawing.trace.values[self.size]))
 
     def point(self, drawing: Drawing) -> str:
         """Markup of the point, or the vector of the plan, at which it is measured."""
@@ -149,6 +149,34 @@ class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
         if self.is_drawn(canvas.drawing):
             guide, start, tip = map(canvas.value, (self.guide, self.start, self.tip))
             self.draw_gap(canvas, start, start, tip, 1j * guide.along / abs(guide.along))
+
+
+class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
+    """The gap at a contact, across its radius: between the images of both wheels there.
+
+    ``ends`` are the ends of the radius, ``start`` is the known wheel's image, ``tip`` the other's.
+    """
+
+    ends: tuple[str, str]
+    normal: int
+    start: int
+    tip: int
+
+    def point(self, drawing: Drawing) -> str:
+        """The image of the point of contact."""
+        return symbol(drawing.trace.program.steps[self.tip].name)
+
+    def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
+        """The image of the known wheel; of accelerations the parallel to the radius through it."""
+        start = symbol(drawing.trace.program.steps[self.start].name)
+        key = "image" if drawing.kind == "velocity" else "radius"
+        return key, {"bar": bar(*self.ends), "s": start}
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The gap, where no crossing settles it."""
+        if self.is_drawn(canvas.drawing):
+            normal, start, tip = map(canvas.value, (self.normal, self.start, self.tip))
+            self.draw_gap(canvas, start, start, tip, 1j * normal.along / abs(normal.along))
 
 
 class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):

@@ -12,7 +12,7 @@ from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.sliding import slid
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Vector
-from graphkin.structure.groups import Higher
+from graphkin.structure.groups import CoupledTrain, Higher
 
 
 @action("to-corner")
@@ -66,7 +66,9 @@ def relative_arrows(pen: Pen, name: str) -> None:
         arrow_between(pen, pen.the("velocity", start), here, name, about_which)
 
 
-def components(pen: Pen, group: Higher, second: dict[Target, int], tried: range) -> None:
+def components(
+    pen: Pen, group: CoupledTrain | Higher, second: dict[Target, int], tried: range
+) -> None:
     """The arrows of the components in the right plan, and of the velocities that they start from.
 
     What is laid off there is what the second trial has laid off, for it does not hang on what is
@@ -139,7 +141,7 @@ def legs(
             pen.vector(leg, *args, of=vector)
 
 
-def normals_of(pen: Pen, group: Higher) -> list[tuple[str, str, int]]:
+def normals_of(pen: Pen, group: CoupledTrain | Higher) -> list[tuple[str, str, int]]:
     """The normal components within a group, each with the pivot and the pin between which it is."""
     return [
         (key[1], key[2], vector)

@@ -14,18 +14,18 @@ from msgspec.structs import replace
 from graphkin.construction.acceleration import acceleration as accelerations
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
-from graphkin.construction.core.bases import bases, ending
+from graphkin.construction.core.bases import bases, contact_name, ending, under
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, scale_of, way_of
-from graphkin.construction.core.pen import Pen, image, second_image
+from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
 from graphkin.construction.core.vocabulary import action, distance, part_along, sum_of
-from graphkin.construction.guides.coincident_points import image_under, omega_of
+from graphkin.construction.guides.coincident_points import carried, image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.higher_class.divided_point import (
@@ -35,10 +35,12 @@ from graphkin.construction.higher_class.divided_point import (
     between,
     crossed_point,
     crossing,
+    line_through,
 )
 from graphkin.construction.higher_class.higher import Each, inverse, less, product, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
+    ContactMisclosure,
     DrivenMisclosure,
     GuideMisclosure,
     Misclosure,
@@ -55,7 +57,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import dot
 from graphkin.scene.model import FRAME, Driver
-from graphkin.structure.groups import Higher, Tie
+from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 
@@ -96,7 +98,7 @@ class TwoTrials(Construction, frozen=True):
 
     gives: ClassVar[tuple[str, ...]] = ("share", "measured")
 
-    group: Higher
+    group: CoupledTrain | Higher
     plans: tuple[TrialPlan, TrialPlan]
     gaps: tuple[Misclosure, Misclosure]
     share: int
@@ -155,7 +157,8 @@ class TwoTrials(Construction, frozen=True):
         ratio = f"{one}{name}/{one}{two}"
         others = [symbol(steps[point.value].name) for point in points if point not in crossed]
         fields = {"ratio": ratio, "list": drawing.words("list_mark").join(others)}
-        result = answer(drawing, float(values[self.share]))
+        found = float(values[self.share]) if self.gaps[0].amount(drawing) else 0.0
+        result = answer(drawing, found)
         if crossed:
             whole = drawn_between(drawing, lead.first, lead.second, drawing.plane)
             part = OnPaper(float(values[self.share]) * whole)
@@ -276,12 +279,12 @@ def on_paper(drawing: Drawing) -> float:
 # --- planning them -------------------------------------------------------------------------------
 
 
-def velocity(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
+def velocity(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each) -> None:
     """The velocity plan: two trials, the share between them that fits, and every point by it."""
     two_trials(pen, shapes, group, each, VELOCITY)
 
 
-def acceleration(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
+def acceleration(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each) -> None:
     """The acceleration plan in the same way; what follows from velocities is known by then."""
     two_trials(pen, shapes, group, each, ACCELERATION)
 
@@ -303,7 +306,7 @@ ACCELERATION = TrialQuantity(
 
 
 def two_trials(
-    pen: Pen, shapes: LinkShapes, group: Higher, each: Each, kind: TrialQuantity
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each, kind: TrialQuantity
 ) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
     layers, gaps, begun = [], [], []
@@ -311,6 +314,7 @@ def two_trials(
         at_rest = pen.given("nought", name=f"{kind.rate} tried of {group.trial.link}")
         first = TrialPlan(TAGS[0], group.trial.link, at_rest)
         second = TrialPlan(TAGS[1], group.trial.link, trial_value(pen, group, kind), first)
+    rims = known_rims(pen, group, kind)
     for plan in (first, second):
         begun.append(len(pen.steps))
         with pen.aside(plan) as layer:
@@ -329,7 +333,7 @@ def two_trials(
         divided = pen.draw(share, *(gap.size for gap in gaps), by_hand=by_hand)
     one, two = (pen.make(replace(gap, settled=by_hand)) for gap in gaps)
     pen.make(TwoTrials(group, (first, second), (one, two), divided, by_hand))
-    settle(pen, group, kind, layers, divided, crossed)
+    settle(pen, group, kind, layers, divided, crossed, rims)
     if kind is ACCELERATION:
         components(pen, group, layers[1], tried)
     for last in ending(group):
@@ -338,7 +342,22 @@ def two_trials(
         omega_of(pen, link, kind.rate)
 
 
-def trial_value(pen: Pen, group: Higher, kind: TrialQuantity) -> int:
+def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> dict[str, int]:
+    """The images of known wheels where those of a coupled train touch them, before any trial.
+
+    Velocities are by the name of the point of the train's own last wheel, which has the same.
+    """
+    if not isinstance(group, CoupledTrain):
+        return {}
+    for contact in (*(wheel.contact for wheel in group.chain), group.last):
+        for link in {*contact.links} - {*group.links}:
+            rim = carried(pen, link, contact_name(contact), kind.quantity)
+    if kind is ACCELERATION:
+        return {}
+    return {under(contact_name(group.last), group.closing): rim}
+
+
+def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> int:
     """The second trial: as fast as the driver turns, or slides by a bar in that time.
 
     An acceleration is as large as the squares of that and of how fast the link has been found to
@@ -356,7 +375,7 @@ def trial_value(pen: Pen, group: Higher, kind: TrialQuantity) -> int:
     return rate if bar is None else pen.draw(product, rate, bar)
 
 
-def slid_rate(pen: Pen, group: Higher, bar: int) -> int:
+def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
     pair, point = group.trial.pair, pen.bases[group.trial.link].start
     assert not isinstance(pair, Pin)
@@ -365,7 +384,7 @@ def slid_rate(pen: Pen, group: Higher, bar: int) -> int:
     return pen.draw(product, speed, pen.draw(inverse, bar))
 
 
-def places_of(pen: Pen, group: Higher) -> list[int]:
+def places_of(pen: Pen, group: CoupledTrain | Higher) -> list[int]:
     """Where the points of a group stand, that of the tried link first."""
     start = pen.bases[group.trial.link].start
     points = dict.fromkeys((start, *(p for n in group.links for p in pen.scene.link(n).points)))
@@ -373,7 +392,7 @@ def places_of(pen: Pen, group: Higher) -> list[int]:
 
 
 def move_trial(
-    pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity, value: int
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: TrialQuantity, value: int
 ) -> None:
     """The tried link in a trial plan."""
     trial, base = group.trial, pen.bases[group.trial.link]
@@ -394,8 +413,12 @@ def move_trial(
         accelerations.plate_points(pen, shapes, base)
 
 
-def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> Misclosure:
+def missed(
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: TrialQuantity
+) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
+    if isinstance(group, CoupledTrain):
+        return missed_contact(pen, group, kind)
     last = group.last
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
@@ -433,6 +456,23 @@ def missed(pen: Pen, shapes: LinkShapes, group: Higher, kind: TrialQuantity) -> 
     raise AssertionError(last)
 
 
+def missed_contact(pen: Pen, group: CoupledTrain, kind: TrialQuantity) -> Misclosure:
+    """What a trial plan misses where the last wheel touches a known one: across the radius.
+
+    They must not slip.
+    """
+    contact, own = group.last, group.closing
+    name, wheel = contact_name(contact), contact.wheel_of(own)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        radius = (pen.the("position", point) for point in (wheel.centre, name))
+        normal = pen.draw(line_through, *radius)
+    start, tip = (carried(pen, x, name, kind.quantity) for x in (partner(contact, own), own))
+    with pen.on(kind.part, Plane.NUMBERS):
+        size = pen.draw(lacks_across, normal, start, tip)
+    ends = letter(wheel.centre), letter(name)
+    return ContactMisclosure(size=size, ends=ends, normal=normal, start=start, tip=tip)
+
+
 def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: TrialQuantity) -> Misclosure:
     """What a trial plan misses of a given sliding speed or acceleration."""
     pair = slide_of(pen, driver)
@@ -459,7 +499,7 @@ def trials_of(layers: list[dict[Target, int]], kind: TrialQuantity, point: str) 
 def crossings(
     pen: Pen,
     shapes: LinkShapes,
-    group: Higher,
+    group: CoupledTrain | Higher,
     kind: TrialQuantity,
     layers: list[dict[Target, int]],
 ) -> dict[str, CrossedLine]:
@@ -475,23 +515,26 @@ def crossings(
 
 def settle(
     pen: Pen,
-    group: Higher,
+    group: CoupledTrain | Higher,
     kind: TrialQuantity,
     layers: list[dict[Target, int]],
     divided: int,
     crossed: dict[str, CrossedLine],
+    rims: dict[str, int],
 ) -> None:
     """Every point of the right plan, on the lines through its two trials."""
     first, second = layers
-    settled: list[str] = []
+    settled: dict[tuple[int, int], str] = {}
     for (quantity, of), one in first.items():
         two = second[quantity, of]
         if quantity == kind.rate and own_rate(pen, of):
             with pen.on(Part.RESULT, Plane.NUMBERS):
                 value = pen.want(quantity, of, pen.draw(between, one, two, divided, name=of))
             pen.make(DividedRate(first=one, second=two, share=divided, value=value))
-        elif quantity == kind.quantity and one == two:
-            pen.want(quantity, of, one)
+        elif quantity == kind.quantity and (one == two or of in rims):
+            pen.want(quantity, of, rims.get(of, one))
+        elif quantity == kind.quantity and (one, two) in settled:
+            pen.want(quantity, of, pen.the(quantity, settled[one, two]))
         elif quantity == kind.quantity:
             line, name = crossed.get(of), kind.named(of)
             by_hand = line.crossing if line is not None else None
@@ -500,12 +543,12 @@ def settle(
             pen.want(quantity, of, value)
             roles = {"first": one, "second": two, "share": divided, "value": value}
             pen.make(DividedPoint(**roles, point=of, crossed=line))
-            settled.append(of)
+            settled[one, two] = of
     closing: tuple[str, ...] = ()
     match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)):
-            closing = in_order((p, q), settled)
-    for point in settled:
+            closing = in_order((p, q), [*settled.values()])
+    for point in settled.values():
         if "@" not in point:
             finish(pen, kind, point, closing)
         elif kind is VELOCITY:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from msgspec import Struct
 
@@ -195,15 +195,29 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
 
 
 def roll_round(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> None:
-    """The axis of a wheel from how far its arm and the wheel that it rolls on have turned."""
+    """The axis of a wheel from its contact with another."""
+    settle_turn(pen, link, rolled_to(pen, shapes, contact, link))
+    pen.want("turned from", link, start_turn(pen, contact, link))
+
+
+@by_contact
+def rolled_to(
+    pen: Pen,
+    shapes: LinkShapes,
+    contact: Contact,
+    link: str,
+    tried: Mapping[str, int] | None = None,
+) -> int:
+    """The angle of a wheel from how far its arm and the wheel that it rolls on have turned.
+
+    ``tried`` are the angles of links that do not stand.
+    """
     side, arm = seen_from(pen, contact, link), contact.arm
     assert arm is not None
-    turns = [turned_by(pen, shapes, contact, each) for each in (arm, side.other)]
+    turns = [turned_by(pen, shapes, contact, each, tried) for each in (arm, side.other)]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         since = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
-        start = start_turn(pen, contact, link)
-        settle_turn(pen, link, pen.draw(sum_of, start, since))
-    pen.want("turned from", link, start)
+        return pen.draw(sum_of, start_turn(pen, contact, link), since)
 
 
 def settle_turn(pen: Pen, link: str, turn: int) -> None:
@@ -236,9 +250,15 @@ def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     roll_round(pen, shapes, contact, group.wheel)
 
 
-def turned_by(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> int:
+def turned_by(
+    pen: Pen,
+    shapes: LinkShapes,
+    contact: Contact,
+    link: str,
+    tried: Mapping[str, int] | None = None,
+) -> int:
     """How far a link has turned since the start of a contact."""
-    angle = angle_of(pen, shapes, link)
+    angle = tried[link] if tried and link in tried else angle_of(pen, shapes, link)
     if link == FRAME or link not in contact.rolling.start:
         return angle
     with pen.on(Part.POSITION, Plane.NUMBERS):
