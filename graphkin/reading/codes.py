@@ -21,10 +21,9 @@ def codes_in(grey: Any) -> list[FoundCode]:
     """The codes in a grey picture; a faint or noisy one is looked for in several ways."""
     import zxingcpp
 
+    square: Any = zxingcpp.BarcodeFormat.QRCode
     for picture, times in ways_to_look(grey):
-        found = zxingcpp.read_barcodes(
-            picture, formats=zxingcpp.BarcodeFormats(zxingcpp.BarcodeFormat.QRCode)
-        )
+        found = zxingcpp.read_barcodes(picture, formats=square)
         if found:
             return [FoundCode(each.text, corners_of(each.position) * times) for each in found]
     return []

@@ -25,6 +25,8 @@ WHOLE = (0.0, 0.0, 420.0, 297.0)
 """An A3 sheet, in mm."""
 SHOWN, QUALITY = 6.0, 82
 """Pixels for each mm of the flattened picture that is kept, and its quality as JPEG."""
+FAULTS = (ArithmeticError, LookupError, ValueError)
+"""What a picture that nobody foresaw may lead to: it is refused, and the others are read."""
 SURE_OF_SHEET = 0.9
 """The share of a sheet's own lines from which no other language of its is tried."""
 
@@ -88,6 +90,8 @@ def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> lis
 
 def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
     """What is read of one photograph."""
+    import cv2
+
     start = perf_counter()
     record = SheetRecord(photograph.name, photograph.path.name, key)
     code = ""
@@ -96,9 +100,10 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         code, corners = known_code(grey, order.variants)
         found = found_sheet(grey, order, code, corners)
         points, corners_at = unread(found) if order.by_hand else read_points(grey, found)
-    except (Unreadable, GraphkinError) as error:
+    except (Unreadable, GraphkinError, *FAULTS, cv2.error) as error:
         spent = round(perf_counter() - start, 3)
-        refused = str(error).splitlines()[0]
+        told = isinstance(error, Unreadable | GraphkinError)
+        refused = str(error).splitlines()[0] if told else f"cannot be read: {type(error).__name__}"
         return SheetRead(replace(record, code=code, refused=refused, seconds=spent))
     pixels = mapped(found.map, order.grid)
     spent = round(perf_counter() - start, 3)
