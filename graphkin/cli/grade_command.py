@@ -100,7 +100,7 @@ SHOWN = 10
 )
 @click.option("--force", is_flag=True, help="Replace an earlier report, and list what changed.")
 @click.pass_context
-def grade(
+def grade(  # noqa: PLR0915
     context: click.Context,
     folder: Path,
     answers: Path,
@@ -118,7 +118,8 @@ def grade(
 ) -> None:
     """Mark the answers of a class.
 
-    DIR is what graphkin variants wrote, ANSWERS a table, a folder or a ZIP file.
+    DIR is what graphkin variants wrote, ANSWERS a table, a folder or a ZIP file, or what graphkin
+    read wrote.
 
     ANSWERS is a CSV or XLSX file with a column id and one for each field of the form (v_D_mm,
     v_D, omega_3, omega_3_sense, …), a row for each student; or a folder or a ZIP file with a file
@@ -191,6 +192,7 @@ def grade(
     if both := ", ".join(who for who in held if who in settled(decisions)):
         said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
         raise click.UsageError(said, context)
+    drawings, answers = answers, drawn_table(opened, answers)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
     turns = read_turns(answers, ids)
     words = words_of(opened, lang)
@@ -198,6 +200,8 @@ def grade(
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     given.unread = open_cells(found.result, given.unread)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
+    if drawings != answers:
+        files |= marked_drawings(opened, drawings, words, kinds)
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
     files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
@@ -217,6 +221,35 @@ def grade(
         say(path)
     if given.unread:
         context.exit(FAILED)
+
+
+def is_read(answers: Path) -> bool:
+    """Whether the answers are a folder of drawings that graphkin read."""
+    from graphkin.reading.kept_readings import READING
+
+    return answers.is_dir() and any(answers.glob(f"*{READING}"))
+
+
+def drawn_table(opened: ClassFolder, folder: Path) -> Path:
+    """Of a folder of readings the table of what was read and decided by now; else what it is."""
+    if not is_read(folder):
+        return folder
+    from graphkin.reading.drawn_answers import ANSWERS
+    from graphkin.reading.read_run import write_answers
+
+    write_answers(opened, folder)
+    return folder / ANSWERS
+
+
+def marked_drawings(
+    opened: ClassFolder, folder: Path, words: Words, kinds: tuple[str, ...]
+) -> dict[str, bytes]:
+    """The drawings of all who were read, with green and red over them."""
+    from graphkin.classroom.grading.grading_files import FEEDBACK
+    from graphkin.reading.marked_drawing import drawings_of_class
+
+    found = drawings_of_class(opened, folder, words, kinds)
+    return {f"{FEEDBACK}/{name}": data for name, data in found.items()}
 
 
 def refuse_strangers(

@@ -29,6 +29,8 @@ LATER = {
     "accuracy": "graphkin.cli.draw_commands:accuracy",
     "print": "graphkin.cli.print_command:print_sheets",
     "grade": "graphkin.cli.grade_command:grade",
+    "read": "graphkin.cli.read_command:read",
+    "desk": "graphkin.cli.read_command:desk",
     "quiz": "graphkin.cli.quiz_command:quiz",
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",

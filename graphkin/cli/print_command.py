@@ -120,10 +120,10 @@ def named(
 
 
 @contextmanager
-def progress() -> Iterator[Tell]:
-    """What shows how many students are done: a bar on a terminal, else a line for each tenth."""
+def progress(what: str = "students") -> Iterator[Tell]:
+    """What shows how many of them are done: a bar on a terminal, else a line for each tenth."""
     if sys.stderr is not None and sys.stderr.isatty():
-        with click.progressbar(length=1, label="students", show_pos=True, file=sys.stderr) as bar:
+        with click.progressbar(length=1, label=what, show_pos=True, file=sys.stderr) as bar:
 
             def move(done: int, total: int) -> None:
                 bar.length = max(total, 1)
@@ -138,7 +138,7 @@ def progress() -> Iterator[Tell]:
         tenth = TENTHS * done // max(total, 1)
         if tenth > told:
             told = tenth
-            say_aside(f"{done} of {total} students")
+            say_aside(f"{done} of {total} {what}")
 
     yield line
 

@@ -44,6 +44,19 @@ def serve(
 
     ``known`` is called whenever a request shows the token.
 
+    Raises as ``served`` does.
+    """
+    return served(lambda: application(session), port, first, known)
+
+
+def served(
+    made: Callable[[], Any],
+    port: int = 0,
+    first: Mapping[str, str] = NOTHING,
+    known: Callable[[], None] = lambda: None,
+) -> Served:
+    """Listen for the page of an application, which is ``made`` when its libraries are there.
+
     Raises PageError where the port is taken, or where the libraries of the studio are missing.
     """
     try:
@@ -57,7 +70,7 @@ def serve(
     port = listening.getsockname()[1]
     token = new_token()
     hosts = (f"{HOME}:{port}", f"localhost:{port}")
-    guard = Guard(application(session), token, hosts, known)
+    guard = Guard(made(), token, hosts, known)
     server = create_server(
         guard,
         sockets=[listening],

@@ -1,0 +1,191 @@
+"""The commands ``read`` and ``desk``: drawings marked from their photographs."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphkin.cli.console import FAILED
+from graphkin.cli.options import FolderType, tell
+from graphkin.cli.print_command import progress
+from graphkin.text.errors import PageError, Problem
+
+if TYPE_CHECKING:
+    from graphkin.reading.read_sheet import Grid
+
+NEEDED = {
+    "bottle": "bottle",
+    "cv2": "opencv-python-headless",
+    "waitress": "waitress",
+    "zxingcpp": "zxing-cpp",
+}
+"""The packages of the extra [read], by what they are imported as."""
+MOST_PLACES = 10_000
+"""Places of a grid."""
+
+
+@click.command("read")
+@click.argument("folder", metavar="CLASS", type=click.Path(path_type=Path))
+@click.argument(
+    "photos", metavar="PHOTOS…", nargs=-1, required=True, type=click.Path(path_type=Path)
+)
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    metavar="READ",
+    type=FolderType(path_type=Path),
+    required=True,
+    help="Folder of the readings, made if it is missing.",
+)
+@click.option(
+    "--json", "as_json", is_flag=True, help="Also write NAME.points.json beside each picture."
+)
+@click.option(
+    "--grid",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help='JSON, {"x": [mm, …], "y": [mm, …]}: places of the paper whose pixels are wanted.',
+)
+@click.option("--by-hand", is_flag=True, help="Only flatten; all points are clicked at the desk.")
+@click.option(
+    "--jobs", metavar="N", type=click.IntRange(1, 1024), help="Processes; all cores by default."
+)
+@click.pass_context
+def read(
+    context: click.Context,
+    folder: Path,
+    photos: tuple[Path, ...],
+    out: Path,
+    as_json: bool,
+    grid: Path | None,
+    by_hand: bool,
+    jobs: int | None,
+) -> None:
+    """Read the drawings of a class from photographs.
+
+    CLASS is what graphkin variants wrote, PHOTOS are pictures (JPEG, PNG), scans (PDF), or folders
+    of them: one A3 sheet in each, with its square seen whole and most of its frame.
+
+    Finds whose each sheet is by its code, flattens it to millimetres of paper by its own frame, and
+    reads the points one after the other, each expected from the student's own earlier ones. What
+    is surely right, or surely follows from an own mistake, is decided; every mistake, and every
+    doubt, is for you: graphkin desk READ shows them one by one.
+
+    Then graphkin grade CLASS READ -o report marks the lengths and places that were read. Pictures
+    stay in READ, without what a camera writes beside them. A run that was stopped goes on.
+
+    \b
+    Examples:
+      graphkin read pump-2026 photos -o read
+      graphkin desk read
+      graphkin grade pump-2026 read -o report
+
+    \b
+    Exit status: 0; 1 when some pictures were refused, each with its reason; 2 for bad input.
+    """
+    refuse_without_libraries("read", context)
+    from graphkin.classroom.grading.class_folder import open_class
+    from graphkin.classroom.printing.workers import cores
+    from graphkin.reading.pictures import photographs
+    from graphkin.reading.read_run import POINTS, points_file, read_class, read_order, said
+    from graphkin.writers.files import put_in_place
+
+    opened = open_class(folder)
+    pictures = photographs(list(photos))
+    order = read_order(opened, read_grid(grid), by_hand=by_hand)
+    with progress("photographs") as shown:
+        outcome = read_class(opened, pictures, out, order, jobs or cores(), shown)
+    if as_json:
+        places = {each.name: each.path.parent for each in pictures}
+        put_in_place(
+            {places[r.name] / f"{r.name}{POINTS}": points_file(r) for r in outcome.records}
+        )
+    tell(said(opened, outcome))
+    if any(record.refused is not None for record in outcome.records):
+        context.exit(FAILED)
+
+
+def refuse_without_libraries(command: str, context: click.Context) -> None:
+    """Raise UsageError where the extra [read] is not installed."""
+    if missing := [package for name, package in NEEDED.items() if not find_spec(name)]:
+        raise click.UsageError(
+            f"{command} needs {' and '.join(missing)}: pip install '.[read]' where graphkin was "
+            "installed from, or pip install 'graphkin[read]'",
+            context,
+        )
+
+
+def read_grid(path: Path | None) -> Grid:
+    """The places of a grid file. Raises PageError for what is none."""
+    import msgspec
+
+    from graphkin.reading.read_sheet import Grid
+    from graphkin.scene.file_limits import file_bytes
+
+    if path is None:
+        return Grid()
+    expected = '{"x": [mm, …], "y": [mm, …]}'
+    try:
+        grid = msgspec.json.decode(file_bytes(path, 1 << 20), type=Grid)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "is no such JSON"
+        raise PageError(Problem(f"--grid {path}", str(reason).lower(), expected)) from None
+    if not 0 < len(grid.x) * len(grid.y) <= MOST_PLACES:
+        found = f"has {len(grid.x) * len(grid.y)} places"
+        raise PageError(Problem(f"--grid {path}", found, f"1 to {MOST_PLACES}"))
+    return grid
+
+
+@click.command("desk")
+@click.argument("folder", metavar="READ", type=click.Path(path_type=Path))
+@click.option(
+    "--port",
+    metavar="N",
+    type=click.IntRange(0, 65535),
+    default=0,
+    help="Port to listen at; a free one by default.",
+)
+@click.option("--no-browser", is_flag=True, help="Only print the address, open no browser.")
+@click.option(
+    "--lang", type=click.Choice(["ro", "en", "it"]), default="en", help="Language of the page."
+)
+@click.pass_context
+def desk(context: click.Context, folder: Path, port: int, no_browser: bool, lang: str) -> None:
+    """Decide what graphkin read asks, in a browser.
+
+    READ is the folder that graphkin read wrote. The page shows one doubtful point after the other,
+    enlarged, with the key over the drawing: a key or a click settles it. Each decision is written
+    at once into READ/decisions.jsonl, and can be undone.
+
+    The page is for this computer alone, and its address holds a token that nobody else knows; it
+    ends with this command (Ctrl+C).
+
+    \b
+    Examples:
+      graphkin desk read
+      graphkin desk read --lang it --no-browser --port 8080
+    """
+    refuse_without_libraries("desk", context)
+    from graphkin.reading.desk_app import DeskSession, desk_application
+    from graphkin.studio.redirect import Redirect
+    from graphkin.studio.server import served
+    from graphkin.text import words
+    from graphkin.writers.lock import locked
+
+    session = DeskSession(folder, words(lang))
+    redirect = Redirect()
+    with locked(folder):
+        found = served(lambda: desk_application(session), port, known=redirect.remove)
+        tell([found.address])
+        try:
+            if not no_browser:
+                import webbrowser
+
+                webbrowser.open(redirect.write(found.address))
+            found.server.run()
+        finally:
+            redirect.remove()

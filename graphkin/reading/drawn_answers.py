@@ -1,0 +1,85 @@
+"""The fields of the form that a drawing tells: lengths of vectors, and places, in mm of paper.
+
+A point that a person has yet to look at leaves its fields open: they are written as ?, which
+``grade`` neither counts as wrong nor as right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from graphkin.classroom.grading.class_folder import ClassFolder
+from graphkin.classroom.grading.probes import Probe, probes
+from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.roster.csv_text import csv_text
+from graphkin.documents.sheet_documents import language_of
+from graphkin.reading.kept_readings import records_in
+from graphkin.reading.lettered_points import LetteredSheet
+from graphkin.reading.read_sheet import SheetRecord, sheets_of, task_pages
+from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
+from graphkin.text.errors import GraphkinError
+
+ANSWERS = "answers.csv"
+OPEN = "?"
+"""What stands for an answer that is not decided yet."""
+Places = Mapping[int, complex | None]
+"""Where steps lie on paper; None for what is not drawn. What is not there at all is open."""
+
+
+def answers_table(opened: ClassFolder, out: Path) -> bytes:
+    """The answers of all whose sheets were read, in the order of the roster."""
+    standing = SettledPoints(out).standing
+    try:
+        records = latest_of(records_in(out), standing)
+    except GraphkinError:
+        records = {}
+    form = [item for item in opened.book.form if item.what in ("segment", "place")]
+    rows: list[list[object]] = [["id", *(item.field for item in form)]]
+    variants = {each.code: each for each in opened.edition.variants}
+    language = language_of(opened.book.mechanism({}), None).language
+    order = PrintOrder(opened.edition.lab, opened.edition.scene, language, "colour")
+    for taker in opened.takers:
+        own = {kind: record for (code, kind), record in records.items() if code == taker.code}
+        if not own:
+            continue
+        sheets = sheets_of(order, variants[taker.code], language)
+        places: dict[int, tuple[str, complex | None]] = {}
+        for kind, page in task_pages(sheets):
+            if kind in own:
+                drawing = next(each for each in sheets.drawings if each.kind == kind)
+                sheet = LetteredSheet(drawing, page)
+                found = places_of(sheet, own[kind], standing)
+                places |= {n: (kind, at) for n, at in found.items() if n not in places}
+        told = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
+        rows.append([taker.student.id, *(cell(told[item.field], places) for item in form)])
+    return csv_text(rows).encode("utf-8")
+
+
+def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> Places:
+    """Where the steps of a sheet lie, as far as that is decided; printed ones where they are."""
+    found: dict[int, complex | None] = {}
+    steps = sheet.exact.program.steps
+    for number, value in sheet.exact.trace.values.items():
+        here = steps[number].plane is sheet.drawing.plane or number in sheet.on_mechanism
+        if isinstance(value, complex) and not steps[number].args and here:
+            found[number] = complex(sheet.place(number, value))
+    for step, at in record.corners.items():
+        found[step] = complex(*at)
+    for point in settled_points(record, standing):
+        if not point.ask:
+            found[point.step] = None if point.at is None else complex(*point.at)
+    return found
+
+
+def cell(probe: Probe, places: Mapping[int, tuple[str, complex | None]]) -> str:
+    """The answer to a field: nothing where it is not drawn, ? where it is not decided."""
+    if any(step not in places for step in probe.steps):
+        return OPEN
+    (_, first), (_, last) = places[probe.steps[0]], places[probe.steps[-1]]
+    if first is None or last is None:
+        return ""
+    way = last - first
+    if probe.item.what == "place":
+        return f"{-way.imag if probe.item.field.endswith('_y_mm') else way.real:.2f}"
+    return f"{abs(way):.2f}"

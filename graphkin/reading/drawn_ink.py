@@ -1,0 +1,261 @@
+"""What a hand has put on the paper: dark thin lines in the fields of a sheet, in mm of paper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import cv2
+import numpy as np
+from msgspec import Struct
+
+from graphkin.drawing.areas import AREA
+from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, reach
+from graphkin.drawing.style import style_of
+from graphkin.reading.paper_map import PaperMap
+
+DENSITY = 6.0
+"""Pixels for each mm of the flattened picture."""
+OPEN = 4.0
+"""Dark places broader than this, in mm, are shadow and not ink."""
+FINE, COARSE = 0.12, 0.5
+"""Of a line and of the paper about it, in mm: what is darker than its surroundings."""
+LINES = 98.0
+"""Per cent of the paper lighter than a usual line."""
+FAINT = 0.012
+"""What a usual line takes of the light at least: less is the grain of the paper."""
+MASK = 0.35
+"""Millimetres about printed ink that are not looked at."""
+STEP = 0.12
+"""Distance, across a line, of the places where it is looked for, in mm."""
+ENDS = 1.6
+"""Millimetres at both ends of a line that are not looked at: heads, circles, letters."""
+LEAST_ERROR = 0.1
+"""Standard deviation of a line across, at least, in mm: a hand's lines are not quite straight."""
+BOW = 5.0
+"""Half the length of a compass arc that is looked at, in mm."""
+COVERED = 0.3
+"""A place of a line counts as drawn from this part of a usual line on."""
+
+
+class InkLine(Struct, frozen=True):
+    """A straight line that was found: two places (mm, complex, y down), how much of it is there."""
+
+    start: complex
+    end: complex
+    cover: float
+    error: float
+    """Standard deviation across, in mm."""
+
+    @property
+    def way(self) -> complex:
+        """Its unit direction."""
+        return (self.end - self.start) / abs(self.end - self.start)
+
+    def off(self, place: complex) -> float:
+        """How far a place lies beside it, in mm, to the left or to the right."""
+        return float(((place - self.start) * self.way.conjugate()).imag)
+
+
+class DrawnInk(Struct, frozen=True):
+    """The drawn lines of a sheet's fields: ``dark`` is 1 on a usual line and 0 on paper.
+
+    ``known`` is 0 where printed ink hides what was drawn.
+    """
+
+    dark: Any
+    known: Any
+
+    def at(self, places: Any) -> tuple[Any, Any]:
+        """Darkness and whether it is known at some places (complex mm)."""
+        x = ((places.real - AREA[0]) * DENSITY - 0.5).astype(np.float32)
+        y = ((places.imag - AREA[1]) * DENSITY - 0.5).astype(np.float32)
+        shape = x.shape
+        x, y = x.reshape(-1, shape[-1]), y.reshape(-1, shape[-1])
+        dark = cv2.remap(self.dark, x, y, cv2.INTER_LINEAR, borderValue=0)
+        known = cv2.remap(self.known, x, y, cv2.INTER_NEAREST, borderValue=0)
+        return dark.reshape(shape), known.reshape(shape)
+
+    def lines(
+        self, start: complex, end: complex, beside: float, beyond: float, most: int = 3
+    ) -> list[InkLine]:
+        """Lines from about a place to about another, that pass so far beside them at most."""
+        long = abs(end - start)
+        if not np.isfinite(long):
+            return []
+        inset = min(ENDS, 0.2 * long)
+        count = int((long - 2 * inset) * 3)
+        if count < 6:
+            return []
+        way = (end - start) / long
+        along = np.linspace(inset, long - inset, count)
+        across = offsets(max(beside, beyond))
+        strip, known = self.at(start + way * (along[:, None] + 1j * across[None, :]))
+        return [
+            InkLine(start + 1j * way * near, end + 1j * way * distant, cover, error)
+            for near, distant, cover, error in fitted(
+                strip, known, across, along / long, (beside, beyond), most
+            )
+        ]
+
+    def arcs(self, centre: complex, radius: float, place: complex, beside: float) -> list[InkLine]:
+        """Arcs about a centre near a place, each as the line that touches it there."""
+        if not abs(place - centre) > BOW or not np.isfinite(radius):
+            return []
+        out = (place - centre) / abs(place - centre)
+        along = np.linspace(-BOW, BOW, int(6 * BOW))
+        across = offsets(beside)
+        turned = out * np.exp(1j * along / radius)
+        shift = abs(place - centre) - radius
+        strip, known = self.at(centre + turned[:, None] * (radius + shift + across[None, :]))
+        found = fitted(strip, known, across, (along + BOW) / (2 * BOW), (beside, beside), 3)
+        lines = []
+        for near, distant, cover, error in found:
+            if abs(near - distant) < 0.12 * BOW:
+                ends = (place + near * out - 1j * BOW * out, place + distant * out + 1j * BOW * out)
+                lines.append(InkLine(*ends, cover, error))
+        return lines
+
+    def cover(self, start: complex, end: complex, beside: float = 0.3) -> float:
+        """How much of the way between two places is drawn, straight but for so many mm beside."""
+        long = abs(end - start)
+        if not long >= 2.5 * ENDS:  # nor where one end is nowhere
+            return 0.0
+        way = (end - start) / long
+        along = np.linspace(ENDS, long - ENDS, max(8, int(long * 2)))
+        across = np.arange(-beside, beside + 0.05, 0.15)
+        dark, known = self.at(start + way * (along[:, None] + 1j * across[None, :]))
+        drawn = dark.max(axis=1) > COVERED
+        whole = known[:, len(across) // 2] > 0
+        return float((drawn & whole).sum() / max(whole.sum(), 1))
+
+
+def offsets(far: float) -> Any:
+    """Distances across a line, so far to both sides."""
+    half = int(far / STEP) + 2
+    return np.arange(-half, half + 1) * STEP
+
+
+Fitted = tuple[float, float, float, float]
+"""How far a line lies to the side at both ends, how much of it is drawn, its deviation."""
+
+
+def fitted(
+    strip: Any, known: Any, across: Any, part: Any, windows: tuple[float, float], most: int
+) -> list[Fitted]:
+    """The lines along a strip that pass within windows at both of its ends, the best first.
+
+    ``part`` is where its rows stand, from 0 at one end to 1 at the other.
+    """
+    strip = np.clip(strip, 0, 1) * known
+    middle, count = len(across) // 2, len(part)
+    first, last = (np.arange(-round(w / STEP), round(w / STEP) + 1) for w in windows)
+    place = first[:, None, None] * (1 - part) + last[None, :, None] * part
+    where = middle + np.rint(place).astype(np.int32)
+    seen = known[:, middle].sum()
+    if seen < max(5, 0.3 * count):
+        return []
+    score = strip[np.arange(count), where].sum(axis=2) / seen
+    found: list[Fitted] = []
+    for _ in range(most):
+        i, j = np.unravel_index(score.argmax(), score.shape)
+        if score[i, j] < 0.3:
+            break
+        line = refined(strip, known, across, part, float(first[i]) * STEP, float(last[j]) * STEP)
+        if line is not None:
+            found.append(line)
+        score[max(0, i - 3) : i + 4, max(0, j - 3) : j + 4] = 0
+    return found
+
+
+def refined(
+    strip: Any, known: Any, across: Any, part: Any, near: float, distant: float
+) -> Fitted | None:
+    """Where the line of a strip really runs: its distance at both ends, how much of it is drawn,
+    and its standard deviation.
+    """
+    for width in (0.5, 0.35):
+        centre = near * (1 - part) + distant * part
+        weight = strip * (abs(across[None, :] - centre[:, None]) < width)
+        total = weight.sum(axis=1)
+        there = (strip * (abs(across[None, :] - centre[:, None]) < 0.3)).max(axis=1) > COVERED
+        use = (total > 0.2) & there
+        if use.sum() < 5:
+            return None
+        spots = (weight * across).sum(axis=1)[use] / total[use]
+        rows = np.stack([1 - part[use], part[use]], axis=1)
+        trust = np.ones(len(spots))
+        for _ in range(3):
+            fit, *_ = np.linalg.lstsq(rows * trust[:, None], spots * trust, rcond=None)
+            off = abs(spots - rows @ fit)
+            trust = 1 / (1 + (off / max(float(np.median(off)) * 2, 0.05)) ** 2)
+        near, distant = float(fit[0]), float(fit[1])
+    whole = known[:, len(across) // 2] > 0
+    cover = float((there & whole).sum() / max(whole.sum(), 1))
+    spread = float(np.median(off)) * 1.5
+    return near, distant, cover, max(LEAST_ERROR, spread)
+
+
+def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
+    """The drawn lines in the fields of a photographed sheet."""
+    flat = flattened(grey, over, AREA, DENSITY).astype(np.float32)
+    small = cv2.resize(flat, None, fx=1 / 3, fy=1 / 3, interpolation=cv2.INTER_AREA)
+    side = 2 * round(OPEN * DENSITY / 3 / 2) + 1
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
+    paper = cv2.GaussianBlur(cv2.morphologyEx(small, cv2.MORPH_CLOSE, kernel), (0, 0), 4)
+    paper = cv2.resize(paper, (flat.shape[1], flat.shape[0]), interpolation=cv2.INTER_LINEAR)
+    dark = 1 - flat / np.maximum(paper, 8)
+    lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
+    lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
+    known = 1 - printed_mask(page, flat.shape)
+    inner = lines[known > 0]
+    usual = max(float(np.percentile(inner, LINES)), FAINT)
+    return DrawnInk(np.clip(lines / usual, 0, 1.5).astype(np.float32), known.astype(np.float32))
+
+
+def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:
+    """A part of the sheet as if it lay flat under the eye, so many pixels for each mm."""
+    left, top, right, bottom = rect
+    width, height = round((right - left) * density), round((bottom - top) * density)
+    coarse = 8
+    xs = left + (np.arange(-1, width // coarse + 3) * coarse + 0.5) / density
+    ys = top + (np.arange(-1, height // coarse + 3) * coarse + 0.5) / density
+    pixels = over(np.stack(np.meshgrid(xs, ys), axis=-1)).astype(np.float32)
+    u, v = np.meshgrid(np.arange(width) / coarse + 1, np.arange(height) / coarse + 1)
+    u, v = u.astype(np.float32), v.astype(np.float32)
+    x = cv2.remap(pixels[..., 0], u, v, cv2.INTER_LINEAR)
+    y = cv2.remap(pixels[..., 1], u, v, cv2.INTER_LINEAR)
+    return cv2.remap(grey, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+
+
+def printed_mask(page: Page, shape: Any) -> Any:
+    """1 where a page's own ink stands in the fields, with a margin."""
+    mask = np.zeros(shape, np.uint8)
+    for mark in page.marks:
+        for outline, width in outlines(mark):
+            points = (np.array(outline) - [AREA[0], AREA[1]]) * DENSITY - 0.5
+            fixed = np.round(points * 16).astype(np.int32)
+            thick = max(1, round((width + 2 * MASK) * DENSITY))
+            if isinstance(mark, Text):
+                cv2.fillPoly(mask, [fixed], 1, shift=4)
+            else:
+                cv2.polylines(mask, [fixed], False, 1, thick, shift=4)
+    return mask
+
+
+def outlines(mark: Mark) -> Iterator[tuple[list[tuple[float, float]], float]]:
+    """The outline of a printed mark in the fields, and the width of its line; boxes of texts."""
+    left, top, right, bottom = reach(mark)
+    if right < AREA[0] or left > AREA[2] or bottom < AREA[1] or top > AREA[3]:
+        return
+    width = style_of(mark.cls, "black").width
+    if isinstance(mark, Text):
+        yield list(mark.corners()), 0.0
+    elif isinstance(mark, Polyline):
+        yield [*mark.points, mark.points[0]], width
+    elif isinstance(mark, LineMark):
+        yield [(mark.x1, mark.y1), (mark.x2, mark.y2)], width
+    else:
+        turns = np.linspace(0, 2 * np.pi, 24)
+        ring = np.stack([mark.cx + mark.r * np.cos(turns), mark.cy + mark.r * np.sin(turns)], 1)
+        yield [(float(x), float(y)) for x, y in ring], width

@@ -1,0 +1,32 @@
+"""The folder of readings: a record and a flattened picture for each photograph."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+
+from graphkin.reading.read_sheet import SheetRecord
+from graphkin.text.errors import PageError, Problem
+
+READING, PICTURE = ".reading.json", ".jpg"
+"""How the names of a record and of its picture end."""
+
+
+def kept(out: Path, name: str) -> SheetRecord | None:
+    """The record of a photograph in a folder; None where there is none that is whole."""
+    try:
+        data = (out / f"{name}{READING}").read_bytes()
+        return msgspec.json.decode(data, type=SheetRecord)
+    except (OSError, msgspec.MsgspecError):
+        return None
+
+
+def records_in(out: Path) -> list[SheetRecord]:
+    """All records of a folder, by name. Raises PageError where it holds none."""
+    names = sorted(path.name.removesuffix(READING) for path in out.glob(f"*{READING}"))
+    found = [record for name in names if (record := kept(out, name)) is not None]
+    if not found:
+        hint = "graphkin read CLASS PHOTOS -o DIR makes it"
+        raise PageError(Problem(str(out), "holds no reading", "a folder of graphkin read", hint))
+    return found

@@ -1,0 +1,241 @@
+"""The lettered points of a student's sheet, in the order of the construction, and what leads to
+each: the lines, bars and arrows that meet there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+from msgspec import Struct
+
+from graphkin.accuracy.pencil.original import Original
+from graphkin.accuracy.pencil.pencil_marks import Paper
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.vocabulary import join
+from graphkin.construction.guides.guide_line import GuideLine
+from graphkin.drawing.field import Field
+from graphkin.drawing.marks import Page
+from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+
+LETTERED = (Part.POSITION, Part.VELOCITY, Part.ACCELERATION, Part.CENTRE, Part.POLE)
+"""The parts of the work whose points are read."""
+SHORT = 3.0
+"""Millimetres from a point within which the beginning of a line tells nothing of it."""
+EXACT = 1e-6
+"""Millimetres within which a line passes exactly through a point."""
+LONGEST = 420.0
+"""Lines longer than the paper, in mm, lead to what lies off it."""
+AHEAD = 40.0
+"""How far along a line that begins at the point itself it is looked for, in mm."""
+
+
+class Leading(Struct, frozen=True):
+    """What leads to a point: the step of its other end, a point, or a line that begins there.
+
+    ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass, ``after``
+    that it is drawn through the point or from it when that is there.
+    """
+
+    far: int
+    given: bool = False
+    bow: bool = False
+    after: bool = False
+
+
+class LetteredSheet(Struct, frozen=True, dict=True):
+    """A student's sheet as it should be drawn, and the page that was printed for it."""
+
+    drawing: Drawing
+    page: Page
+
+    @property
+    def kind(self) -> str:
+        """Velocity or acceleration."""
+        return self.drawing.kind
+
+    @cached_property
+    def layout(self) -> Layout:
+        """Where its fields are."""
+        return lay_out(self.drawing)
+
+    @cached_property
+    def exact(self) -> Original:
+        """The construction without errors."""
+        scales = self.drawing.scales
+        paper = Paper(scales.kL, scales.kv, scales.ka)
+        return Original(self.drawing.trace, paper, (), scales.triangles)
+
+    def field(self, number: int) -> Field:
+        """The field in which a step is drawn."""
+        step = self.exact.program.steps[number]
+        return self.layout.mechanism if step.plane is Plane.MECHANISM else self.layout.plan
+
+    def place(self, number: int, value: Any) -> Any:
+        """Where a value of a step lies on paper: complex mm, y down. Of a line, where it begins."""
+        if isinstance(value, Ratio):
+            value = value.start + value.shift / value.size
+        elif isinstance(value, Line):
+            value = value.point
+        elif isinstance(value, Circle):
+            value = value.centre
+        elif isinstance(value, Vector):
+            value = value.tip
+        field = self.field(number)
+        shift = (value - field.middle) * field.mm
+        return complex(*field.at) + shift.conjugate()
+
+    def value(self, number: int, place: complex) -> Any:
+        """The value of a step that lies at a place of the paper."""
+        field = self.field(number)
+        found = (place - complex(*field.at)).conjugate() / field.mm + field.middle
+        exact = self.exact.trace.values[number]
+        return Ratio(found, 0j, 1.0) if isinstance(exact, Ratio) else found
+
+    @cached_property
+    def points(self) -> tuple[int, ...]:
+        """The steps of the points that are read, in the order of the construction."""
+        return tuple(number for number in self.exact.order if self.is_read(number))
+
+    @cached_property
+    def corners(self) -> tuple[int, ...]:
+        """The steps of the corners of the plan that bear no letter of their own: ends of components
+        from which lines are drawn, and the points of trial plans.
+        """
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        lettered = set(self.points)
+        return tuple(
+            number
+            for number in self.exact.order
+            if steps[number].plane is self.drawing.plane
+            and isinstance(values[number], complex)
+            and number not in lettered
+            and steps[number].args
+            and (not steps[number].name or steps[number].aside is not None)
+            and any(steps[other].arrow and number in steps[other].args for other in values)
+        )
+
+    def is_read(self, number: int) -> bool:
+        """Whether a step is a lettered point of this sheet that a hand finds."""
+        step, value = self.exact.program.steps[number], self.exact.trace.values[number]
+        own = step.plane is self.drawing.plane or number in self.on_mechanism
+        lettered = bool(step.name) and step.aside is None and step.part in LETTERED
+        if not (own and lettered and step.args and step.given is None and not step.arrow):
+            return False
+        if isinstance(value, Ratio):
+            place = self.drawing.place(value)
+            return place is not None and self.field(number).holds(place, 2.0)
+        return isinstance(value, complex)
+
+    @cached_property
+    def on_mechanism(self) -> frozenset[int]:
+        """The steps that this sheet draws on the mechanism."""
+        return frozenset(number for number, _, _ in self.drawing.mechanism_steps())
+
+    @cached_property
+    def leading(self) -> Mapping[int, tuple[Leading, ...]]:
+        """What leads to each point that is read."""
+        return {
+            number: tuple(dict.fromkeys(self.led(number)))
+            for number in (*self.points, *self.corners)
+        }
+
+    @cached_property
+    def key_lines(self) -> tuple[tuple[float, float, float, float], ...]:
+        """The ways that lead to the points of the key, in mm: what a person holds drawings to."""
+        values, found = self.exact.trace.values, dict[tuple[float, float, float, float], None]()
+        for number, every in self.leading.items():
+            end = complex(self.place(number, values[number]))
+            for each in every:
+                start = complex(self.place(each.far, values[each.far]))
+                far = each.given or each.bow or each.after or abs(end - start) < SHORT
+                if not far and abs(end - start) < LONGEST:
+                    ends = start.real, start.imag, end.real, end.imag
+                    found[tuple(round(part, 2) for part in ends)] = None  # type: ignore[index]
+        return tuple(found)
+
+    def led(self, number: int) -> Iterator[Leading]:
+        """What leads to a point: its own lines, then arrows, then bars."""
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        hand = steps[number].by_hand
+        for way in (number, hand) if hand is not None and hand in values else (number,):
+            for arg in steps[way].args:
+                if isinstance(values.get(arg), Line) and steps[arg].plane is steps[number].plane:
+                    yield Leading(arg, self.is_given(arg))
+                elif isinstance(values.get(arg), Circle):
+                    yield Leading(arg, bow=True)
+        for other in values:
+            step = steps[other]
+            if step.arrow and step.action is join and step.plane is steps[number].plane:
+                tail, tip = step.args[:2]
+                if number in (tail, tip):
+                    yield Leading(tip if number == tail else tail)
+        yield from (Leading(far) for far in self.bars.get(number, ()))
+        yield from (Leading(other, after=True) for other in self.after(number))
+
+    def after(self, number: int) -> Iterator[int]:
+        """The lines that are drawn through a point when it is there, and the arrows set at it."""
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        own = values[number]
+        if not isinstance(own, complex):
+            return
+        later = self.exact.program.descendants(number)
+        for other, value in values.items():
+            step = steps[other]
+            here = step.plane is self.drawing.plane or other in self.on_mechanism
+            if other not in later or step.plane is not steps[number].plane or not here:
+                continue
+            if isinstance(value, Line):
+                beside = ((own - value.point) * value.along.conjugate()).imag / abs(value.along)
+                if abs(beside) * self.field(number).mm < EXACT:
+                    yield other
+            elif isinstance(value, Vector) and step.action is not join:
+                off = value.tail - own
+                if abs(off) * self.field(number).mm < EXACT:
+                    yield other
+
+    def is_given(self, number: int) -> bool:
+        """Whether a line is that of a printed guide: nothing of it was drawn."""
+        steps, pending = self.exact.program.steps, [number]
+        while pending:
+            step = steps[pending.pop()]
+            if step.plane not in (Plane.MECHANISM, Plane.NUMBERS):
+                return False
+            if step.part is not Part.POSITION or step.name in self.moving:
+                return False
+            pending += step.args
+        return steps[number].plane is Plane.MECHANISM and number in self.guides
+
+    @cached_property
+    def guides(self) -> frozenset[int]:
+        """The lines of the mechanism that are nothing but guides of the frame."""
+        steps = self.exact.program.steps
+        return frozenset(
+            number
+            for number, value in self.exact.trace.values.items()
+            if isinstance(value, Line) and isinstance(steps[number].of, GuideLine)
+        )
+
+    @cached_property
+    def moving(self) -> frozenset[str]:
+        """The names of the points of moving links."""
+        scene = self.drawing.scene
+        fixed = set(scene.frame.points)
+        every = {point for link in scene.links.values() for point in link.points}
+        return frozenset(every - fixed)
+
+    @cached_property
+    def bars(self) -> Mapping[int, tuple[int, ...]]:
+        """For each point of the mechanism the others of its links."""
+        targets, found = self.exact.program.targets, dict[int, list[int]]()
+        for link in self.drawing.scene.links.values():
+            numbers = [targets.get(("position", point)) for point in link.points]
+            there = [n for n in numbers if n is not None and n in self.exact.trace.values]
+            for one, other in combinations(there, 2):
+                found.setdefault(one, []).append(other)
+                found.setdefault(other, []).append(one)
+        return {number: tuple(others) for number, others in found.items()}

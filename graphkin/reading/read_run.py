@@ -1,0 +1,149 @@
+"""A class of photographs read into a folder: resumable, on all cores, one run at a time.
+
+For each photograph the folder holds NAME.jpg, the flattened sheet, and NAME.reading.json, what was
+read; answers.csv holds the fields of the form that follow from it, as ``grade`` reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from math import ceil
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+
+from graphkin.classroom.grading.class_folder import ClassFolder
+from graphkin.classroom.printing.journal import key_of
+from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.printing.workers import chunks, engine, results
+from graphkin.classroom.roster.csv_text import safe
+from graphkin.documents.sheet_documents import language_of
+from graphkin.reading.drawn_answers import ANSWERS, answers_table
+from graphkin.reading.kept_readings import PICTURE, READING, kept
+from graphkin.reading.pictures import Photograph, hash_of_picture
+from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
+from graphkin.writers.files import put_in_place
+from graphkin.writers.lock import locked
+
+POINTS = ".points.json"
+FORMAT = 1
+"""The format of points.json."""
+METHOD = 1
+"""Raised when the same photograph would be read otherwise: readings of before are made anew."""
+FEWEST = 3
+"""Photographs from which a worker process pays for itself."""
+Tell = Callable[[int, int], None]
+
+
+class ReadOutcome(Struct):
+    """What came of a run: all records in the order of the photographs, how many stood already."""
+
+    records: list[SheetRecord]
+    stood: int = 0
+
+
+def read_order(opened: ClassFolder, grid: Grid, *, by_hand: bool = False) -> ReadOrder:
+    """What the reading of a class shares."""
+    edition = opened.edition
+    language = language_of(opened.book.mechanism({}), None).language
+    order = PrintOrder(edition.lab, edition.scene, language, "colour")
+    return ReadOrder(order, {each.code: each for each in edition.variants}, grid, by_hand)
+
+
+def read_class(
+    opened: ClassFolder,
+    pictures: Sequence[Photograph],
+    out: Path,
+    order: ReadOrder,
+    jobs: int,
+    tell: Tell,
+) -> ReadOutcome:
+    """Read photographs of a class into a folder. What stands there of the same is kept."""
+    out.mkdir(parents=True, exist_ok=True)
+    with locked(out):
+        keys = {each.name: reading_key(order, each) for each in pictures}
+        known = {
+            each.name: record
+            for each in pictures
+            if (record := kept(out, each.name)) is not None and record.key == keys[each.name]
+        }
+        wanted = [(each, keys[each.name]) for each in pictures if each.name not in known]
+        outcome = ReadOutcome([], len(known))
+        done = len(known)
+        tell(done, len(pictures))
+        if wanted:
+            with engine(min(jobs, ceil(len(wanted) / FEWEST))) as (executor, workers):
+                work = partial(read_some, order)
+                for found in results(executor, workers, work, chunks(wanted, workers, 4)):
+                    for one in found:
+                        put(out, one)
+                        known[one.record.name] = one.record
+                    done += len(found)
+                    tell(done, len(pictures))
+        outcome.records = [known[each.name] for each in pictures]
+        write_answers(opened, out)
+    return outcome
+
+
+def reading_key(order: ReadOrder, picture: Photograph) -> str:
+    """What decides a reading: the photograph, the student's data, how it is read."""
+    students = {code: dict(each.settings) for code, each in order.variants.items()}
+
+    how = msgspec.to_builtins(order.grid), order.by_hand
+    return key_of(METHOD, hash_of_picture(picture), students, order.order.scene, how)
+
+
+def put(out: Path, one: SheetRead) -> None:
+    """Write a record and its picture."""
+    name = one.record.name
+    files = {out / f"{name}{PICTURE}": one.picture} if one.picture else {}
+    data = msgspec.json.format(msgspec.json.encode(one.record), indent=1)
+    put_in_place({**files, out / f"{name}{READING}": data + b"\n"})
+
+
+def write_answers(opened: ClassFolder, out: Path) -> None:
+    """Write the answers that follow from all that was read and decided."""
+    put_in_place({out / ANSWERS: answers_table(opened, out)})
+
+
+def points_file(record: SheetRecord) -> bytes:
+    """A record as other programs read it."""
+    points = [
+        {
+            "name": each.name,
+            "step": each.step,
+            "at": None if each.at is None else list(each.at),
+            "verdict": each.verdict,
+            "ask": each.ask,
+        }
+        for each in record.points
+    ]
+    found = {
+        "format": FORMAT,
+        "code": record.code,
+        "refused": record.refused,
+        "map": [list(pixel) for pixel in record.map],
+        "seconds": record.seconds,
+        "points": points,
+    }
+    return msgspec.json.encode(found) + b"\n"
+
+
+def said(opened: ClassFolder, outcome: ReadOutcome) -> Iterator[str]:
+    """What the terminal says of a run: a line for each photograph, then the sums."""
+    names = {each.code: each.student for each in opened.takers}
+    for record in outcome.records:
+        if record.refused is not None:
+            yield f"{record.name}: refused: {record.refused}"
+            continue
+        who, asked = names[record.code], sum(point.ask for point in record.points)
+        found = f"{len(record.points)} points, {asked or 'none'} to be looked at"
+        yield f"{record.name}: {safe(who.id)} {who.name}, {record.kind}: {found}"
+    read = [record for record in outcome.records if record.refused is None]
+    asked = sum(point.ask for record in read for point in record.points)
+    yield ""
+    stood = f", {outcome.stood} stood already" if outcome.stood else ""
+    sums = f"{len(read)} of {len(outcome.records)} photographs read{stood}"
+    yield f"{sums}; {asked} points to be looked at"

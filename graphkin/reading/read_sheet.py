@@ -1,0 +1,232 @@
+"""One photograph read: whose it is, its map, its points; or why not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from time import perf_counter
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.classroom.printing.edition import Variant
+from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.drawing.marks import Page
+from graphkin.reading.lettered_points import LetteredSheet
+from graphkin.reading.paper_map import PaperMap
+from graphkin.reading.pictures import Photograph, Unreadable, grey_of
+from graphkin.reading.point_reading import PointReading
+from graphkin.text import LANGUAGES
+from graphkin.text.errors import GraphkinError
+
+WHOLE = (0.0, 0.0, 420.0, 297.0)
+"""An A3 sheet, in mm."""
+SHOWN, QUALITY = 6.0, 82
+"""Pixels for each mm of the flattened picture that is kept, and its quality as JPEG."""
+FAULTS = (ArithmeticError, LookupError, ValueError)
+"""What a picture that nobody foresaw may lead to: it is refused, and the others are read."""
+SURE_OF_SHEET = 0.9
+"""The share of a sheet's own lines from which no other language of its is tried."""
+
+
+class Grid(Struct, frozen=True):
+    """Places of the paper in mm whose pixels are asked for: row after row, x running fastest."""
+
+    x: tuple[float, ...] = ()
+    y: tuple[float, ...] = ()
+
+
+class SheetRecord(Struct, frozen=True):
+    """What was read of a photograph; ``refused`` says why it was not."""
+
+    name: str
+    file: str
+    key: str
+    code: str = ""
+    kind: str = ""
+    refused: str | None = None
+    map: tuple[tuple[float, float], ...] = ()
+    seconds: float = 0.0
+    points: tuple[PointReading, ...] = ()
+    corners: dict[int, tuple[float, float]] = {}
+    key_lines: tuple[tuple[float, float, float, float], ...] = ()
+    residual: float = 0.0
+
+
+class ReadOrder(Struct, frozen=True):
+    """What the reading of a class shares: its lab and scene, its students by code."""
+
+    order: PrintOrder
+    variants: Mapping[str, Variant]
+    grid: Grid = Grid()
+    by_hand: bool = False
+
+
+class SheetRead(Struct, frozen=True):
+    """A record, and the flattened picture as JPEG; none where the photograph was refused."""
+
+    record: SheetRecord
+    picture: bytes = b""
+
+
+class FoundSheet(Struct, frozen=True):
+    """A sheet that lies in a picture: whose, which, and where."""
+
+    sheet: LetteredSheet
+    map: PaperMap
+    residual: float
+    sheets: Sheets
+
+
+def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> list[SheetRead]:
+    """What is read of some photographs, each with the key under which it is kept."""
+    import cv2
+
+    cv2.setNumThreads(1)
+    return [read_one(order, photograph, key) for photograph, key in wanted]
+
+
+def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
+    """What is read of one photograph."""
+    import cv2
+
+    start = perf_counter()
+    record = SheetRecord(photograph.name, photograph.path.name, key)
+    code = ""
+    try:
+        grey = grey_of(photograph)
+        code, corners = known_code(grey, order.variants)
+        found = found_sheet(grey, order, code, corners)
+        points, corners_at = unread(found) if order.by_hand else read_points(grey, found)
+    except (Unreadable, GraphkinError, *FAULTS, cv2.error) as error:
+        spent = round(perf_counter() - start, 3)
+        told = isinstance(error, Unreadable | GraphkinError)
+        refused = str(error).splitlines()[0] if told else f"cannot be read: {type(error).__name__}"
+        return SheetRead(replace(record, code=code, refused=refused, seconds=spent))
+    pixels = mapped(found.map, order.grid)
+    spent = round(perf_counter() - start, 3)
+    read = replace(
+        record,
+        code=code,
+        kind=found.sheet.kind,
+        map=pixels,
+        seconds=spent,
+        points=points,
+        corners=corners_at,
+        key_lines=found.sheet.key_lines,
+        residual=round(found.residual, 3),
+    )
+    return SheetRead(read, flat_picture(grey, found.map))
+
+
+def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
+    """The one code of the class in a picture, with its corners. Raises Unreadable."""
+    from graphkin.reading.codes import codes_in
+
+    found = codes_in(grey)
+    ours = {each.text: each for each in found if each.text in variants}
+    if len(ours) > 1:
+        raise Unreadable(f"holds several sheets: {', '.join(sorted(ours))}; one in each picture")
+    if not ours and found:
+        raise Unreadable("its code is that of no student of this class: another class, or a copy")
+    if not ours:
+        raise Unreadable("no code is found: the square left of the title block must be seen whole")
+    (each,) = ours.values()
+    return each.text, each.corners
+
+
+def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSheet:
+    """The sheet of a student that lies in a picture: the one whose own lines are found.
+
+    Raises Unreadable where none can be flattened.
+    """
+    from graphkin.reading.registration import registered
+
+    best, most, refused = None, -1.0, ""
+    own = order.variants[code].spoken or order.order.language
+    for language in dict.fromkeys((own, *LANGUAGES)):
+        sheets = sheets_of(order.order, order.variants[code], language)
+        for kind, page in task_pages(sheets):
+            found = registered(grey, page, corners)
+            if found is None or found.own <= most:
+                continue
+            drawing = next(each for each in sheets.drawings if each.kind == kind)
+            most, refused = found.own, found.refused
+            best = FoundSheet(LetteredSheet(drawing, page), found.map, found.residual, sheets)
+        if most >= SURE_OF_SHEET:
+            break
+    if best is None or refused:
+        raise Unreadable(refused or "no sheet of this student has a square to begin with")
+    return best
+
+
+def task_pages(sheets: Sheets) -> list[tuple[str, Page]]:
+    """The drawing sheets of a student's task."""
+    return [(sheet.kind, sheet.pages[0]) for sheet in sheets.of("task") if sheet.kind != FORM]
+
+
+@lru_cache(maxsize=8)
+def drawn_for(code: str, settings: Any, language: str, scene: str) -> dict[str, Sheets]:
+    """Where the sheets of a student are kept while several pictures of them are read."""
+    return {}
+
+
+def sheets_of(order: PrintOrder, variant: Variant, language: str) -> Sheets:
+    """The sheets of a student in a language."""
+    settings = tuple(sorted(variant.settings.items()))
+    kept = drawn_for(variant.code, settings, language, order.scene)
+    if "" not in kept:
+        told = PrintOrder(order.lab, order.scene, language, order.ink)
+        kept[""] = Sheets(told, variant_in(variant, language))
+    return kept[""]
+
+
+def variant_in(variant: Variant, language: str) -> Variant:
+    """A student whose sheets are in a language."""
+    return replace(variant, language=language)
+
+
+Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]]]
+"""The lettered points of a sheet, and where its corners without letters lie, by their steps."""
+
+
+def read_points(grey: Any, found: FoundSheet) -> Points:
+    """The points of a sheet that was found."""
+    from graphkin.reading.drawn_ink import drawn_ink
+    from graphkin.reading.point_reader import PointReader
+
+    rubric = found.sheets.lab.rubric
+    ink = drawn_ink(grey, found.map, found.sheet.page)
+    reader = PointReader(found.sheet, ink, Pencil(rubric.point, rubric.line))
+    points = reader.read()
+    return points, reader.corners()
+
+
+def unread(found: FoundSheet) -> Points:
+    """The points of a sheet that a person is to click: nothing of them is read."""
+    from graphkin.reading.point_reader import forecast_points
+
+    rubric = found.sheets.lab.rubric
+    return forecast_points(found.sheet, Pencil(rubric.point, rubric.line)), {}
+
+
+def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
+    """The pixels of a grid of places."""
+    import numpy as np
+
+    if not grid.x or not grid.y:
+        return ()
+    places = np.stack(np.meshgrid(grid.x, grid.y), axis=-1).reshape(-1, 2)
+    return tuple((round(float(x), 3), round(float(y), 3)) for x, y in over(places))
+
+
+def flat_picture(grey: Any, over: PaperMap) -> bytes:
+    """The flattened sheet as a JPEG that holds nothing but its pixels."""
+    import cv2
+
+    from graphkin.reading.drawn_ink import flattened
+
+    flat = flattened(grey, over, WHOLE, SHOWN)
+    return bytes(cv2.imencode(".jpg", flat, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1])

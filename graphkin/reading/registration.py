@@ -1,0 +1,325 @@
+"""Where a printed sheet lies in a picture, found by its own lines.
+
+The square with the code says roughly where the sheet lies. From there the printed lines are
+followed outwards, ring by ring: each is looked for where the map found so far puts it, and the map
+is fitted anew to all that were found. Perspective, lens and bending are fitted together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+import cv2
+import numpy as np
+from msgspec import Struct
+
+from graphkin.drawing.marks import LineMark, Page, Polyline
+from graphkin.drawing.style import style_of
+from graphkin.reading.paper_map import (
+    BENDS,
+    COUNT,
+    HALF,
+    LENS,
+    MIDDLE,
+    PLAIN,
+    PaperMap,
+    bendings,
+    prior,
+    seen_at,
+)
+
+LINES = ("frame", "border", "panel")
+"""The classes of the printed lines that are followed."""
+SHARED = ("frame", "border")
+"""Those that all sheets of a student have alike."""
+SHORTEST, SPACING, INSET = 4.5, 3.0, 0.8
+"""The shortest line that is followed, how far apart it is measured, and how far from its ends, in
+mm."""
+LEAST = 4
+"""Places at which a tick is measured: far from long lines ticks alone hold the paper."""
+RINGS = (40.0, 52.0, 68.0, 88.0, 114.0, 148.0, 180.0, 215.0, 250.0, 290.0, 335.0, 380.0, 430.0)
+"""How far from the square lines are followed, in mm."""
+LENS_FROM, BENT_FROM = 80.0, 100.0
+"""Rings from which lens and bending are fitted."""
+REACH, NEAR = 2.0, 1.1
+"""How far to both sides a line is looked for while rings grow, and at the end, in mm."""
+TRUSTED, LAST = 0.4, 0.15
+"""The same of how far off a line may be to be believed."""
+FLATNESS, ALIKE = 0.4, 10.0
+"""Paper whose lines are farther off, in deviations, ripples; so many neighbours are then as one."""
+STEP = 0.1
+"""Distance of the points of a profile across a line, in mm."""
+ALONG = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
+"""Profiles so many mm along the line are one."""
+DARK = 0.10
+"""Part of the paper's light that a printed line takes at least."""
+NOISE, CORNER = 0.05, 0.25
+"""Standard deviation of a measured line, and of a corner of the square, in mm."""
+BENT = 3.0
+"""What the simplest bending is expected to be, in mm."""
+ROUNDS, NUDGE = 3, 1e-6
+"""Steps of Gauss and Newton for each fit, and of the differences that they use."""
+LEAST_FOUND, WORST = 0.45, 0.5
+"""The share of lines within the picture that is to be found, and how far off they may lie."""
+LEAST_SIDE = 0.25
+"""The same share on each half of the sheet."""
+
+
+class PrintedLines(Struct, frozen=True):
+    """Where printed lines are measured: places, normals (mm), widths; which all sheets have."""
+
+    places: Any
+    normals: Any
+    widths: Any
+    shared: Any
+
+    def some(self, which: Any) -> PrintedLines:
+        """Those that are picked."""
+        return PrintedLines(
+            self.places[which], self.normals[which], self.widths[which], self.shared[which]
+        )
+
+
+class Registration(Struct, frozen=True):
+    """The map of a sheet; how much of its lines was found, and their residual in mm (95 of 100)."""
+
+    map: PaperMap
+    found: float
+    residual: float
+    own: float
+    """The share found of the lines that only this sheet has."""
+    refused: str = ""
+
+
+def printed_lines(page: Page) -> PrintedLines:
+    """The lines of a printed page that are followed in a picture of it."""
+    rows: list[tuple[float, ...]] = []
+    for x1, y1, x2, y2, cls in segments(page):
+        long = float(np.hypot(x2 - x1, y2 - y1))
+        if long < SHORTEST:
+            continue
+        count = max(LEAST, int((long - 2 * INSET) / SPACING))
+        width = style_of(cls, "black").width
+        way = (x2 - x1) / long, (y2 - y1) / long
+        for i in range(count):
+            at = INSET + (i + 0.5) * (long - 2 * INSET) / count
+            x, y = x1 + at * way[0], y1 + at * way[1]
+            rows.append((x, y, -way[1], way[0], width, cls.split()[0] in SHARED))
+    table = np.array(rows)
+    return PrintedLines(table[:, :2], table[:, 2:4], table[:, 4], table[:, 5] > 0)
+
+
+def segments(page: Page) -> Iterator[tuple[float, float, float, float, str]]:
+    """The straight printed lines of a page that are followed, with their classes."""
+    for mark in page.marks:
+        if mark.cls.split()[0] not in LINES or "scheme" in mark.cls:
+            continue
+        if isinstance(mark, LineMark):
+            yield mark.x1, mark.y1, mark.x2, mark.y2, mark.cls
+        elif isinstance(mark, Polyline):
+            ends = (*mark.points, mark.points[0]) if mark.closed else mark.points
+            for (x1, y1), (x2, y2) in pairwise(ends):
+                yield x1, y1, x2, y2, mark.cls
+
+
+def square_of(page: Page) -> Any:
+    """The corners of the square with the code on a page, in mm; None where it has none."""
+    points = [
+        point
+        for mark in page.marks
+        if isinstance(mark, Polyline) and mark.cls == "qr"
+        for point in mark.points
+    ]
+    if not points:
+        return None
+    (left, top), (right, bottom) = np.min(points, axis=0), np.max(points, axis=0)
+    return np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
+
+
+def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
+    """The map of a printed page whose square has its corners at some pixels of a grey picture."""
+    square = square_of(page)
+    if square is None:
+        return None
+    height, width = grey.shape
+    lines = printed_lines(page)
+    fit = MapFit(width, height, square, corners)
+    smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
+    far = np.hypot(*(lines.places - square.mean(axis=0)).T)
+    for ring in RINGS:
+        near = lines.some((far < ring) & lines.shared)
+        measured = measure(smooth, fit.map, near, REACH)
+        fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
+    for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
+        fit.to(measure(smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
+    return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines)
+
+
+class MeasuredLines(Struct, frozen=True):
+    """What was found of some lines: how far from its place each lies along its normal (mm), whether
+    it was found, and whether it lies in the picture at all.
+    """
+
+    lines: PrintedLines
+    off: Any
+    found: Any
+    seen: Any
+
+
+def measure(grey: Any, over: PaperMap, lines: PrintedLines, reach: float) -> MeasuredLines:
+    """Where lines lie, looked for to both sides of where a map puts them."""
+    across = np.arange(-reach - 1.0, reach + 1.0 + STEP / 2, STEP)
+    right, down = over.ways(lines.places)
+    normal = lines.normals[:, :1] * right + lines.normals[:, 1:] * down
+    tangent = lines.normals[:, :1] * down - lines.normals[:, 1:] * right
+    pixels = (
+        over(lines.places)[:, None, None]
+        + across[None, :, None, None] * normal[:, None, None]
+        + ALONG[None, None, :, None] * tangent[:, None, None]
+    ).astype(np.float32)
+    height, width = grey.shape
+    spots = pixels[:, :: len(across) - 1].reshape(len(pixels), -1, 2)
+    inside = (spots > 1).all((1, 2)) & (spots < [width - 2, height - 2]).all((1, 2))
+    profiles = cv2.remap(
+        grey,
+        np.nan_to_num(pixels[..., 0]).reshape(len(pixels), -1),
+        np.nan_to_num(pixels[..., 1]).reshape(len(pixels), -1),
+        cv2.INTER_LINEAR,
+    ).reshape(pixels.shape[:3])
+    profile = profiles.mean(axis=2).astype(np.float64)
+    white = np.maximum(np.percentile(profile, 90, axis=1), 20.0)
+    dark = 1 - profile / white[:, None]
+    off, found = np.zeros(len(pixels)), np.zeros(len(pixels), bool)
+    for width_of in np.unique(lines.widths):
+        rows = lines.widths == width_of
+        off[rows], found[rows] = peaks(dark[rows], across, float(width_of), reach)
+    return MeasuredLines(lines, off, found & inside, inside)
+
+
+def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
+    """Where a dark line of a width stands out most in profiles, and whether one does."""
+    half = max(round(width / 2 / STEP), 1)
+    core, flank = 2 * half + 1, 4
+    kernel = np.zeros(core + 2 * (flank + 2))
+    kernel[flank + 2 : flank + 2 + core] = 1 / core
+    kernel[:flank] = kernel[-flank:] = -0.5 / flank
+    stands = cv2.filter2D(dark, -1, kernel[None, :], borderType=cv2.BORDER_REPLICATE)
+    stands[:, abs(across) > reach] = -1.0
+    best = stands.argmax(axis=1)
+    rows = np.arange(len(dark))
+    window = np.clip(best[:, None] + np.arange(-half - 4, half + 5), 0, len(across) - 1)
+    part = dark[rows[:, None], window]
+    base = np.minimum(part[:, :2].mean(1), part[:, -2:].mean(1))
+    weight = np.clip(part - base[:, None] - 0.15 * part.max(1, keepdims=True), 0, None)
+    total = weight.sum(axis=1)
+    centre = (weight * across[window]).sum(axis=1) / np.maximum(total, 1e-9)
+    edge = abs(across[best]) > reach - STEP / 2
+    return centre, (stands[rows, best] > DARK) & (total > 0) & ~edge
+
+
+class MapFit:
+    """A map that is fitted, again and again, to what was measured with it."""
+
+    def __init__(self, width: int, height: int, square: Any, corners: Any) -> None:
+        self.width, self.height = width, height
+        self.square, self.corners = square, np.asarray(corners, dtype=float)
+        self.parameters = start(width, height, square, self.corners)
+        self.expected = prior(BENT)
+        self.expected[:6] = np.inf
+
+    @property
+    def map(self) -> PaperMap:
+        """The map as it is fitted so far."""
+        return PaperMap(self.width, self.height, tuple(self.parameters.tolist()))
+
+    def to(self, measured: MeasuredLines, trusted: float, *, lens: bool, bent: bool) -> None:
+        """Fit the map to what was measured with it, by least squares that forget outliers."""
+        known = measured.found
+        lines = measured.lines.some(known)
+        there = lines.places + measured.off[known, None] * lines.normals
+        pixels = self.map(there)
+        right, down = self.map.ways(there)
+        way = lines.normals[:, :1] * down - lines.normals[:, 1:] * right
+        scale = np.hypot(*way.T)
+        normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / scale[:, None]
+        places = np.concatenate([lines.places, self.square])
+        u, v = ((places - MIDDLE) / HALF).T
+        bends = bendings(u, v)
+        size = self.map.scale(self.square.mean(axis=0))
+        count = COUNT if bent else PLAIN if lens else LENS
+
+        def errors(found: Any) -> Any:
+            by_lines = (found[: len(pixels)] * normal).sum(1) / scale / NOISE
+            return np.concatenate([by_lines, found[len(pixels) :].ravel() / size / CORNER])
+
+        def pixels_with(parameters: Any, du: float = 0.0, dv: float = 0.0) -> Any:
+            shift = bends @ parameters[PLAIN:].reshape(len(BENDS), 2)
+            across, along = u + shift[:, 0] + du, v + shift[:, 1] + dv
+            return seen_at(parameters, across, along, self.width, self.height)
+
+        goal = errors(np.concatenate([pixels, self.corners]))
+        for _ in range(ROUNDS):
+            here = errors(pixels_with(self.parameters))
+            columns = []
+            for number in range(min(count, PLAIN)):
+                nudged = self.parameters.copy()
+                nudged[number] += NUDGE
+                columns.append((errors(pixels_with(nudged)) - here) / NUDGE)
+            if bent:
+                across = (
+                    pixels_with(self.parameters, du=NUDGE) - pixels_with(self.parameters)
+                ) / NUDGE
+                along = (
+                    pixels_with(self.parameters, dv=NUDGE) - pixels_with(self.parameters)
+                ) / NUDGE
+                for k in range(len(BENDS)):
+                    columns += [
+                        errors(bends[:, k, None] * across),
+                        errors(bends[:, k, None] * along),
+                    ]
+            off, jacobian = here - goal, np.stack(columns, axis=1)
+            spread = max(1.5 * float(np.median(abs(off))), trusted / NOISE / 3)
+            weights = np.ones(len(off))
+            weights[: len(pixels)] = 1 / (1 + (off[: len(pixels)] / (3 * spread)) ** 2) ** 2
+            weighted = jacobian * weights[:, None]
+            rippled = 1.4826 * float(np.median(abs(off[: len(pixels)]))) if len(pixels) else 0
+            held = max(1.0, ALIKE * ((rippled / FLATNESS) ** 2 - 1)) / self.expected[:count] ** 2
+            normal_matrix = weighted.T @ jacobian + np.diag(held)
+            pull = -weighted.T @ off - held * self.parameters[:count]
+            self.parameters[:count] += np.linalg.solve(normal_matrix, pull)
+
+
+def start(width: int, height: int, square: Any, corners: Any) -> Any:
+    """The parameters of the plain map that takes the square's corners to some pixels."""
+    half = np.hypot(width, height) / 2
+    goal = (corners - [(width - 1) / 2, (height - 1) / 2]) / half
+    places = (square - MIDDLE) / HALF
+    rows = np.concatenate([places, np.ones((4, 1))], axis=1)
+    across, *_ = np.linalg.lstsq(rows, goal, rcond=None)
+    found = np.zeros(COUNT)
+    found[:3], found[3:6] = across[:, 0], across[:, 1]
+    return found
+
+
+def judged(over: PaperMap, last: MeasuredLines, lines: PrintedLines) -> Registration:
+    """A map with how well it holds; refused where lines are missing, or off."""
+    seen, found = last.seen, last.found
+    share = float(found.sum() / max(seen.sum(), 1))
+    off = abs(last.off[found])
+    residual = float(np.percentile(off, 95)) if len(off) else float("inf")
+    own = seen & ~lines.shared
+    own_share = float((found & own).sum() / max(own.sum(), 1))
+    refused = ""
+    halves = lines.places[:, 0] < 210, lines.places[:, 0] >= 210
+    tops = lines.places[:, 1] < 60, lines.places[:, 1] > 230
+    sides = [float((found & part).sum() / max(part.sum(), 1)) for part in (*halves, *tops)]
+    if min(sides) < LEAST_SIDE:
+        side = ("left", "right", "upper", "lower")[int(np.argmin(sides))]
+        refused = f"too little of the frame is seen on the {side} side of the sheet"
+    elif share < LEAST_FOUND:
+        refused = f"only {share:.0%} of the printed lines are found: too blurred, dark or covered"
+    elif residual > WORST:
+        refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
+    return Registration(over, share, residual, own_share, refused)

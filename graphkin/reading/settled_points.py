@@ -1,0 +1,116 @@
+"""What a person decided of points, kept line by line: the last word on each, undone where undone.
+
+A line is written at once and nothing is ever written over, so that a page that is closed or a
+computer that stops loses no decision.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+from msgspec.structs import replace
+
+from graphkin.reading.point_reading import PointReading, ReadVerdict
+from graphkin.reading.read_sheet import SheetRecord
+
+SETTLED = "decisions.jsonl"
+LONGEST = 400
+"""Signs of a note."""
+
+
+class PointDecision(Struct, frozen=True):
+    """What a person says of a point of a sheet: where it lies and what is right of it.
+
+    ``undo`` takes back the decision before it that stands.
+    """
+
+    sheet: str = ""
+    step: int = 0
+    verdict: ReadVerdict = "unread"
+    at: tuple[float, float] | None = None
+    note: str = ""
+    undo: bool = False
+
+
+Standing = Mapping[tuple[str, int], PointDecision]
+"""The last decision on each point, by sheet and step."""
+
+
+class SettledPoints:
+    """The decisions of a folder of readings: read whole, then grown line by line."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / SETTLED
+        data = self.path.read_bytes() if self.path.exists() else b""
+        self.whole = data.rfind(b"\n") + 1
+        self.lines: list[PointDecision] = []
+        for line in data[: self.whole].splitlines():
+            try:
+                self.take(msgspec.json.decode(line, type=PointDecision))
+            except msgspec.MsgspecError:
+                continue
+
+    def take(self, decision: PointDecision) -> None:
+        """Let a decision stand, or take back the last that does."""
+        if not decision.undo:
+            self.lines.append(decision)
+        elif self.lines:
+            self.lines.pop()
+
+    def add(self, decision: PointDecision) -> None:
+        """Write a decision down, then let it stand."""
+        with self.path.open("ab") as stream:
+            stream.truncate(self.whole)  # what a run that was killed left of a line
+            line = msgspec.json.encode(decision) + b"\n"
+            stream.write(line)
+            stream.flush()
+            os.fsync(stream.fileno())
+        self.whole += len(line)
+        self.take(decision)
+
+    @property
+    def standing(self) -> Standing:
+        """The last decision on each point, by sheet and step."""
+        return {(each.sheet, each.step): each for each in self.lines}
+
+
+def settled_points(record: SheetRecord, standing: Standing) -> tuple[PointReading, ...]:
+    """The points of a sheet with what was decided of them; what is decided asks no longer."""
+    found = []
+    for point in record.points:
+        decision = standing.get((record.name, point.step))
+        if decision is None:
+            found.append(point)
+        else:
+            found.append(replace(point, at=decision.at, verdict=decision.verdict, ask=False))
+    return tuple(found)
+
+
+def latest_of(
+    records: Iterable[SheetRecord], standing: Standing
+) -> dict[tuple[str, str], SheetRecord]:
+    """The record that counts of each sheet, by code and kind, where it was photographed more than
+    once: the one on which decisions were made, else that with the fewest questions.
+    """
+    decided = {sheet for sheet, _ in standing}
+    found: dict[tuple[str, str], SheetRecord] = {}
+
+    def rank(record: SheetRecord) -> tuple[bool, int, str]:
+        return record.name not in decided, sum(p.ask for p in record.points), record.name
+
+    for record in records:
+        if record.refused is None:
+            place = record.code, record.kind
+            other = found.get(place)
+            if other is None or rank(record) < rank(other):
+                found[place] = record
+    return found
+
+
+def asked(points: Sequence[PointReading]) -> int:
+    """How many points a person is to look at."""
+    return sum(point.ask for point in points)

@@ -1,0 +1,137 @@
+"""A simulated camera: a sheet lies on a table, bent and lit, and is photographed; its true map."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import radians
+from typing import Any
+
+import cv2
+import numpy as np
+from msgspec import Struct
+
+from tests.reading.hand import DENSITY
+
+WIDE, HIGH = 420.0, 297.0
+RIGHT, DOWN = np.array([0.5, 0.0]), np.array([0.0, 0.5])
+
+
+class Shot(Struct, frozen=True):
+    """How a picture is taken: tilt (degrees), lens, bow and ripple of the paper (mm), light."""
+
+    size: tuple[int, int] = (4000, 3000)
+    tilt: float = 0.0
+    k1: float = 0.0
+    bow: float = 0.0
+    ripple: float = 0.0
+    turn: float = 0.0
+    light: float = 0.0
+    shadow: bool = False
+    blur: float = 0.6
+    noise: float = 2.0
+    quality: int = 80
+    fill: float = 0.9
+    thumb: bool = False
+    table: float = 90.0
+
+
+class Picture(Struct, frozen=True):
+    """A photograph as JPEG, and where places of the paper (mm) really lie in it (pixels)."""
+
+    data: bytes
+    where: Callable[[Any], Any]
+
+
+def forward(shot: Shot, rng: Any) -> Callable[[Any], Any]:
+    """From places of the paper to pixels."""
+    width, height = shot.size
+    focal = 1.15 * width
+    way = rng.uniform(0, 2 * np.pi)
+    lean = radians(shot.tilt)
+    axis = np.array([np.cos(way), np.sin(way), 0.0])
+    tilted, _ = cv2.Rodrigues(axis * lean)
+    spun, _ = cv2.Rodrigues(np.array([0.0, 0.0, radians(shot.turn)]))
+    turned = tilted @ spun
+    across = abs(np.cos(radians(shot.turn))) > 0.7
+    distance = focal * (WIDE if across else HIGH) / (width * shot.fill)
+    other = focal * (HIGH if across else WIDE) / (height * shot.fill)
+    distance = max(distance, other) * (1 + 0.6 * abs(np.sin(lean)))
+    place = np.array([rng.uniform(-8, 8), rng.uniform(-8, 8), distance])
+    bent = rng.uniform(0, 2 * np.pi)
+    phases = rng.uniform(0, 2 * np.pi, 2)
+
+    def where(points: Any) -> Any:
+        x, y = points[..., 0] - WIDE / 2, points[..., 1] - HIGH / 2
+        u = (x * np.cos(bent) + y * np.sin(bent)) / 210
+        z = shot.bow * (1 - u**2)
+        shorter = -2 * shot.bow**2 / (3 * 210) * u**3
+        z = z + shot.ripple * np.sin(x / 25 + phases[0]) * np.sin(y / 30 + phases[1])
+        x, y = x + shorter * np.cos(bent), y + shorter * np.sin(bent)
+        space = np.stack([x, y, -z], axis=-1) @ turned.T + place
+        flat = space[..., :2] / space[..., 2:]
+        half = np.hypot(width, height) / 2 / focal
+        r2 = (flat**2).sum(-1, keepdims=True) / half**2
+        bulged = flat * (1 + shot.k1 * r2)
+        return bulged * focal + np.array([width / 2, height / 2])
+
+    return where
+
+
+def backward(where: Callable[[Any], Any], size: tuple[int, int]) -> Any:
+    """The place of the paper behind each pixel, by Newton's method on every eighth."""
+    width, height = size
+    xs, ys = np.arange(0, width + 8, 8.0), np.arange(0, height + 8, 8.0)
+    pixels = np.stack(np.meshgrid(xs, ys), axis=-1)
+    corners = np.array([[0, 0], [WIDE, 0], [WIDE, HIGH], [0, HIGH]])
+    rough = cv2.getPerspectiveTransform(
+        where(corners).astype(np.float32), corners.astype(np.float32)
+    )
+    paper = cv2.perspectiveTransform(pixels.reshape(1, -1, 2), rough).reshape(pixels.shape)
+    paper = np.clip(paper, -300, 800)
+    for _ in range(6):
+        here = where(paper)
+        right = where(paper + RIGHT) - where(paper - RIGHT)
+        down = where(paper + DOWN) - where(paper - DOWN)
+        size_of = right[..., 0] * down[..., 1] - right[..., 1] * down[..., 0]
+        off = pixels - here
+        first = (off[..., 0] * down[..., 1] - off[..., 1] * down[..., 0]) / size_of
+        second = (right[..., 0] * off[..., 1] - right[..., 1] * off[..., 0]) / size_of
+        paper = np.clip(paper + np.clip(np.stack([first, second], -1), -40, 40), -300, 800)
+    full = cv2.resize(
+        paper.astype(np.float32), (len(xs) * 8, len(ys) * 8), interpolation=cv2.INTER_LINEAR
+    )
+    shift = np.float32([[1, 0, -3.5], [0, 1, -3.5]])  # resize puts samples at centres of blocks
+    return cv2.warpAffine(full, shift, size, borderMode=cv2.BORDER_REPLICATE)
+
+
+def photograph(image: Any, shot: Shot, seed: int) -> Picture:
+    """The picture of a drawn sheet."""
+    rng = np.random.default_rng([seed, 77])
+    where = forward(shot, rng)
+    width, height = shot.size
+    paper = backward(where, shot.size)
+    source = paper * np.float32(DENSITY) - np.float32(0.5)
+    seen = cv2.remap(image, source[..., 0], source[..., 1], cv2.INTER_LINEAR, borderValue=0).astype(
+        np.float32
+    )
+    on = (paper[..., 0] > 0) & (paper[..., 0] < WIDE) & (paper[..., 1] > 0) & (paper[..., 1] < HIGH)
+    small = rng.normal(0, 1, (height // 16 + 1, width // 16 + 1)).astype(np.float32)
+    grain = cv2.resize(cv2.GaussianBlur(small, (0, 0), 2), (width, height))
+    table = np.clip(shot.table + 25 * grain, 5, 250)
+    seen = np.where(on, seen * 0.92, table)
+    ys, xs = np.mgrid[0:height, 0:width].astype(np.float32)
+    lit = 1 - shot.light * (0.6 * xs / width + 0.4 * ys / height)
+    if shot.shadow:
+        edge = rng.uniform(0.3, 0.7) * width + 0.3 * ys
+        lit = lit * (1 - 0.175 * (1 + np.tanh((xs - edge) / 60)))
+    seen = seen * lit
+    if shot.thumb:
+        spot = where(np.array([rng.uniform(60, 360), 290.0]))
+        cv2.ellipse(seen, (int(spot[0]), int(spot[1])), (130, 200), 20, 0, 360, 140, -1)
+    seen = cv2.GaussianBlur(seen, (0, 0), shot.blur)
+    seen = seen + rng.normal(0, shot.noise, seen.shape).astype(np.float32)
+    ok, data = cv2.imencode(
+        ".jpg", np.clip(seen, 0, 255).astype(np.uint8), [cv2.IMWRITE_JPEG_QUALITY, shot.quality]
+    )
+    assert ok
+    return Picture(data.tobytes(), where)

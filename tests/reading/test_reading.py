@@ -1,0 +1,401 @@
+"""Photographs of simulated students: whose, where, what is right; and what is refused."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from wsgiref.util import setup_testing_defaults
+
+import cv2
+import msgspec
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from PIL import Image
+from pypdf import PdfWriter
+
+from graphkin.cli.main import app
+from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
+from graphkin.reading.kept_readings import READING, kept, records_in
+from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
+from graphkin.reading.point_reading import PointReading
+from graphkin.reading.read_sheet import SheetRecord
+from graphkin.reading.settled_points import (
+    SETTLED,
+    PointDecision,
+    SettledPoints,
+    settled_points,
+)
+from graphkin.studio.guard import Guard
+from graphkin.text import words
+from tests.reading.camera import Picture, Shot, photograph
+from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, sheets_of
+
+ROSTER = "Nr.;Matricol;Nume;Grupa\n7;0042;Ana Pop;A\n12;0043;Dan Ion;A\n"
+XS, YS = [20.0, 120.0, 215.0, 310.0, 410.0], [10.0, 80.0, 150.0, 220.0, 287.0]
+SHOTS = {
+    "plain": Shot(size=(3000, 2250)),
+    "hard": Shot(
+        size=(3000, 2250), tilt=22, k1=-0.06, bow=4, turn=93, light=0.4, shadow=True, blur=0.9
+    ),
+}
+
+
+def call(*words: object) -> Result:
+    return CliRunner().invoke(app, [str(word) for word in words], catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def a_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("class")
+    (folder / "class.csv").write_text(ROSTER, encoding="utf-8")
+    call("variants", "pump", folder / "class.csv", "-o", folder / "class")
+    return folder / "class"
+
+
+@pytest.fixture(scope="module")
+def code(a_class: Path) -> str:
+    manifest = json.loads((a_class / "manifest.json").read_text(encoding="utf-8"))
+    return str(manifest["students"][0]["code"])
+
+
+@pytest.fixture(scope="module")
+def taken(a_class: Path, code: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Photographs of one student's sheets, right and wrong, with their readings."""
+    folder = tmp_path_factory.mktemp("photos")
+    drawings = {
+        "plain": drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3),
+        "hard": drawn_sheet(a_class, code, "acceleration", Habits(point=0.4, mistake=True), 5),
+    }
+    for name, drawing in drawings.items():
+        taken = photograph(drawing.image, SHOTS[name], 7)
+        (folder / f"{name}.jpg").write_bytes(with_place(taken.data))
+        truth = {"map": taken.where(grid_places()).tolist(), "points": points_of(drawing)}
+        (folder / f"{name}.json").write_text(json.dumps(truth), encoding="utf-8")
+    (folder / "grid").write_text(json.dumps({"x": XS, "y": YS}), encoding="utf-8")
+    found = call(
+        "read", a_class, folder / "plain.jpg", folder / "hard.jpg", "-o", folder / "read",
+        "--json", "--grid", folder / "grid", "--jobs", "1",
+    )  # fmt: skip
+    assert found.exit_code == 0, found.output
+    return folder
+
+
+def with_place(data: bytes) -> bytes:
+    """A JPEG as a telephone writes it: with the place where it was taken."""
+    exif = Image.Exif()
+    exif[0x010F] = "Telephone of Ana"
+    exif.get_ifd(0x8825)[1] = "N"
+    out = io.BytesIO()
+    Image.open(io.BytesIO(data)).save(out, "JPEG", quality=90, exif=exif.tobytes())
+    return out.getvalue()
+
+
+def grid_places() -> np.ndarray:
+    return np.stack(np.meshgrid(XS, YS), axis=-1).reshape(-1, 2)
+
+
+def points_of(drawing: DrawnSheet) -> list[object]:
+    return [[p.name, p.step, p.at, p.verdict] for p in drawing.points]
+
+
+def read_and_true(taken: Path, name: str) -> tuple[dict, dict]:
+    found = json.loads((taken / f"{name}.points.json").read_text(encoding="utf-8"))
+    return found, json.loads((taken / f"{name}.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("name", SHOTS)
+def test_a_sheet_is_found_by_its_frame(taken: Path, code: str, name: str) -> None:
+    found, true = read_and_true(taken, name)
+    assert (found["format"], found["code"], found["refused"]) == (1, code, None)
+    off = np.hypot(*(np.array(found["map"]) - np.array(true["map"])).T)
+    assert np.median(off) < 0.5  # pixels, of about 7 a mm
+    assert np.percentile(off, 95) < 1.0
+
+
+@pytest.mark.parametrize("name", SHOTS)
+def test_points_are_read_where_they_were_drawn(taken: Path, name: str) -> None:
+    found, true = read_and_true(taken, name)
+    by_step = {point["step"]: point for point in found["points"]}
+    placed = []
+    for letter, step, at, verdict in true["points"]:
+        point = by_step[step]
+        assert point["name"] == letter
+        assert point["ask"] or point["verdict"] == verdict, letter
+        close = point["at"] is not None and np.hypot(*(np.array(point["at"]) - at)) < 1.0
+        assert close or point["ask"], letter
+        placed.append(close)
+    assert np.mean(placed) >= (1.0 if name == "plain" else 0.6)
+
+
+def test_nobody_is_asked_of_a_right_sheet_and_of_every_mistake_somebody_is(taken: Path) -> None:
+    right, _ = read_and_true(taken, "plain")
+    assert not any(point["ask"] for point in right["points"] if point["name"] != "I3")
+    hard, true = read_and_true(taken, "hard")
+    wrong = {step for _, step, _, verdict in true["points"] if verdict == "wrong"}
+    assert wrong
+    assert all(point["ask"] for point in hard["points"] if point["step"] in wrong)
+
+
+def test_lengths_on_the_drawing_are_the_answers(a_class: Path, taken: Path, code: str) -> None:
+    drawing = sheets_of(a_class, code).drawings[0]
+    _, true = read_and_true(taken, "plain")
+    d = next(np.array(at) for name, _, at, _ in true["points"] if name == "d")
+    from graphkin.construction.core.layout import lay_out
+
+    length = np.hypot(*(d - np.array(lay_out(drawing).plan(0j))))
+    head, row = (taken / "read" / "answers.csv").read_text().splitlines()[:2]
+    told = dict(zip(head.split(","), row.split(","), strict=True))
+    assert told["id"] == "0042"
+    assert abs(float(told["v_D_mm"]) - length) < 0.6
+
+
+def test_grade_marks_what_was_read(a_class: Path, taken: Path, tmp_path: Path) -> None:
+    found = call("grade", a_class, taken / "read", "-o", tmp_path / "report", "--format", "html")
+    assert found.exit_code in (0, 1), found.output
+    marks = (tmp_path / "report" / "marks.csv").read_text(encoding="utf-8-sig").splitlines()
+    assert any("0042" in line for line in marks), marks
+
+
+def test_nothing_that_a_camera_writes_is_kept(taken: Path) -> None:
+    for path in (taken / "read").iterdir():
+        data = path.read_bytes()
+        assert b"Telephone" not in data
+        assert b"Exif" not in data
+
+
+def test_a_second_run_keeps_what_stands(a_class: Path, taken: Path) -> None:
+    before = {p.name: p.read_bytes() for p in (taken / "read").glob(f"*{READING}")}
+    again = call(
+        "read", a_class, taken / "plain.jpg", taken / "hard.jpg", "-o", taken / "read",
+        "--grid", taken / "grid", "--jobs", "1",
+    )  # fmt: skip
+    assert "2 stood already" in again.output
+    assert before == {p.name: p.read_bytes() for p in (taken / "read").glob(f"*{READING}")}
+
+
+def sheet_jpeg(image: np.ndarray) -> bytes:
+    return cv2.imencode(".jpg", image)[1].tobytes()
+
+
+def png_head(width: int, height: int) -> bytes:
+    """A PNG file that says it is so large, and holds nothing."""
+    import struct
+    import zlib
+
+    head = b"IHDR" + struct.pack(">IIBBBBB", width, height, 1, 0, 0, 0, 0)
+    chunk = struct.pack(">I", 13) + head + struct.pack(">I", zlib.crc32(head))
+    data = struct.pack(">I", 0) + b"IDAT" + struct.pack(">I", zlib.crc32(b"IDAT"))
+    return b"\x89PNG\r\n\x1a\n" + chunk + data
+
+
+def empty_pdf() -> bytes:
+    out, writer = io.BytesIO(), PdfWriter()
+    writer.add_blank_page(1190, 842)
+    writer.write(out)
+    return out.getvalue()
+
+
+HOSTILE = {
+    "blank.jpg": (sheet_jpeg(np.full((1500, 2000), 230, np.uint8)), "no code is found"),
+    "bomb.png": (png_head(60_000, 60_000), "million pixels"),
+    "cut.jpg": (sheet_jpeg(np.zeros((1500, 2000), np.uint8))[:2000], "cut short"),
+    "text.jpg": (b"no picture at all", "is no picture"),
+    "tiny.png": (png_head(400, 300), "too few"),
+    "empty.jpg": (b"", "is no picture"),
+    "drawn.pdf": (empty_pdf(), "no scanned picture"),
+    "broken.pdf": (b"%PDF-1.7\n", "no PDF file"),
+}
+
+
+def test_hostile_pictures_get_one_line_each(a_class: Path, tmp_path: Path) -> None:
+    photos = tmp_path / "photos"
+    photos.mkdir()
+    for name, (data, _) in HOSTILE.items():
+        (photos / name).write_bytes(data)
+    found = call("read", a_class, photos, "-o", tmp_path / "read", "--jobs", "1", "--json")
+    assert found.exit_code == 1, found.output
+    assert "Traceback" not in found.output
+    for name, (_, why) in HOSTILE.items():
+        stem = Path(name).stem
+        (line,) = [line for line in found.output.splitlines() if line.startswith(f"{stem}: ")]
+        assert why in line
+        told = json.loads((photos / f"{stem}.points.json").read_text(encoding="utf-8"))
+        assert why in told["refused"]
+        assert told["points"] == []
+
+
+def test_another_class_and_a_cut_sheet_are_refused(
+    a_class: Path, code: str, tmp_path: Path
+) -> None:
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(), 11)
+    half = drawing.image[:, int(drawing.image.shape[1] * 0.42) :]
+    (tmp_path / "half.png").write_bytes(cv2.imencode(".png", half)[1].tobytes())
+    found = call("read", a_class, tmp_path / "half.png", "-o", tmp_path / "read", "--jobs", "1")
+    assert "left side" in found.output
+    (tmp_path / "class.csv").write_text(ROSTER, encoding="utf-8")
+    call("variants", "pump", tmp_path / "class.csv", "-o", tmp_path / "other")
+    found = call(
+        "read", tmp_path / "other", tmp_path / "half.png", "-o", tmp_path / "read2", "--jobs", "1"
+    )
+    assert "of no student of this class" in found.output
+
+
+def test_a_scan_is_read_from_a_pdf(a_class: Path, code: str, tmp_path: Path) -> None:
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
+    scan = Image.fromarray(cv2.resize(drawing.image, None, fx=0.8, fy=0.8))
+    scan.save(tmp_path / "scan.pdf", resolution=203)
+    found = call("read", a_class, tmp_path / "scan.pdf", "-o", tmp_path / "read", "--jobs", "1")
+    assert found.exit_code == 0, found.output
+    (record,) = records_in(tmp_path / "read")
+    assert record.kind == "velocity"
+    d = next(point for point in record.points if point.name == "d")
+    true = next(point for point in drawing.points if point.name == "d")
+    assert d.at is not None
+    assert true.at is not None
+    assert np.hypot(d.at[0] - true.at[0], d.at[1] - true.at[1]) < 0.5
+
+
+def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:
+    out = tmp_path / "read"
+    call("read", a_class, taken / "plain.jpg", "-o", out, "--by-hand", "--jobs", "1")
+    record = kept(out, "plain")
+    assert record is not None
+    assert {point.verdict for point in record.points} == {"unread"}
+    assert all(point.ask for point in record.points)
+
+
+# --- decisions -------------------------------------------------------------------------------
+
+
+def point(step: int, *, ask: bool = True) -> PointReading:
+    return PointReading("b", step, (1.0, 2.0), "wrong", ask, (0.0, 0.0), (0.0, 0.0))
+
+
+def test_the_last_decision_stands_and_undo_takes_it_back(tmp_path: Path) -> None:
+    record = SheetRecord("p", "p.jpg", "", points=(point(4), point(5)))
+    settled = SettledPoints(tmp_path)
+    settled.add(PointDecision("p", 4, "follows", (3.0, 4.0)))
+    settled.add(PointDecision("p", 4, "right", (3.5, 4.0), "his own b"))
+    settled.add(PointDecision("p", 5, "missing"))
+    settled.add(PointDecision(undo=True))
+    again = SettledPoints(tmp_path)
+    first, second = settled_points(record, again.standing)
+    assert (first.verdict, first.at, first.ask) == ("right", (3.5, 4.0), False)
+    assert second == point(5)
+    again.add(PointDecision(undo=True))
+    first, _ = settled_points(record, SettledPoints(tmp_path).standing)
+    assert first.verdict == "follows"
+
+
+def test_a_line_that_was_cut_short_costs_no_other(tmp_path: Path) -> None:
+    settled = SettledPoints(tmp_path)
+    settled.add(PointDecision("p", 4, "right", (1.0, 1.0)))
+    with (tmp_path / SETTLED).open("ab") as stream:
+        stream.write(b'{"sheet":"p","step":9,"ver')
+    SettledPoints(tmp_path).add(PointDecision("p", 5, "wrong", (2.0, 2.0)))
+    lines = (tmp_path / SETTLED).read_bytes().splitlines()
+    assert [msgspec.json.decode(line)["step"] for line in lines] == [4, 5]
+
+
+def test_one_seed_is_one_picture(a_class: Path, code: str) -> None:
+    def made() -> Picture:
+        drawing = drawn_sheet(a_class, code, "velocity", Habits(stray=1), 2)
+        return photograph(drawing.image, Shot(size=(1000, 750)), 2)
+
+    assert made().data == made().data
+
+
+# --- the desk and what goes back -------------------------------------------------------------
+
+
+def asking(taken: Path) -> DeskSession:
+    return DeskSession(taken / "read", words("en"))
+
+
+def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> None:
+    session = asking(taken)
+    record = session.records["hard"]
+    asked = next(point for point in record.points if point.ask)
+    said = {"sheet": "hard", "step": asked.step, "verdict": "wrong", "at": [200.0, 100.0]}
+    told = session.decide(json.dumps(said).encode())
+    (point,) = [each for each in told["points"] if each["step"] == asked.step]
+    assert (point["verdict"], point["ask"], point["decided"]) == ("wrong", False, True)
+    again = asking(taken)  # the page was closed, or the desk was killed
+    (sheet,) = [each for each in again.sheets() if each["name"] == "hard"]
+    assert {**told, "points": list(told["points"])} == {**sheet, "points": list(sheet["points"])}
+    assert again.undo(b"{}")["step"] == asked.step
+    points = again.told(record, again.settled.standing)["points"]
+    (point,) = [each for each in points if each["step"] == asked.step]
+    assert point["ask"]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        b"nothing",
+        b'{"sheet":"nobody","step":1,"verdict":"missing"}',
+        b'{"sheet":"hard","step":-1,"verdict":"missing"}',
+        b'{"sheet":"hard","step":STEP,"verdict":"right"}',
+        b'{"sheet":"hard","step":STEP,"verdict":"right","at":[1e9,0]}',
+        b'{"sheet":"hard","step":STEP,"verdict":"perhaps","at":[1,1]}',
+        b'{"sheet":"hard","step":STEP,"undo":true}',
+        b'{"sheet":"../hard","step":STEP,"verdict":"missing"}',
+    ],
+)
+def test_the_desk_refuses_what_its_page_does_not_ask(taken: Path, said: bytes) -> None:
+    session = asking(taken)
+    step = str(session.records["hard"].points[0].step).encode()
+    with pytest.raises(NotAsked):
+        session.decide(said.replace(b"STEP", step))
+
+
+def test_only_the_page_with_its_token_gets_pictures(taken: Path) -> None:
+    session = asking(taken)
+    guard = Guard(desk_application(session), "secret", ("127.0.0.1:1",), lambda: None)
+    answers = []
+
+    def get(path: str, host: str = "127.0.0.1:1") -> str:
+        environ = {"REQUEST_METHOD": "GET", "PATH_INFO": path, "HTTP_HOST": host}
+        setup_testing_defaults(environ)
+        environ["HTTP_HOST"] = host
+        list(guard(environ, lambda status, *_: answers.append(status)))
+        return str(answers[-1])
+
+    assert get("/secret/picture/hard.jpg").startswith("200")
+    assert get("/secret/").startswith("200")
+    assert get("/secret/picture/..%2Fclass.jpg").startswith("404")
+    assert get("/guess/picture/hard.jpg").startswith("403")
+    assert get("/secret/picture/hard.jpg", "evil.example:1").startswith("403")
+
+
+@pytest.mark.parametrize("language", ["en", "it", "ro"])
+def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
+    page = desk_page(DeskSession(taken / "read", words(language))).decode()
+    assert words(language)("desk.title") in page
+    assert "<built-in" not in page
+
+
+def test_the_drawing_goes_back_with_green_and_red(a_class: Path, taken: Path) -> None:
+    from graphkin.classroom.grading.class_folder import open_class
+
+    found = drawings_of_class(open_class(a_class), taken / "read", words("en"), ("html", "pdf"))
+    page = found["0042-drawing.html"].decode()
+    assert "<svg" in page
+    assert "data:image/jpeg;base64," in page
+    assert GREEN in page
+    assert found["0042-drawing.pdf"].startswith(b"%PDF")
+    again = drawings_of_class(open_class(a_class), taken / "read", words("en"), ("html", "pdf"))
+    assert found == again
+
+
+def test_a_wrong_point_is_said_by_direction_and_length() -> None:
+    wrong = PointReading(
+        "b", 1, (110.0, 110.0), "wrong", False, (110.0, 100.0), (110.0, 100.0), 10.0, 0.5,
+        (100.0, 100.0), "a",
+    )  # fmt: skip
+    said = sentence(wrong, words("en"))
+    assert "10.0 mm" in said
+    assert "45.0°" in said
+    assert "4.1 mm" in said
