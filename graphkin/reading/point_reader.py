@@ -300,7 +300,9 @@ class PointReader:
                 place = own.weighed(best)
             from_key = key.away(best.place, best.error)
             apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
-            vague = own.radius > VAGUE
+            steps = self.sheet.exact.program.steps
+            untried = any(steps[n].aside is not None for n in self.unread & behind)
+            vague = own.radius > VAGUE or untried  # nobody saw from which trial plan it comes
             ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful or vague
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
