@@ -32,6 +32,8 @@ ENDS = 1.6
 """Millimetres at both ends of a line that are not looked at: heads, circles, letters."""
 LEAST_ERROR = 0.1
 """Standard deviation of a line across, at least, in mm: a hand's lines are not quite straight."""
+TOLD = 0.4
+"""The share of a way that is not below printed ink, for it to tell something."""
 BOW = 5.0
 """Half the length of a compass arc that is looked at, in mm."""
 COVERED = 0.3
@@ -116,8 +118,13 @@ class DrawnInk(Struct, frozen=True):
                 lines.append(InkLine(*ends, cover, error))
         return lines
 
-    def cover(self, start: complex, end: complex, beside: float = 0.3) -> float:
-        """How much of the way between two places is drawn, straight but for so many mm beside."""
+    def cover(
+        self, start: complex, end: complex, beside: float = 0.3, hidden: float = 0.0
+    ) -> float:
+        """How much of the way between two places is drawn, straight but for so many mm beside.
+
+        ``hidden`` is what stands for a way most of which lies below printed ink.
+        """
         long = abs(end - start)
         if not long >= 2.5 * ENDS:  # nor where one end is nowhere
             return 0.0
@@ -127,6 +134,8 @@ class DrawnInk(Struct, frozen=True):
         dark, known = self.at(start + way * (along[:, None] + 1j * across[None, :]))
         drawn = dark.max(axis=1) > COVERED
         whole = known[:, len(across) // 2] > 0
+        if whole.mean() < TOLD:
+            return hidden
         return float((drawn & whole).sum() / max(whole.sum(), 1))
 
 

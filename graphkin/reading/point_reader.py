@@ -270,7 +270,7 @@ class PointReader:
         if leading.given or leading.bow or leading.after or abs(far - place) < 2 * SHORT:
             return None
         if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
-            return self.ink.cover(far, place, 0.4)
+            return self.ink.cover(far, place, 0.4, hidden=1.0)
         value = self.sheet.exact.trace.values[leading.far]
         if not isinstance(value, Line) and leading.far not in self.unread:
             return None
@@ -300,7 +300,9 @@ class PointReader:
                 place = own.weighed(best)
             from_key = key.away(best.place, best.error)
             apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
-            vague = own.radius > VAGUE
+            steps = self.sheet.exact.program.steps
+            untried = any(steps[n].aside is not None for n in self.unread & behind)
+            vague = own.radius > VAGUE or untried  # nobody saw from which trial plan it comes
             ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful or vague
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
@@ -309,7 +311,7 @@ class PointReader:
                 ask = ask or from_key > OFF
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
-                ask = ask or apart < OFF
+                ask = ask or apart < OFF or not self.bad & behind & self.readings.keys()
             else:
                 verdict, ask = "wrong", True
         if verdict in ("wrong", "missing", "unread"):
