@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
+from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import WORDS, Fault
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
@@ -37,6 +38,8 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
         fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
     )
     yield from labelled("spread", spread)
+    shown = [trial.names[i] for i in trial.compared]
+    yield from labelled("apart", apart_lines(trial.neighbours, shown, who))
     yield from labelled("marks", list(mark_lines(trial)))
 
 
@@ -62,10 +65,33 @@ def tried_words(trial: LabTrial) -> str:
 def limit_words(fair: Fair) -> str:
     """The limits in words."""
     low, high = fair.triangle
+    apart = ""
+    if fair.apart is not None:
+        apart = f", another's right values earn at most {100 * fair.apart:g} %"
     return (
         f"crossings at least {fair.crossing:g}°, segments at least {fair.segment:g} mm, "
-        f"right triangles v/l from {low:g} to {high:g}"
+        f"right triangles v/l from {low:g} to {high:g}{apart}"
     )
+
+
+def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:
+    """What right values of one student would earn on another's sheet: spread, and who is closest.
+
+    ``names`` are numbers or ids, ``who`` says which.
+    """
+    if neighbours is None:
+        return ["nothing to compare"]
+    rows = [
+        (words, *(f"{100 * value:.0f}" for value in quantiles(shares.ravel())))
+        for words, shares in (
+            ("another's key earns, %", neighbours.exact),
+            ("another's careful drawing, %", neighbours.drawn),
+        )
+    ]
+    own, other = neighbours.closest()
+    share = f"{100 * neighbours.exact[own, other]:.0f} %"
+    closest = f"closest: {who} {names[other]}'s right values earn {share} on the sheet of"
+    return [*table(SPREAD, rows), f"{closest} {names[own]}"]
 
 
 def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") -> Iterator[str]:
@@ -73,7 +99,8 @@ def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") ->
     found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
     for name, faults in named:
         for fault in faults:
-            found.setdefault((fault.limit, fault.where), []).append((name, fault))
+            where = "" if fault.limit == "apart" else fault.where
+            found.setdefault((fault.limit, where), []).append((name, fault))
     rows = []
     for (limit, where), broken in found.items():
         worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
@@ -86,6 +113,8 @@ def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") ->
 def worst_words(worst: tuple[str, Fault]) -> str:
     """The value farthest from its bound, with the bound."""
     fault = worst[1]
+    if fault.limit == "apart":
+        return f"{100 * fault.value:.0f} % against {100 * fault.bound:g} %"
     unit = {"crossing": "°", "segment": " mm", "triangle": ""}.get(fault.limit)
     return "" if unit is None else f"{fault.value:.3g}{unit} against {fault.bound:g}{unit}"
 

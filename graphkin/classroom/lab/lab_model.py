@@ -56,12 +56,14 @@ class Fair(Struct, frozen=True):
     """What a variant must keep to be fair to its student.
 
     ``crossing``: the flattest angle of a crossing in degrees; ``segment``: the shortest length to
-    be measured, in mm; ``triangle``: between which v/l a right triangle can be drawn.
+    be measured, in mm; ``triangle``: between which v/l a right triangle can be drawn; ``apart``:
+    the largest share of the points that another's right values may earn on the own sheet.
     """
 
     crossing: float = 15.0
     segment: float = 3.0
     triangle: tuple[float, float] = (0.05, 4.0)
+    apart: float | None = None
 
 
 class Rubric(Struct, frozen=True):

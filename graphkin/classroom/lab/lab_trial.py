@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 
+from graphkin.classroom.grading.neighbours import Neighbours, compare
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.items import asked_fields, items
 from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
@@ -17,6 +18,8 @@ from graphkin.text.errors import Problem, SceneError
 
 TRIED = 1000
 """Variants that are tried."""
+CLASS = 30
+"""Variants that are compared with one another."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 """The quantiles by which a spread is told."""
 
@@ -25,7 +28,8 @@ class LabTrial(Struct, frozen=True):
     """A lab with the variants on which it was tried: who they are, their data, how fair they are.
 
     ``names`` are numbers of students, or ids. ``unasked`` are fields of the rubric that no sheet
-    draws, ``unmarked`` fields that are asked and earn nothing.
+    draws, ``unmarked`` fields that are asked and earn nothing. ``compared`` are the places of the
+    variants of one class, as far as they can be drawn, and ``neighbours`` what they have in common.
     """
 
     lab: Lab
@@ -34,6 +38,8 @@ class LabTrial(Struct, frozen=True):
     fairness: Fairness
     unasked: tuple[str, ...] = ()
     unmarked: tuple[str, ...] = ()
+    compared: tuple[int, ...] = ()
+    neighbours: Neighbours | None = None
 
     @property
     def unfair(self) -> int:
@@ -71,7 +77,18 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     unasked = [item.field for item in form if item.what == "segment" and item.field not in drawn]
     unmarked = [name for name in asked_fields(mechanism) if name not in lab.rubric.points]
     sound = bool(fairness.fits.any())
-    return LabTrial(lab, names, many, fairness, tuple(unasked if sound else ()), tuple(unmarked))
+    compared = [i for i in range(min(len(many), CLASS)) if fairness.closes[i] and fairness.fits[i]]
+    asked = [(many[i], fairness.computed(i)) for i in compared]
+    return LabTrial(
+        lab,
+        names,
+        many,
+        fairness,
+        tuple(unasked if sound else ()),
+        tuple(unmarked),
+        tuple(compared),
+        compare(lab, mechanism, asked),
+    )
 
 
 def by_numbers(lab: Lab, mechanism: Mechanism, count: int) -> Iterable[tuple[str, Settings]]:

@@ -23,6 +23,8 @@ from graphkin.text.errors import Problem, SceneError
 
 LAB, SCENE = scene_files.LAB, "scene.toml"
 USUAL, LIMITS = Rubric(), Fair()
+OPEN = -1.0
+"""No limit is written."""
 MOST_TRIES = 10_000
 MOST_VALUES = 10**9
 """Values of a range."""
@@ -222,8 +224,9 @@ def read_fair(table: Table) -> Fair:
             triangle = (low, high)
             if not 0 <= low < high:
                 table.findings.add(table.at("triangle"), f"[{low:g}, {high:g}]", "0 ≤ least < most")
+    apart = number(table, "apart", OPEN, 0, 1)
     table.finish()
-    return Fair(crossing, segment, triangle)
+    return Fair(crossing, segment, triangle, None if apart == OPEN else apart)
 
 
 def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:

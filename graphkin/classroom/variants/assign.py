@@ -6,7 +6,16 @@ from collections.abc import Sequence
 from functools import partial
 
 from msgspec import Struct
+from msgspec.structs import replace
 
+from graphkin.classroom.grading.neighbours import (
+    Neighbours,
+    RightValues,
+    compare,
+    is_within,
+    standards_of,
+)
+from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
@@ -16,6 +25,9 @@ from graphkin.classroom.roster.student import Student
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
+
+VAIN = 10
+"""Rounds that find room for nobody, after which nobody is drawn again."""
 
 
 class Assigned(Struct, frozen=True):
@@ -52,15 +64,81 @@ class Assigned(Struct, frozen=True):
 def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> list[Assigned]:
     """The data of each student by the lab's rule, the whole class judged as one batch.
 
-    What ranges give that is unfair is drawn again, as often as the rule allows; the last is kept.
+    What ranges give that is unfair, or too near to the data of one before in the list, is drawn
+    again, as often as the rule allows; the last is kept.
     Raises RosterError for numbers with which a formula leaves what the scene allows.
     """
     mechanism = Mechanism(read_scene(lab.scene))
     if isinstance(lab.rule, Formula):
         many = by_formula(lab, students, mechanism, roster)
         found = judged(mechanism, lab, many)
-        return [one(student, many[i], 0, found, i) for i, student in enumerate(students)]
-    return by_ranges(lab, students, mechanism, lab.rule)
+        every = [one(student, many[i], 0, found, i) for i, student in enumerate(students)]
+        return spaced(lab, mechanism, every) if lab.fair.apart is not None else every
+    every = by_ranges(lab, students, mechanism, lab.rule)
+    return spaced(lab, mechanism, every, lab.rule) if lab.fair.apart is not None else every
+
+
+def spaced(
+    lab: Lab, mechanism: Mechanism, every: list[Assigned], rule: Ranges | None = None
+) -> list[Assigned]:
+    """The same, where nobody's right values earn too much on the sheet of one before in the list.
+
+    By ranges what is too near is drawn again, until some rounds find room for nobody; what is left
+    has its fault.
+    """
+    kept: list[tuple[Assigned, Standard]] = []
+    vain = 0
+    found, waiting = [*every], [i for i, each in enumerate(every) if each.fair]
+    while waiting:
+        tried = [found[i] for i in waiting]
+        held = standards_of(lab, mechanism, [(each.settings, each.computed) for each in tried])
+        room = with_room(lab, kept, list(zip(tried, held, strict=True)))
+        near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
+        again = [i for i in near if rule is not None and found[i].attempt + 1 < rule.tries]
+        vain = vain + 1 if len(near) == len(waiting) else 0
+        if rule is None or not again or vain == VAIN:
+            for i, fault in near.items():
+                found[i] = replace(found[i], faults=(fault,))
+            break
+        since = [found[i].attempt + 1 for i in again]
+        redrawn = by_ranges(lab, [found[i].student for i in again], mechanism, rule, since)
+        waiting = []
+        for i, each in zip(again, redrawn, strict=True):
+            found[i] = each if each.fair else replace(found[i], faults=(near[i],))
+            waiting += [i] if each.fair else []
+        for i in near.keys() - {*again}:
+            found[i] = replace(found[i], faults=(near[i],))
+    return found
+
+
+def with_room(
+    lab: Lab, kept: list[tuple[Assigned, Standard]], tried: Sequence[tuple[Assigned, Standard]]
+) -> list[Fault | None]:
+    """For each of some data what is too near to them among those kept; others are kept, too."""
+    import numpy as np
+
+    limit, found = lab.fair.apart or 0.0, list[Fault | None]()
+    before, both = len(kept), [*kept, *tried]
+    values = RightValues.of([standard for _, standard in both])
+    shares = values.earned(values, is_within)
+    shares = np.maximum(shares, shares.T)
+    rows = list(range(before))
+    for row in range(before, len(both)):
+        nearest = max(rows, key=lambda other: shares[row, other], default=row)
+        if nearest != row and shares[row, nearest] > limit:
+            share = float(shares[row, nearest])
+            found.append(Fault("apart", both[nearest][0].student.id, share, limit))
+        else:
+            rows.append(row)
+            kept.append(both[row])
+            found.append(None)
+    return found
+
+
+def neighbours_of(lab: Lab, every: Sequence[Assigned]) -> Neighbours | None:
+    """What right values of students who can draw earn on one another's sheets."""
+    asked = [(each.settings, each.computed) for each in every]
+    return compare(lab, Mechanism(read_scene(lab.scene)), asked)
 
 
 def by_formula(
@@ -97,19 +175,26 @@ def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
 
 
 def by_ranges(
-    lab: Lab, students: Sequence[Student], mechanism: Mechanism, rule: Ranges
+    lab: Lab,
+    students: Sequence[Student],
+    mechanism: Mechanism,
+    rule: Ranges,
+    since: Sequence[int] = (),
 ) -> list[Assigned]:
-    """The first fair data that are drawn for each student, else the last that were tried."""
+    """The first fair data that are drawn for each student, else the last that were tried.
+
+    ``since`` are the attempts with which each begins, the first where it is left out.
+    """
     found: dict[int, Assigned] = {}
+    attempts = list(since) or [0] * len(students)
     waiting = list(range(len(students)))
-    for attempt in range(rule.tries):
-        many = [settings(lab, students[i], attempt) for i in waiting]
+    while waiting:
+        many = [settings(lab, students[i], attempts[i]) for i in waiting]
         fairness = judged(mechanism, lab, many)
         for place, i in enumerate(waiting):
-            found[i] = one(students[i], many[place], attempt, fairness, place)
-        waiting = [i for i in waiting if not found[i].fair]
-        if not waiting:
-            break
+            found[i] = one(students[i], many[place], attempts[i], fairness, place)
+            attempts[i] += 1
+        waiting = [i for i in waiting if not found[i].fair and attempts[i] < rule.tries]
     return [found[i] for i in range(len(students))]
 
 

@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from graphkin.classroom.lab.fairness_words import limit_words, rule_words, spread_lines
+from graphkin.classroom.lab.fairness_words import (
+    apart_lines,
+    limit_words,
+    rule_words,
+    spread_lines,
+)
 from graphkin.classroom.lab.lab_model import Formula, Lab
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.variants.assign import Assigned
+from graphkin.classroom.variants.assign import Assigned, neighbours_of
 from graphkin.text.plain_table import labelled, table
 
 MOST = 40
@@ -31,6 +36,8 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     lengths = [each.shortest for each in drawn if each.shortest is not None]
     rays = [each.rays for each in drawn if each.rays is not None]
     yield from labelled("spread", spread_lines(angles, lengths, rays))
+    names = [each.student.id for each in drawn]
+    yield from labelled("apart", apart_lines(neighbours_of(lab, drawn), names, "id"))
     if isinstance(lab.rule, Formula):
         yield from labelled("note", alike_lines([each.student for each in found]))
 

@@ -1,0 +1,154 @@
+"""How far apart variants are: what right values of one would earn on another's sheet.
+
+A neighbour's exact key is one set of answers, a neighbour's careful drawing a spread of them. Only
+what is right by the key counts, neither what follows nor slips: who copies sets nothing forth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from msgspec import Struct
+
+from graphkin.classroom.grading.class_standards import standards
+from graphkin.classroom.grading.keys import Keys
+from graphkin.classroom.grading.marking import SENSE, sense_is_open
+from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.lab.asking import worth
+from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.mechanism import Mechanism
+
+Array = Any
+Asked = tuple[Mapping[str, Fraction], tuple[str, ...]]
+"""The exact data of a variant, and the fields that are computed there."""
+
+
+class Neighbours(Struct, frozen=True):
+    """What a neighbour's right values earn, as shares of all points: a row for each own sheet.
+
+    ``exact`` is of the neighbour's key, ``drawn`` what the neighbour's careful drawing earns in the
+    mean; NaN for a sheet beside itself.
+    """
+
+    exact: Array
+    drawn: Array
+
+    def closest(self) -> tuple[int, int]:
+        """The sheet on which a neighbour's key earns most, and that neighbour."""
+        import numpy as np
+
+        own, other = np.unravel_index(np.nanargmax(self.exact), self.exact.shape)
+        return int(own), int(other)
+
+
+def standards_of(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> list[Standard]:
+    """What the answers to some variants are held against."""
+    text = lab.scene.read_text(encoding="utf-8")
+    named = [
+        ({name: exact_text(value) for name, value in settings.items()}, computed)
+        for settings, computed in many
+    ]
+    return standards(mechanism, text, items(mechanism, lab), lab.rubric, named)
+
+
+def compare(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> Neighbours | None:
+    """What right values earn on other sheets, of some variants that can be drawn.
+
+    None where there is nobody to compare with, or nothing earns points.
+    """
+    if len(many) < 2 or not any(lab.rubric.points.values()):
+        return None
+    return neighbours(standards_of(lab, mechanism, many))
+
+
+class RightValues(Struct, frozen=True):
+    """The right values of some variants, a row for each, and what they are worth on its sheet.
+
+    ``sizes`` are held to be equal within ``allowed``, ``senses`` are signs, and those that no
+    drawing tells are ``unclear``; ``points`` and ``sense_points`` are shares of all points.
+    """
+
+    sizes: Array
+    allowed: Array
+    deviations: Array
+    points: Array
+    senses: Array
+    unclear: Array
+    sense_points: Array
+
+    @classmethod
+    def of(cls, found: Sequence[Standard]) -> RightValues:
+        """Those of some standards of one form."""
+        import numpy as np
+
+        keys = Keys.of([each.expectation for each in found])
+        senses = [field for field in found[0].key if field.endswith(SENSE)]
+        total = np.array([[sum(points_of(each, f) for f in each.key)] for each in found])
+
+        def told(read: Callable[[Standard, str], Any], fields: Sequence[str]) -> Array:
+            return np.array([[read(each, f) for f in fields] for each in found])
+
+        return cls(
+            keys.sizes,
+            told(lambda each, f: each.tolerance[f].value, keys.fields),
+            keys.deviations,
+            told(points_of, keys.fields) / total,
+            told(lambda each, f: each.key[f], senses),
+            told(sense_is_open, senses).astype(bool),
+            told(points_of, senses) / total,
+        )
+
+    def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
+        """What the right values of others earn, a row for each own sheet; ``chance`` says of how
+        far values lie, of what is allowed and of their deviations, how likely they are right.
+        """
+        import numpy as np
+
+        shares = np.zeros((len(self.sizes), len(other.sizes)))
+        for k in range(self.sizes.shape[1]):
+            away = other.sizes[None, :, k] - self.sizes[:, None, k]
+            right = chance(away, self.allowed[:, None, k], other.deviations[None, :, k])
+            shares += self.points[:, None, k] * right
+        for k in range(self.senses.shape[1]):
+            same = self.senses[:, None, k] == other.senses[None, :, k]
+            shares += self.sense_points[:, None, k] * (same | self.unclear[:, None, k])
+        return shares
+
+
+def neighbours(found: Sequence[Standard]) -> Neighbours:
+    """What each variant's right values earn on every other's sheet."""
+    import numpy as np
+
+    own = RightValues.of(found)
+    itself = np.eye(len(found), dtype=bool)
+    shares = (own.earned(own, chance) for chance in (is_within, comes_within))
+    exact, drawn = (np.where(itself, np.nan, each) for each in shares)
+    return Neighbours(exact, drawn)
+
+
+def is_within(away: Array, limit: Array, spread: Array) -> Array:
+    """Whether a value lies within a limit: one that is known exactly."""
+    return abs(away) <= limit
+
+
+def points_of(standard: Standard, field: str) -> float:
+    """What a field is worth on a sheet."""
+    item = standard.by_field[field].item
+    return float(worth(item, standard.rubric.points, standard.computed) or 0)
+
+
+def comes_within(away: Array, limit: Array, spread: Array) -> Array:
+    """How likely a value whose mean is so far away comes to lie within a limit (normal errors)."""
+    import math
+
+    import numpy as np
+
+    normal = np.vectorize(lambda x: 0.5 * (1.0 + math.erf(x / math.sqrt(2.0))), otypes=[float])
+    wide = np.maximum(np.broadcast_to(np.nan_to_num(spread, posinf=0.0), away.shape), 1e-300)
+    with np.errstate(all="ignore"):
+        ends = [np.clip(np.nan_to_num((side - away) / wide), -9, 9) for side in (limit, -limit)]
+    return normal(ends[0]) - normal(ends[1])

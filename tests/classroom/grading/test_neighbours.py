@@ -1,0 +1,119 @@
+"""What a neighbour's right values earn, against the marking of single answers and drawn samples."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.marking import is_right, with_senses
+from graphkin.classroom.grading.neighbours import (
+    RightValues,
+    is_within,
+    neighbours,
+    points_of,
+    standards_of,
+)
+from graphkin.classroom.lab.lab_model import Fair, Formula, Range, Ranges
+from graphkin.classroom.lab.rules import settings
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import assigned
+from graphkin.mechanism import load
+from tests.classroom.grading.students import LABS, lab_of
+
+NUMBERS = (3, 7, 8, 12, 21)
+
+
+@pytest.fixture(scope="module", params=LABS)
+def found(request):
+    lab = lab_of(request.param)
+    many = [({"n": Fraction(n)}, ()) for n in NUMBERS]
+    return standards_of(lab, load(request.param), many)
+
+
+def test_a_key_earns_on_another_sheet_what_its_marking_says(found):
+    """Each field's answer is written down, and marked by itself."""
+    told = neighbours(found)
+    for i, own in enumerate(found):
+        total = sum(points_of(own, field) for field in own.key)
+        for j, other in enumerate(found):
+            if i == j:
+                assert np.isnan(told.exact[i, j])
+                continue
+            written = {f: Answer(repr(v), v, signed=v < 0) for f, v in other.key.items()}
+            given = with_senses(own, written)
+            earned = sum(points_of(own, f) for f in own.key if is_right(own, f, given))
+            assert told.exact[i, j] == pytest.approx(earned / total, abs=1e-12)
+
+
+def test_a_drawing_earns_in_the_mean_what_samples_of_it_earn(found):
+    chance = np.random.default_rng(7)
+    told, own = neighbours(found), RightValues.of(found)
+    samples = 20_000
+    for i, j in ((0, 1), (2, 1), (4, 3)):
+        errors = chance.normal(size=(samples, own.sizes.shape[1])) * own.deviations[j]
+        right = abs(own.sizes[j] + np.nan_to_num(errors) - own.sizes[i]) <= own.allowed[i]
+        senses = (own.senses[i] == own.senses[j]) | own.unclear[i]
+        mean = (right * own.points[i]).sum(axis=1).mean() + (senses * own.sense_points[i]).sum()
+        assert told.drawn[i, j] == pytest.approx(mean, abs=0.01)
+
+
+def test_the_same_data_earn_everything():
+    lab = lab_of("pump")
+    told = neighbours(standards_of(lab, load("pump"), [({"n": Fraction(7)}, ())] * 2))
+    assert told.exact[0, 1] == pytest.approx(1)
+    assert told.closest() in {(0, 1), (1, 0)}
+
+
+def drawing_lab(apart: float | None, tries: int = 200):
+    """The slotted lever with numbers drawn from its range."""
+    rule = Ranges("mechanics", {"n": Range(Fraction(1), Fraction(30), Fraction(1))}, tries)
+    lab = lab_of("slotted-lever")
+    return replace(lab, rule=rule, fair=replace(lab.fair, apart=apart))
+
+
+STUDENTS = [Student(i, f"s{i}", i) for i in range(1, 9)]
+
+
+def closest(lab, every) -> float:
+    """The most that right values of one earn on another's sheet."""
+    told = neighbours(standards_of(lab, load(lab.name), [(e.settings, e.computed) for e in every]))
+    return float(np.nanmax(told.exact))
+
+
+def test_who_would_be_too_near_is_drawn_again():
+    free, held = (assigned(drawing_lab(apart), STUDENTS) for apart in (None, 0.5))
+    assert closest(drawing_lab(None), free) > 0.5
+    assert all(each.fair for each in held)
+    assert closest(drawing_lab(None), held) <= 0.5
+    assert held[0].settings == free[0].settings
+    lab = drawing_lab(0.5)
+    assert all(each.settings == settings(lab, each.student, each.attempt) for each in held)
+    assert [each.settings for each in assigned(lab, STUDENTS)] == [each.settings for each in held]
+
+
+def test_where_there_is_no_room_the_last_fair_data_stay_and_the_fault_is_told():
+    lab = drawing_lab(0.0, tries=3)
+    found = assigned(lab, STUDENTS)
+    near = [each for each in found if not each.fair]
+    assert len(near) == len(found) - 1
+    assert all(fault.limit == "apart" for each in near for fault in each.faults)
+    assert "of the points, at most 0 %" in str(near[0].faults[0])
+
+
+def test_a_formula_draws_nothing_again_and_says_who_is_near():
+    lab = lab_of("slotted-lever")
+    assert isinstance(lab.rule, Formula)
+    lab = replace(lab, fair=Fair(*(15, 5, (0.05, 4)), apart=0.5))
+    found = assigned(lab, STUDENTS)
+    assert [each.settings["n"] for each in found] == list(range(1, 9))
+    near = [each for each in found if not each.fair]
+    assert near
+    assert {fault.where for each in near for fault in each.faults} <= {s.id for s in STUDENTS}
+
+
+def test_exactly_known_values_are_right_up_to_what_is_allowed():
+    assert list(is_within(np.array([-2.0, 1.9, 2.1]), np.array(2.0), None)) == [True, True, False]
