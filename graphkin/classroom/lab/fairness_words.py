@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import WORDS, Fault
-from graphkin.classroom.lab.lab_model import Fair, Formula, Lab
+from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.text.plain_table import labelled, listed, table
@@ -31,6 +31,8 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     named = list(zip(trial.names, faults, strict=True))
     who = "number" if isinstance(lab.rule, Formula) else "id"
     yield from labelled("unfair", list(broken_lines(named, who)))
+    if isinstance(lab.rule, Ranges):
+        yield from labelled("again", [again_words(lab.rule, trial.unfair / count)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(trial.names)]
     yield from labelled("compute", list(computed_lines(computed, who)))
     drawn = fairness.closes & fairness.fits
@@ -43,16 +45,32 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     yield from labelled("marks", list(mark_lines(trial)))
 
 
+def again_words(rule: Ranges, unfair: float) -> str:
+    """How many of a class will keep unfair data though they are drawn again, as a forecast."""
+    left = 100 * unfair**rule.tries
+    tries = f"after {rule.tries} draws at most"
+    if left < 0.1:
+        return f"{tries} nearly everybody has fair data"
+    return f"{tries} some {left:.2g} of 100 students keep unfair data, the least unfair drawn"
+
+
 def rule_words(lab: Lab) -> str:
     """The rule in words."""
     rule = lab.rule
     if isinstance(rule, Formula):
         return ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
-    draws = (
-        f"{name} from {exact_text(r.least)} to {exact_text(r.most)} by {exact_text(r.step)}"
-        for name, r in rule.draws.items()
-    )
+    draws = (f"{name} {draw_words(values)}" for name, values in rule.draws.items())
     return f"{', '.join(draws)}, drawn for {rule.course}"
+
+
+def draw_words(values: Range | ValueList) -> str:
+    """The values that are drawn, in words: from 20 to 60 by 5, or 75."""
+    if isinstance(values, ValueList):
+        return ", or ".join(map(draw_words, values.parts))
+    if len(values) == 1:
+        return exact_text(values.least)
+    ends = f"from {exact_text(values.least)} to {exact_text(values.most)}"
+    return f"{ends} by {exact_text(values.step)}"
 
 
 def tried_words(trial: LabTrial) -> str:

@@ -41,6 +41,24 @@ class Range(Struct, frozen=True):
         return self.least + index * self.step
 
 
+class ValueList(Struct, frozen=True):
+    """Values of several ranges, in the order written; a single value is a range of one."""
+
+    parts: tuple[Range, ...]
+
+    def __len__(self) -> int:
+        """How many values there are."""
+        return sum(map(len, self.parts))
+
+    def value(self, index: int) -> Fraction:
+        """The value of an index from nought, counted on from range to range."""
+        for part in self.parts:
+            if index < len(part):
+                return part.value(index)
+            index -= len(part)
+        raise IndexError(index)
+
+
 class Ranges(Struct, frozen=True):
     """A rule that draws each parameter from a range, by a hash of course, lab and student.
 
@@ -48,7 +66,7 @@ class Ranges(Struct, frozen=True):
     """
 
     course: str
-    draws: Mapping[str, Range]
+    draws: Mapping[str, Range | ValueList]
     tries: int = 100
 
 

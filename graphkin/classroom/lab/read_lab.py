@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
+from typing import cast
 
 from graphkin.classroom.lab.items import all_fields
-from graphkin.classroom.lab.lab_model import NUMBER, Fair, Formula, Lab, Range, Ranges, Rubric
+from graphkin.classroom.lab.lab_model import (
+    NUMBER,
+    Fair,
+    Formula,
+    Lab,
+    Range,
+    Ranges,
+    Rubric,
+    ValueList,
+)
 from graphkin.classroom.lab.slip_names import NAMES as SLIPS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -153,9 +164,14 @@ def read_ranges(table: Table, scene: Scene) -> Ranges:
         table.findings.add(table.at("course"), "is missing", expected)
     tries = whole(table, "tries", 100, 1, MOST_TRIES)
     inner = table.table("draw")
-    draws: dict[str, Range] = {}
+    draws: dict[str, Range | ValueList] = {}
     for name in known_parameters(inner, scene):
-        found = read_range(inner.table(name), scene.parameters[name])
+        parameter = scene.parameters[name]
+        found: Range | ValueList | None
+        if isinstance(inner.raw[name], list):
+            found = read_choice(inner, name, parameter)
+        else:
+            found = read_range(inner.table(name), parameter)
         if found is not None:
             draws[name] = found
     return Ranges(course, draws, tries)
@@ -172,6 +188,39 @@ def known_parameters(table: Table, scene: Scene) -> list[str]:
     if not table.raw and not table.findings.inside(table.place.partition(".")[0]):
         table.findings.add(table.place, "sets no parameter", listed(scene.parameters))
     return [name for name in table.raw if name in scene.parameters]
+
+
+def read_choice(table: Table, name: str, parameter: Parameter) -> ValueList | None:
+    """A list of values and ranges that lie apart, so that none is drawn more often than others."""
+    parts: list[Range] = []
+    raw, place = cast("list[object]", table.take(name)), table.at(name)
+    for i, part in enumerate(raw):
+        at = f"{place}[{i}]"
+        if isinstance(part, dict):
+            found = read_range(Table(at, part, table.findings), parameter)
+        else:
+            found = read_value(at, part, parameter, table.findings)
+        parts += [found] if found is not None else []
+    if not raw:
+        table.findings.add(place, "an empty list", "values, or { min = …, max = …, step = … }")
+    ordered = sorted(parts, key=lambda part: part.least)
+    for before, part in pairwise(ordered):
+        if part.least <= before.most:
+            found_twice = f"{shortest(part.least)} lies within what is listed already"
+            table.findings.add(place, found_twice, "values and ranges apart from one another")
+            return None
+    return ValueList(tuple(parts)) if parts and len(parts) == len(raw) else None
+
+
+def read_value(place: str, raw: object, parameter: Parameter, findings: Findings) -> Range | None:
+    """A single value that the scene allows."""
+    read = rational(place, raw, findings)
+    if read is None:
+        return None
+    value = plain(read)
+    wrong = out_of_range(parameter, value, place)
+    findings.extend(wrong)
+    return None if wrong else Range(value, value, Fraction(1))
 
 
 def read_range(table: Table, parameter: Parameter) -> Range | None:

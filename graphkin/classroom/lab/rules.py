@@ -4,8 +4,8 @@ A formula is reckoned exactly in the student's number. A range is drawn by one h
 parameter, so that another parameter changes none of the others: SHA-256 over the UTF-8 bytes of
 the JSON list [course, lab, id, attempt, parameter], written without blanks and with letters as
 they are; the hash as a whole number, divided by the number of values of the range, leaves the index
-of the value, counted from the least. Attempt 0 is the first; what is unfair is drawn again with 1,
-2, … In a shell::
+of the value, counted from the least, in a list in its order. Attempt 0 is the first; what is unfair
+is drawn again with 1, 2, … In a shell::
 
     printf '%s' '["mechanics 2026","pump","0042",0,"n"]' | sha256sum
 """
@@ -17,7 +17,7 @@ import json
 from collections.abc import Mapping
 from fractions import Fraction
 
-from graphkin.classroom.lab.lab_model import NUMBER, Formula, Lab, Range, Ranges
+from graphkin.classroom.lab.lab_model import NUMBER, Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
@@ -61,7 +61,7 @@ def by_ranges(rule: Ranges, lab: str, student: str, attempt: int) -> Settings:
 
 
 def drawn(
-    values: Range, course: str, lab: str, student: str, attempt: int, parameter: str
+    values: Range | ValueList, course: str, lab: str, student: str, attempt: int, parameter: str
 ) -> Fraction:
     """The value of a range that a hash of all the rest picks."""
     return values.value(picked(course, lab, student, attempt, parameter) % len(values))

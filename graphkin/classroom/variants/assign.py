@@ -65,7 +65,7 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     """The data of each student by the lab's rule, the whole class judged as one batch.
 
     What ranges give that is unfair, or too near to the data of one before in the list, is drawn
-    again, as often as the rule allows; the last is kept.
+    again, as often as the rule allows; the least unfair is kept.
     Raises RosterError for numbers with which a formula leaves what the scene allows.
     """
     mechanism = Mechanism(read_scene(lab.scene))
@@ -181,7 +181,7 @@ def by_ranges(
     rule: Ranges,
     since: Sequence[int] = (),
 ) -> list[Assigned]:
-    """The first fair data that are drawn for each student, else the last that were tried.
+    """The first fair data that are drawn for each student, else the least unfair of all tried.
 
     ``since`` are the attempts with which each begins, the first where it is left out.
     """
@@ -192,10 +192,16 @@ def by_ranges(
         many = [settings(lab, students[i], attempts[i]) for i in waiting]
         fairness = judged(mechanism, lab, many)
         for place, i in enumerate(waiting):
-            found[i] = one(students[i], many[place], attempts[i], fairness, place)
+            drawn = one(students[i], many[place], attempts[i], fairness, place)
+            found[i] = min(found.get(i, drawn), drawn, key=unfairness)
             attempts[i] += 1
         waiting = [i for i in waiting if not found[i].fair and attempts[i] < rule.tries]
     return [found[i] for i in range(len(students))]
+
+
+def unfairness(data: Assigned) -> tuple[bool, int]:
+    """By what data are less unfair than others: those that can be drawn, of the fewest faults."""
+    return data.flattest is None, len(data.faults)
 
 
 def one(

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges
+from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned
@@ -90,11 +90,28 @@ def written_rule(rule: Formula | Ranges) -> dict[str, Any]:
     """A rule as lab.toml writes it, numbers as exact texts."""
     if isinstance(rule, Formula):
         return {"set": {name: formula.text for name, formula in rule.settings.items()}}
-    draws = {
-        name: {"min": exact_text(r.least), "max": exact_text(r.most), "step": exact_text(r.step)}
-        for name, r in rule.draws.items()
-    }
+    draws = {name: written_draw(values) for name, values in rule.draws.items()}
     return {"draw": draws, "tries": rule.tries}
+
+
+def written_draw(values: Range | ValueList) -> Any:
+    """What is drawn as lab.toml writes it: the ends of a range, or a list of such."""
+    if isinstance(values, ValueList):
+        return [written_draw(part) for part in values.parts]
+    ends = {"min": values.least, "max": values.most, "step": values.step}
+    return {key: exact_text(end) for key, end in ends.items()}
+
+
+def read_draw(raw: Any) -> Range | ValueList:
+    """The same back."""
+    if isinstance(raw, list):
+        return ValueList(tuple(read_range(part) for part in raw))
+    return read_range(raw)
+
+
+def read_range(raw: Mapping[str, str]) -> Range:
+    """A range from the texts of its ends."""
+    return Range(*(Fraction(raw[key]) for key in ("min", "max", "step")))
 
 
 def read_rule(raw: Mapping[str, Any]) -> Formula | Ranges:
@@ -103,10 +120,7 @@ def read_rule(raw: Mapping[str, Any]) -> Formula | Ranges:
         rule = raw["rule"]
         if "set" in rule:
             return Formula({name: expression(text) for name, text in rule["set"].items()})
-        draws = {
-            name: Range(*(Fraction(ends[key]) for key in ("min", "max", "step")))
-            for name, ends in rule["draw"].items()
-        }
+        draws = {name: read_draw(values) for name, values in rule["draw"].items()}
         return Ranges(raw["course"], draws, int(rule["tries"]))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         found = "the rule cannot be read"

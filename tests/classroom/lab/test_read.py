@@ -71,7 +71,32 @@ def test_everything_that_is_stated_is_read(mine):
     assert lab.rubric == Rubric(points, 0.7, slips, 0.6, 0.4, 0.3, 0.02, 0.3, hold=True)
 
 
+def test_a_list_draws_among_values_and_ranges(mine):
+    draw = "draw = { n = [2, 9, { min = 12, max = 20, step = 4 }] }\n"
+    lab = read_lab(mine(f'graphkin = 1\n[variants]\ncourse = "M 26"\n{draw}'))
+    assert isinstance(lab.rule, Ranges)
+    values = lab.rule.draws["n"]
+    assert [values.value(k) for k in range(len(values))] == [2, 9, 12, 16, 20]
+    with pytest.raises(IndexError):
+        values.value(5)
+
+
 WRONG = {
+    """graphkin = 1
+[variants]
+course = "M"
+draw = { n = [] }
+""": "lab.toml: variants.draw.n: an empty list",
+    """graphkin = 1
+[variants]
+course = "M"
+draw = { n = [14, { min = 12, max = 20, step = 4 }] }
+""": "variants.draw.n: 14 lies within what is listed already",
+    """graphkin = 1
+[variants]
+course = "M"
+draw = { n = [3, 77] }
+""": "variants.draw.n[1]",
     "": "the file is empty",
     "graphkin = 1\n": "variants: no rule; expected set",
     "graphkin = 2\n" + RULE[13:]: "written for a newer graphkin",

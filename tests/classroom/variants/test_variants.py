@@ -20,7 +20,7 @@ from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.lab_model import Fair, Range, Ranges
+from graphkin.classroom.lab.lab_model import Fair, Range, Ranges, ValueList
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.printing.edition import read_edition
@@ -296,3 +296,34 @@ def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistake
         assert word in lines[row - 2]
     assert len(lines) == 3
     assert not (tmp_path / "class").exists()
+
+
+# ------------------------------------------------------------------------------ lists of values
+
+
+def listing_lab(tries: int = 100):
+    """The pump with numbers drawn from a list of values and a range."""
+    parts = (*(Range(Fraction(n), Fraction(n), Fraction(1)) for n in (2, 9)), Range(12, 20, 4))
+    lab = read_lab("pump")
+    return replace(lab, rule=Ranges("mechanics 2026", {"n": ValueList(parts)}, tries))
+
+
+def test_a_list_is_drawn_from_as_a_range_is_and_derived_again(tmp_path, roster):
+    lab = listing_lab()
+    found = assigned(lab, read_roster(roster))
+    assert {each.settings["n"] for each in found} <= {2, 9, 12, 16, 20}
+    assert len({each.settings["n"] for each in found}) > 2
+    write_class(tmp_path / "class", lab, found, roster, force=False)
+    raw = json.loads((tmp_path / "class" / "manifest.json").read_text(encoding="utf-8"))
+    assert rederived(raw) == [{"n": str(each.settings["n"])} for each in found]
+
+
+def test_of_unfair_data_the_least_unfair_are_kept():
+    """Limits that nobody keeps: data with fewer faults replace those with more."""
+    lab = replace(listing_lab(tries=8), fair=Fair(crossing=80, segment=25))
+    students = [Student(i, f"s{i}") for i in range(40)]
+    one_try = assigned(replace(lab, rule=replace(lab.rule, tries=1)), students)
+    many = assigned(lab, students)
+    faults = [[len(each.faults) for each in found] for found in (one_try, many)]
+    assert all(after <= before for before, after in zip(*faults, strict=True))
+    assert sum(faults[1]) < sum(faults[0])
