@@ -31,11 +31,13 @@ class Neighbours(Struct, frozen=True):
     """What a neighbour's right values earn, as shares of all points: a row for each own sheet.
 
     ``exact`` is of the neighbour's key, ``drawn`` what the neighbour's careful drawing earns in the
-    mean; NaN for a sheet beside itself.
+    mean; NaN for a sheet beside itself. ``pencil`` is the largest error on each sheet that a pencil
+    makes of what earns points, in parts of the value.
     """
 
     exact: Array
     drawn: Array
+    pencil: Array
 
     def closest(self) -> tuple[int, int]:
         """The sheet on which a neighbour's key earns most, and that neighbour."""
@@ -127,7 +129,21 @@ def neighbours(found: Sequence[Standard]) -> Neighbours:
     itself = np.eye(len(found), dtype=bool)
     shares = (own.earned(own, chance) for chance in (is_within, comes_within))
     exact, drawn = (np.where(itself, np.nan, each) for each in shares)
-    return Neighbours(exact, drawn)
+    return Neighbours(exact, drawn, np.array([worst_drawn(each)[1] for each in found]))
+
+
+def worst_drawn(standard: Standard) -> tuple[str, float]:
+    """The field that earns points of which a pencil makes the largest error in parts of its value.
+
+    Places have no size of their own; what is zero has none, and what is computed is not drawn.
+    """
+    errors = {
+        field: allowed.pencil / abs(standard.key[field])
+        for field, allowed in standard.tolerance.items()
+        if standard.by_field[field].item.what != "place" and points_of(standard, field)
+        if standard.key[field] and field not in standard.computed
+    }
+    return max(errors.items(), key=lambda each: each[1], default=("", 0.0))
 
 
 def is_within(away: Array, limit: Array, spread: Array) -> Array:

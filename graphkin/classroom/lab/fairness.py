@@ -39,6 +39,7 @@ WORDS = {
     "crossing": "crosses flatter than the limit",
     "segment": "is shorter than the limit",
     "triangle": "has a right triangle outside its limits",
+    "pencil": "is drawn less exactly than the limit",
     "apart": "earns more with another's right values than the limit",
 }
 """The limits by name, in words."""
@@ -62,6 +63,9 @@ class Fault(Struct, frozen=True):
             case "triangle":
                 side = "at least" if self.value < self.bound else "at most"
                 return f"triangle {self.where} v/l {self.value:.3g}, {side} {self.bound:g}"
+            case "pencil":
+                error = f"{100 * self.value:.0f} % of its value, at most {100 * self.bound:g} %"
+                return f"a pencil's error of {self.where} is {error}"
             case "apart":
                 share = f"{100 * self.value:.0f} % of the points, at most {100 * self.bound:g} %"
                 return f"the right values of {self.where} earn {share}"

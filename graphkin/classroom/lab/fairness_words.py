@@ -42,6 +42,7 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     yield from labelled("spread", spread)
     shown = [trial.names[i] for i in trial.compared]
     yield from labelled("apart", apart_lines(trial.neighbours, shown, who))
+    yield from labelled("pencil", pencil_lines(trial.neighbours))
     yield from labelled("marks", list(mark_lines(trial)))
 
 
@@ -61,6 +62,14 @@ def rule_words(lab: Lab) -> str:
         return ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
     draws = (f"{name} {draw_words(values)}" for name, values in rule.draws.items())
     return f"{', '.join(draws)}, drawn for {rule.course}"
+
+
+def pencil_lines(neighbours: Neighbours | None) -> list[str]:
+    """What a careful pencil makes of the field of each sheet that it draws least exactly."""
+    if neighbours is None:
+        return ["nothing to compare"]
+    row = (f"{100 * value:.1f}" for value in quantiles(neighbours.pencil))
+    return table(SPREAD, [("error of the least exact field, %", *row)])
 
 
 def draw_words(values: Range | ValueList) -> str:
@@ -83,12 +92,14 @@ def tried_words(trial: LabTrial) -> str:
 def limit_words(fair: Fair) -> str:
     """The limits in words."""
     low, high = fair.triangle
-    apart = ""
+    more = ""
     if fair.apart is not None:
-        apart = f", another's right values earn at most {100 * fair.apart:g} %"
+        more += f", another's right values earn at most {100 * fair.apart:g} %"
+    if fair.pencil is not None:
+        more += f", a pencil's error at most {100 * fair.pencil:g} % of any value"
     return (
         f"crossings at least {fair.crossing:g}°, segments at least {fair.segment:g} mm, "
-        f"right triangles v/l from {low:g} to {high:g}{apart}"
+        f"right triangles v/l from {low:g} to {high:g}{more}"
     )
 
 
@@ -131,7 +142,7 @@ def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") ->
 def worst_words(worst: tuple[str, Fault]) -> str:
     """The value farthest from its bound, with the bound."""
     fault = worst[1]
-    if fault.limit == "apart":
+    if fault.limit in ("apart", "pencil"):
         return f"{100 * fault.value:.0f} % against {100 * fault.bound:g} %"
     unit = {"crossing": "°", "segment": " mm", "triangle": ""}.get(fault.limit)
     return "" if unit is None else f"{fault.value:.3g}{unit} against {fault.bound:g}{unit}"

@@ -75,13 +75,20 @@ class Fair(Struct, frozen=True):
 
     ``crossing``: the flattest angle of a crossing in degrees; ``segment``: the shortest length to
     be measured, in mm; ``triangle``: between which v/l a right triangle can be drawn; ``apart``:
-    the largest share of the points that another's right values may earn on the own sheet.
+    the largest share of the points that another's right values may earn on the own sheet;
+    ``pencil``: the largest error of a careful drawing in what earns points, in parts of the value.
     """
 
     crossing: float = 15.0
     segment: float = 3.0
     triangle: tuple[float, float] = (0.05, 4.0)
     apart: float | None = None
+    pencil: float | None = None
+
+    @property
+    def needs_keys(self) -> bool:
+        """Whether only the keys of variants tell that they keep all limits."""
+        return self.apart is not None or self.pencil is not None
 
 
 class Rubric(Struct, frozen=True):

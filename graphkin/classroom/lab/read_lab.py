@@ -273,9 +273,10 @@ def read_fair(table: Table) -> Fair:
             triangle = (low, high)
             if not 0 <= low < high:
                 table.findings.add(table.at("triangle"), f"[{low:g}, {high:g}]", "0 ≤ least < most")
-    apart = number(table, "apart", OPEN, 0, 1)
+    shares = [number(table, key, OPEN, 0, 1) for key in ("apart", "pencil")]
+    apart, pencil = (None if share == OPEN else share for share in shares)
     table.finish()
-    return Fair(crossing, segment, triangle, None if apart == OPEN else apart)
+    return Fair(crossing, segment, triangle, apart, pencil)
 
 
 def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:

@@ -14,6 +14,7 @@ from graphkin.classroom.grading.neighbours import (
     compare,
     is_within,
     standards_of,
+    worst_drawn,
 )
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
@@ -73,17 +74,18 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
         many = by_formula(lab, students, mechanism, roster)
         found = judged(mechanism, lab, many)
         every = [one(student, many[i], 0, found, i) for i, student in enumerate(students)]
-        return spaced(lab, mechanism, every) if lab.fair.apart is not None else every
+        return spaced(lab, mechanism, every) if lab.fair.needs_keys else every
     every = by_ranges(lab, students, mechanism, lab.rule)
-    return spaced(lab, mechanism, every, lab.rule) if lab.fair.apart is not None else every
+    return spaced(lab, mechanism, every, lab.rule) if lab.fair.needs_keys else every
 
 
 def spaced(
     lab: Lab, mechanism: Mechanism, every: list[Assigned], rule: Ranges | None = None
 ) -> list[Assigned]:
-    """The same, where nobody's right values earn too much on the sheet of one before in the list.
+    """The same, where a pencil draws everything as exactly as it should, and nobody's right values
+    earn too much on the sheet of one before in the list.
 
-    By ranges what is too near is drawn again, until some rounds find room for nobody; what is left
+    By ranges what is not so is drawn again, until some rounds find room for nobody; what is left
     has its fault.
     """
     kept: list[tuple[Assigned, Standard]] = []
@@ -114,10 +116,10 @@ def spaced(
 def with_room(
     lab: Lab, kept: list[tuple[Assigned, Standard]], tried: Sequence[tuple[Assigned, Standard]]
 ) -> list[Fault | None]:
-    """For each of some data what is too near to them among those kept; others are kept, too."""
+    """For each of some data what is too inexact or too near to others; what is not is kept."""
     import numpy as np
 
-    limit, found = lab.fair.apart or 0.0, list[Fault | None]()
+    limit, found = lab.fair.apart, list[Fault | None]()
     before, both = len(kept), [*kept, *tried]
     values = RightValues.of([standard for _, standard in both])
     shares = values.earned(values, is_within)
@@ -125,7 +127,10 @@ def with_room(
     rows = list(range(before))
     for row in range(before, len(both)):
         nearest = max(rows, key=lambda other: shares[row, other], default=row)
-        if nearest != row and shares[row, nearest] > limit:
+        field, error = worst_drawn(both[row][1])
+        if lab.fair.pencil is not None and error > lab.fair.pencil:
+            found.append(Fault("pencil", field, error, lab.fair.pencil))
+        elif limit is not None and nearest != row and shares[row, nearest] > limit:
             share = float(shares[row, nearest])
             found.append(Fault("apart", both[nearest][0].student.id, share, limit))
         else:

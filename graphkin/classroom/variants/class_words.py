@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from graphkin.classroom.lab.fairness_words import (
     apart_lines,
     limit_words,
+    pencil_lines,
     rule_words,
     spread_lines,
 )
@@ -37,7 +38,9 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     rays = [each.rays for each in drawn if each.rays is not None]
     yield from labelled("spread", spread_lines(angles, lengths, rays))
     names = [each.student.id for each in drawn]
-    yield from labelled("apart", apart_lines(neighbours_of(lab, drawn), names, "id"))
+    neighbours = neighbours_of(lab, drawn)
+    yield from labelled("apart", apart_lines(neighbours, names, "id"))
+    yield from labelled("pencil", pencil_lines(neighbours))
     if isinstance(lab.rule, Formula):
         yield from labelled("note", alike_lines([each.student for each in found]))
 

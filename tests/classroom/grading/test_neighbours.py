@@ -16,6 +16,7 @@ from graphkin.classroom.grading.neighbours import (
     neighbours,
     points_of,
     standards_of,
+    worst_drawn,
 )
 from graphkin.classroom.lab.lab_model import Fair, Formula, Range, Ranges
 from graphkin.classroom.lab.rules import settings
@@ -117,3 +118,33 @@ def test_a_formula_draws_nothing_again_and_says_who_is_near():
 
 def test_exactly_known_values_are_right_up_to_what_is_allowed():
     assert list(is_within(np.array([-2.0, 1.9, 2.1]), np.array(2.0), None)) == [True, True, False]
+
+
+def test_the_least_exact_field_is_that_of_the_largest_error(found):
+    """By the keys and tolerances of the report, as a lecturer would reckon it."""
+    told = neighbours(found)
+    for own, error in zip(found, told.pencil, strict=True):
+        asked = [f for f, points in own.rubric.points.items() if points and f in own.tolerance]
+        sized = [
+            f
+            for f in asked
+            if own.by_field[f].item.what != "place" and own.key[f] and f not in own.computed
+        ]
+        errors = {f: own.tolerance[f].pencil / abs(own.key[f]) for f in sized}
+        assert error == pytest.approx(max(errors.values()))
+        assert worst_drawn(own)[0] in errors
+
+
+def test_who_would_draw_too_inexactly_is_drawn_again():
+    lab = drawing_lab(None)
+    told = neighbours(standards_of(lab, load(lab.name), asked(assigned(lab, STUDENTS))))
+    limit = float(np.median(told.pencil))
+    found = assigned(replace(lab, fair=replace(lab.fair, pencil=limit)), STUDENTS)
+    assert all(each.fair for each in found)
+    told = neighbours(standards_of(lab, load(lab.name), asked(found)))
+    assert told.pencil.max() <= limit
+
+
+def asked(every):
+    """Data with the fields that are computed."""
+    return [(each.settings, each.computed) for each in every]

@@ -58,14 +58,14 @@ def test_everything_that_is_stated_is_read(mine):
         mine(
             'graphkin = 1\n[variants]\ncourse = "M 26"\ntries = 7\n'
             "draw = { n = { min = 3, max = 21, step = 2 } }\n"
-            "[fair]\ncrossing = 10\nsegment = 2.5\ntriangle = [0.1, 3]\napart = 0.6\n"
+            "[fair]\ncrossing = 10\nsegment = 2.5\ntriangle = [0.1, 3]\napart = 0.6\npencil = 0.2\n"
             "[marks]\nv_D_mm = 2\nv_BA = 0.5\n"
             "[marking]\nfollow = 0.7\npoint = 0.6\nline = 0.4\nruler = 0.3\nfloor = 0.02\n"
             "cap = 0.3\nhold = true\n[marking.slips]\nrpm_as_rad = 0.5\n"
         )
     )
     assert lab.rule == Ranges("M 26", {"n": Range(Fraction(3), Fraction(21), Fraction(2))}, 7)
-    assert lab.fair == Fair(10, 2.5, (0.1, 3), 0.6)
+    assert lab.fair == Fair(10, 2.5, (0.1, 3), 0.6, 0.2)
     points = {"v_D_mm": Fraction(2), "v_BA": Fraction(1, 2)}
     slips = {"rpm_as_rad": 0.5}
     assert lab.rubric == Rubric(points, 0.7, slips, 0.6, 0.4, 0.3, 0.02, 0.3, hold=True)
