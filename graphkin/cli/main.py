@@ -34,6 +34,7 @@ LATER = {
     "quiz": "graphkin.cli.quiz_command:quiz",
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",
+    "ranges": "graphkin.cli.ranges_command:ranges",
     "studio": "graphkin.cli.studio_command:studio",
 }
 """The commands of other modules and where they stand."""

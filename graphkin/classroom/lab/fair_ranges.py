@@ -1,0 +1,334 @@
+"""Where in the space of its parameters a lab is fair: a design of draws, and the widest ranges.
+
+The draws fill the space evenly (Halton 1960), or are all that there are. Ranges are found by
+peeling: from the whole box the thin slice goes whose loss makes the rest fairest (Friedman and
+Fisher 1999, patient rule induction), until all inside is fair; new draws inside must be fair, too.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import pairwise, product
+from math import prod
+from typing import Any
+
+from msgspec import Struct
+
+from graphkin.classroom.lab.fairness import Fairness, judged
+from graphkin.classroom.lab.lab_model import Lab, Range, ValueList
+from graphkin.classroom.lab.rules import Settings
+from graphkin.mechanism import Mechanism
+from graphkin.scene.model import Parameter
+from graphkin.scene.parameters import plain
+from graphkin.scene.read_scene import read_scene
+from graphkin.text.errors import Problem, SceneError
+
+Array = Any
+DRAWS = 4000
+"""Draws of a design."""
+FINE = 50
+"""Steps of a parameter for which the scene states none."""
+PEEL = 0.04
+"""The slice that is peeled off, in parts of what is left of a range."""
+AGAIN = 12
+"""How often ranges are tried with new draws."""
+SHARES = (0.75, 0.5, 0.25, 0.0)
+"""How much of the way from what peeling left to the whole space is tried."""
+PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
+"""Bases of the design, one for each parameter."""
+
+
+class Tried(Struct, frozen=True):
+    """Draws from a space: ``places`` are their indices by parameter, a row for each draw."""
+
+    space: Mapping[str, Range]
+    places: Array
+    fairness: Fairness
+    complete: bool
+
+    @property
+    def share(self) -> float:
+        """The share of fair draws."""
+        return float(self.fairness.fair.mean())
+
+    def by_value(self, name: str, bins: int = 12) -> list[tuple[Fraction, Fraction, float, int]]:
+        """For each part of a parameter's values: its first, its last, the fair share, the draws."""
+        import numpy as np
+
+        values, column = self.space[name], [*self.space].index(name)
+        edges = np.linspace(0, len(values), min(bins, len(values)) + 1).astype(int)
+        found = []
+        for low, high in pairwise(edges):
+            inside = (self.places[:, column] >= low) & (self.places[:, column] < high)
+            if inside.any():
+                fair = float(self.fairness.fair[inside].mean())
+                ends = values.value(int(low)), values.value(int(high) - 1)
+                found.append((*ends, fair, int(inside.sum())))
+        return found
+
+    def guilt(self, name: str) -> float:
+        """How much of what is fair a parameter decides: the spread of its fair shares, squared and
+        weighed, over that of all draws (correlation ratio)."""
+        share = self.share
+        if share in (0.0, 1.0):
+            return 0.0
+        parts = self.by_value(name)
+        count = sum(part[3] for part in parts)
+        spread = sum(part[3] * (part[2] - share) ** 2 for part in parts) / count
+        return spread / (share * (1 - share))
+
+    def reasons(self) -> list[tuple[str, int]]:
+        """Which limits are broken, and how often."""
+        unfair = (i for i, fair in enumerate(self.fairness.fair) if not fair)
+        every = (fault for i in unfair for fault in self.fairness.faults(i))
+        return Counter(f"{fault.limit} {fault.where}".strip() for fault in every).most_common()
+
+
+class FairRanges(Struct, frozen=True):
+    """A lab's space as it was tried, and the ranges of it in which all that was tried is fair.
+
+    ``ranges`` is None where there are none; ``left_alone`` are parameters without min and max.
+    """
+
+    tried: Tried
+    ranges: Mapping[str, Range | ValueList] | None
+    left_alone: tuple[str, ...]
+
+    @property
+    def count(self) -> int:
+        """How many different data the ranges give."""
+        return how_many(self.ranges) if self.ranges else 0
+
+
+def fair_ranges(lab: Lab) -> FairRanges:
+    """Try the whole space of a scene's parameters, and find where in it all is fair.
+
+    Raises SceneError where no parameter of the scene has both ends.
+    """
+    mechanism = Mechanism(read_scene(lab.scene))
+    every = {name: ends(each) for name, each in mechanism.scene.parameters.items()}
+    space = {name: values for name, values in every.items() if values is not None}
+    if not space:
+        found, wanted = "no parameter has min and max", "n = { value = …, min = …, max = … }"
+        raise SceneError(Problem("scene.toml: parameters", found, wanted))
+    tried = trial(mechanism, lab, space, whole_box(space))
+    alone = tuple(name for name in mechanism.scene.parameters if name not in space)
+    if tried.complete and len(space) == 1:
+        ((name, values),) = space.items()
+        runs = runs_of(values, tried.fairness.fair)
+        return FairRanges(tried, {name: runs} if runs else None, alone)
+    worst = max(space, key=tried.guilt)
+    boxes = [*between(whole_box(space), peeled(mechanism, lab, tried))]
+    ranges = [in_box(mechanism, lab, space, box, worst, tried.share == 1) for box in boxes]
+    good = [each for each in ranges if each is not None]
+    return FairRanges(tried, max(good, key=how_many, default=None), alone)
+
+
+def between(whole: Box, peeled: Box | None) -> Iterator[Box]:
+    """The whole box, that which peeling left, and some between the two."""
+    yield whole
+    for share in SHARES if peeled is not None else ():
+        yield [
+            (round(low + share * (first - low)), round(high + share * (last - high)))
+            for (low, high), (first, last) in zip(peeled or whole, whole, strict=True)
+        ]
+
+
+def in_box(
+    mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, worst: str, fair: bool
+) -> dict[str, Range | ValueList] | None:
+    """The ranges of a box, that of the parameter that decides most as far as all there is fair."""
+    ranges: dict[str, Range | ValueList] = {
+        name: cut(values, *box[k]) for k, (name, values) in enumerate(space.items())
+    }
+    if fair:
+        return ranges
+    runs = all_runs(mechanism, lab, space, box, worst)
+    return None if runs is None else {**ranges, worst: runs}
+
+
+def how_many(ranges: Mapping[str, Range | ValueList]) -> int:
+    """How many different data some ranges give."""
+    return prod(map(len, ranges.values()))
+
+
+def ends(parameter: Parameter) -> Range | None:
+    """All values that a scene allows, in its steps or in round ones; None without both ends."""
+    if parameter.minimum is None or parameter.maximum is None:
+        return None
+    least, most = plain(parameter.minimum), plain(parameter.maximum)
+    step = plain(parameter.step) if parameter.step is not None else round_step(most - least)
+    return Range(least, most, step) if most > least else None
+
+
+def round_step(span: Fraction) -> Fraction:
+    """A step of 1, 2 or 5 in its first digit, of which some fifty make a span."""
+    rough, power = span / FINE, Fraction(1)
+    while power > rough:
+        power /= 10
+    while power * 10 <= rough:
+        power *= 10
+    return next(power * digit for digit in (5, 2, 1) if power * digit <= rough)
+
+
+Box = list[tuple[int, int]]
+"""The first and the last index of each parameter."""
+
+
+def whole_box(space: Mapping[str, Range]) -> Box:
+    """All indices."""
+    return [(0, len(values) - 1) for values in space.values()]
+
+
+def trial(
+    mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1
+) -> Tried:
+    """Draws within a box: all that there are, or as many as a design has from a start on."""
+    import numpy as np
+
+    sizes = [high - low + 1 for low, high in box]
+    complete = prod(sizes) <= DRAWS
+    if complete:
+        found = np.array([*product(*map(range, sizes))])
+    else:
+        found = (halton(len(sizes), DRAWS, start) * sizes).astype(int)
+    places = found + np.array([low for low, _ in box])
+    many = [settings_at(space, row) for row in places]
+    return Tried(space, places, judged(mechanism, lab, many), complete)
+
+
+def settings_at(space: Mapping[str, Range], row: Sequence[int]) -> Settings:
+    """The data at some indices."""
+    return {n: values.value(int(k)) for (n, values), k in zip(space.items(), row, strict=True)}
+
+
+def halton(dimensions: int, count: int, start: int) -> Array:
+    """Points that fill a unit cube evenly: the digits of their numbers, mirrored at the point."""
+    import numpy as np
+
+    found = np.zeros((count, dimensions))
+    for column in range(dimensions):
+        base = PRIMES[column % len(PRIMES)]
+        numbers, part = np.arange(start, start + count) * (1 + column // len(PRIMES)), 1.0
+        while numbers.any():
+            part /= base
+            found[:, column] += part * (numbers % base)
+            numbers //= base
+    return found
+
+
+# --- ranges ------------------------------------------------------------------------------------
+
+
+def runs_of(values: Range, fair: Sequence[bool]) -> Range | ValueList | None:
+    """The fair values of one parameter: a range, or a list of ranges and single values."""
+    runs: list[Range] = []
+    begun = None
+    for index, good in enumerate([*fair, False]):
+        if good and begun is None:
+            begun = index
+        elif not good and begun is not None:
+            runs.append(cut(values, begun, index - 1))
+            begun = None
+    return None if not runs else runs[0] if len(runs) == 1 else ValueList(tuple(runs))
+
+
+def cut(values: Range, low: int, high: int) -> Range:
+    """The part of a range between two indices."""
+    return Range(values.value(low), values.value(high), values.step)
+
+
+def peeled(mechanism: Mechanism, lab: Lab, tried: Tried) -> Box | None:
+    """The box that peeling leaves, all of whose draws are fair; None where nothing is left."""
+    import numpy as np
+
+    box, places, fair = whole_box(tried.space), tried.places, tried.fairness.fair
+    for turn in range(AGAIN):
+        found = peel(box, places, fair)
+        if found is None:
+            return None
+        box = pasted(found, whole_box(tried.space), places, fair) if turn == 0 else found
+        more = trial(mechanism, lab, tried.space, box, 1 + (turn + 1) * DRAWS)
+        if more.fairness.fair.all():
+            return box
+        places = np.concatenate([places, more.places])
+        fair = np.concatenate([fair, more.fairness.fair])
+    return None
+
+
+def peel(box: Box, places: Array, fair: Array) -> Box | None:
+    """Take the slice off whose loss leaves the largest fair share, until all inside is fair."""
+
+    inside = within(box, places)
+    while not fair[inside].all():
+        best: tuple[float, int, Box, Array] | None = None
+        for smaller in slices(box):
+            kept = inside & within(smaller, places)
+            if kept.any():
+                rank = (float(fair[kept].mean()), int(kept.sum()))
+                if best is None or rank > best[:2]:
+                    best = (*rank, smaller, kept)
+        if best is None:
+            return None
+        _, _, box, inside = best
+    return box if inside.any() else None
+
+
+def pasted(box: Box, whole: Box, places: Array, fair: Array) -> Box:
+    """The box, grown again by slices at each end as long as no draw in it is unfair."""
+    grown = True
+    while grown:
+        grown = False
+        for k, ((low, high), (first, last)) in enumerate(zip(box, whole, strict=True)):
+            thin = max(1, round(PEEL * (high - low + 1)))
+            for wider in ((max(first, low - thin), high), (low, min(last, high + thin))):
+                larger = [*box[:k], wider, *box[k + 1 :]]
+                if wider != (low, high) and fair[within(larger, places)].all():
+                    box, grown = larger, True
+                    break
+    return box
+
+
+def all_runs(
+    mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, name: str
+) -> Range | ValueList | None:
+    """All values of one parameter that are fair with whatever the box holds of the others."""
+    import numpy as np
+
+    values, column = space[name], [*space].index(name)
+    low, high = box[column] if len(values) > DRAWS // 8 else (0, len(values) - 1)
+    good = np.zeros(len(values), dtype=bool)
+    good[low : high + 1] = True
+    for turn in range(AGAIN):
+        left = np.flatnonzero(good)
+        if not len(left):
+            return None
+        each = max(1, DRAWS // len(left))
+        sizes = [high - low + 1 for low, high in box]
+        spread = (halton(len(box), len(left) * each, 1 + turn * DRAWS) * sizes).astype(int)
+        places = spread + np.array([low for low, _ in box])
+        places[:, column] = np.repeat(left, each)
+        fair = judged(mechanism, lab, [settings_at(space, row) for row in places]).fair
+        good[left] = fair.reshape(len(left), each).all(axis=1)
+        if fair.all():
+            break
+    return runs_of(values, good.tolist())
+
+
+def slices(box: Box) -> Iterator[Box]:
+    """The box without a thin slice at either end of each parameter."""
+    for k, (low, high) in enumerate(box):
+        thin = max(1, round(PEEL * (high - low + 1)))
+        if high - low >= thin:
+            yield [*box[:k], (low + thin, high), *box[k + 1 :]]
+            yield [*box[:k], (low, high - thin), *box[k + 1 :]]
+
+
+def within(box: Box, places: Array) -> Array:
+    """Which draws lie in a box."""
+    import numpy as np
+
+    low, high = np.array(box).T
+    return ((places >= low) & (places <= high)).all(axis=1)

@@ -1,0 +1,192 @@
+"""Ranges in which a lab is fair: known regions are found again, and proposals hold."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from msgspec.structs import replace
+
+from graphkin.classroom.lab import fair_ranges as module
+from graphkin.classroom.lab.fair_ranges import fair_ranges, halton, round_step, runs_of
+from graphkin.classroom.lab.fair_ranges_words import as_toml, proposal
+from graphkin.classroom.lab.formula_mending import candidates, is_fair, mended
+from graphkin.classroom.lab.lab_model import Range, ValueList
+from graphkin.classroom.lab.lab_trial import tried
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.cli.main import app
+from graphkin.text.errors import SceneError
+
+SPACE = """graphkin = 1
+title = "A crank with a rod"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[parameters]
+phi = { value = 40, min = 0, max = 355, step = 5 }
+speed = { value = 100, min = 60, max = 300, step = 5 }
+r = { value = 60, min = 40, max = 80, step = 1 }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = "r"
+[links.2]
+A-B = 200
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[[drivers]]
+turn = 1
+angle = "phi"
+speed = "speed"
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+"""
+RULE = """graphkin = 1
+[variants]
+course = "mechanics"
+draw = { phi = { min = 0, max = 355, step = 5 } }
+[marks]
+v_B_mm = 2
+v_B = 1
+"""
+
+
+@pytest.fixture
+def lab(tmp_path):
+    (tmp_path / "scene.toml").write_text(SPACE, encoding="utf-8")
+    (tmp_path / "lab.toml").write_text(RULE, encoding="utf-8")
+    return read_lab(tmp_path)
+
+
+def judging(monkeypatch, region):
+    """Let what is fair be a region of the data instead."""
+
+    def judged(mechanism, lab, many):
+        return SimpleNamespace(fair=np.array([region(each) for each in many]))
+
+    monkeypatch.setattr(module, "judged", judged)
+
+
+def inside(values, value) -> bool:
+    """Whether a value is one of those drawn."""
+    return any(values.value(k) == value for k in range(len(values)))
+
+
+def test_intervals_of_the_parameter_that_decides_are_found_to_the_step(lab, monkeypatch):
+    good = {*range(20, 75, 5), *range(200, 300, 5), 330}
+    judging(monkeypatch, lambda each: each["phi"] in good)
+    found = fair_ranges(lab)
+    assert found.ranges is not None
+    phi = found.ranges["phi"]
+    assert {phi.value(k) for k in range(len(phi))} == good
+    assert found.ranges["speed"] == Range(60, 300, 5)
+    assert found.ranges["r"] == Range(40, 80, 1)
+    assert found.tried.guilt("phi") > 0.6
+    assert found.tried.guilt("speed") < 0.05
+
+
+def test_in_a_region_of_two_parameters_all_that_is_proposed_is_fair(lab, monkeypatch):
+    """A disc: no box fills it, but the one that is found lies in it and is no sliver of it."""
+
+    def in_disc(each):
+        return (each["phi"] - 180) ** 2 / 150**2 + (each["r"] - 60) ** 2 / 18**2 <= 1
+
+    judging(monkeypatch, in_disc)
+    found = fair_ranges(lab)
+    assert found.ranges is not None
+    phi, r = found.ranges["phi"], found.ranges["r"]
+    every = [{"phi": phi.value(i), "r": r.value(k)} for i in range(len(phi)) for k in range(len(r))]
+    assert all(map(in_disc, every))
+    discs = sum(in_disc({"phi": p, "r": q}) for p in range(0, 360, 5) for q in range(40, 81))
+    assert len(every) > 0.4 * discs
+
+
+def test_where_nothing_is_fair_nothing_is_proposed(lab, monkeypatch):
+    judging(monkeypatch, lambda each: False)
+    found = fair_ranges(lab)
+    assert found.ranges is None
+    assert proposal(found, "mechanics") == []
+
+
+def test_a_scene_without_ends_is_told(lab):
+    text = SPACE.replace(", min = 0, max = 355, step = 5", "")
+    text = text.replace(", min = 60, max = 300, step = 5", "").replace(
+        ", min = 40, max = 80, step = 1", ""
+    )
+    lab.scene.write_text(text, encoding="utf-8")
+    with pytest.raises(SceneError, match="no parameter has min and max"):
+        fair_ranges(lab)
+
+
+def test_the_proposal_is_a_fair_lab(lab, tmp_path, monkeypatch):
+    """Pasted into lab.toml in place of what stood there, and tried as check does."""
+    monkeypatch.setattr(module, "DRAWS", 1500)
+    found = fair_ranges(lab)
+    rest = RULE[RULE.index("[marks]") :]
+    text = "\n".join(["graphkin = 1", *proposal(found, "mechanics"), rest])
+    (tmp_path / "lab.toml").write_text(text, encoding="utf-8")
+    trial = tried(read_lab(tmp_path), 500)
+    assert trial.unfair == 0
+    assert found.tried.share < 1
+    assert trial.different > 400
+
+
+@pytest.mark.parametrize("base", [2, 3])
+def test_the_design_puts_one_draw_into_each_part(base):
+    """Of base^k draws in a row one lies in each of as many parts (van der Corput's law)."""
+    column, count = {2: 0, 3: 1}[base], base**4
+    found = np.sort(halton(2, count, count)[:, column] * count).astype(int)
+    assert list(found) == list(range(count))
+
+
+def test_runs_are_ranges_and_single_values():
+    values = Range(Fraction(10), Fraction(60), Fraction(10))
+    runs = runs_of(values, [True, False, True, True, False, True])
+    assert isinstance(runs, ValueList)
+    assert [runs.value(k) for k in range(len(runs))] == [10, 30, 40, 60]
+    assert as_toml(runs) == "[10, { min = 30, max = 40, step = 10 }, 60]"
+    assert runs_of(values, [False] * 6) is None
+    assert runs_of(values, [True] * 6) == values
+
+
+@pytest.mark.parametrize(("span", "step"), [(50, 1), (300, 5), (7, "1/10"), (90, 1), (1000, 20)])
+def test_steps_that_no_scene_states_are_round(span, step):
+    assert round_step(Fraction(span)) == Fraction(step)
+
+
+def test_one_number_that_is_changed_mends_the_pump(tmp_path):
+    lab = read_lab("pump")
+    trial = tried(lab)
+    assert trial.unfair == 1
+    found = mended(lab, trial)
+    assert found is not None
+    assert abs(found.percent) < 3
+    text = lab.scene.read_text(encoding="utf-8")
+    changed = next(new for one, new in candidates(text, 1) if one == found)
+    assert changed.count(found.new) > text.count(found.new)
+    path = tmp_path / "scene.toml"
+    path.write_text(changed, encoding="utf-8")
+    assert is_fair(replace(lab, scene=path), trial)
+    assert not is_fair(lab, trial)
+
+
+def test_the_command_tells_proposes_and_draws(lab, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "DRAWS", 300)
+    out = tmp_path / "out"
+    result = CliRunner().invoke(app, ["ranges", str(tmp_path), "-o", str(out)])
+    assert result.exit_code == 0, result.output
+    for said in ("decides    phi", "[variants.draw]", "different data; at apart = 0.5"):
+        assert said in result.output
+    names = {
+        f"{tmp_path.name}-fair-by-{what}.{kind}"
+        for what in ("parameter", "pairs")
+        for kind in ("svg", "png")
+    }
+    assert {path.name for path in out.iterdir()} == names
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    assert CliRunner().invoke(app, ["ranges", str(tmp_path), "-o", str(out)]).exit_code == 2
+    assert {path.name: path.read_bytes() for path in out.iterdir()} == before
