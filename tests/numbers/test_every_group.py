@@ -14,8 +14,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import FLOAT, is_decimal
 from graphkin.numbers.kinds import ball_kind, decimal_kind
@@ -29,7 +31,7 @@ MOVES = 6
 ROUNDINGS = 4
 """Units of its moves by which an answer may be off: a step rounds more than once."""
 NARROW = {False: 2e3, True: 2e5}
-"""Units of its moves by which a ball may be wide, without and with a group of higher class.
+"""Units of its moves by which a ball may be wide, without and with trials.
 
 It adds up what may cancel, in a trial twice: in what is tried and in what is drawn from it.
 """
@@ -59,6 +61,11 @@ def of_higher_class(name: str) -> bool:
     """Whether a group is closed by trials, which are made on arrays of doubles."""
     steps = mechanism(name).program.steps
     return any(step.action and isinstance(step.action.value, ClosureSolver) for step in steps)
+
+
+def has_trials(name: str) -> bool:
+    """Whether the plans of a group are divided by two trials."""
+    return any(constructions(mechanism(name).program, TwoTrials))
 
 
 def moved(value: Any, chance: random.Random) -> Any:
@@ -207,4 +214,4 @@ def test_a_mechanism_in_balls_contains_the_values_and_is_narrow(name, bits, monk
                 # what is nought for a reason that no ball sees is as wide as other answers are
                 scale = move + float(abs(true))
                 scale = scale if scale > NOUGHT else max(moves)
-                assert nk.width(ball) <= NARROW[of_higher_class(name)] * 2.0**-bits * scale
+                assert nk.width(ball) <= NARROW[has_trials(name)] * 2.0**-bits * scale
