@@ -1,30 +1,35 @@
-"""How well drawings are read: photographs of simulated students of four labs, against their truth.
+"""How well drawings are read: pictures of simulated students of four labs, against their truth.
 
-    python -m tests.bench.reading 120 [-o FOLDER]
+    python -m tests.bench.reading 120 [-o FOLDER] [-j 2]
 
-A third of the sheets have a mistake, a twelfth lacks a point; every fourth picture is hard. Prints
-how far the map is off, where points are placed, how much is decided, and how much of it wrongly.
+A third of the sheets have a mistake, a twelfth lacks a point; every fourth picture is hard, every
+eighth a flatbed scan. Prints how far the map is off, where points are placed, how much is decided,
+and how much of it wrongly. A folder keeps the pictures with their truth: they are read again.
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import msgspec
 import numpy as np
 from click.testing import CliRunner
+from msgspec import Struct
 
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
 from graphkin.reading.paper_map import HALF
 from graphkin.reading.pictures import Photograph
 from graphkin.reading.read_run import read_order
-from graphkin.reading.read_sheet import Grid, read_one
-from tests.reading.camera import Shot, photograph
-from tests.reading.hand import Habits, drawn_sheet, sheets_of
+from graphkin.reading.read_sheet import Grid, SheetRecord, read_one
+from tests.reading.camera import Shot, photograph, scan
+from tests.reading.hand import Habits, TruePoint, drawn_sheet, sheets_of
 
 LABS = {
     "pump": (3, 7, 12, 20),
@@ -35,6 +40,14 @@ LABS = {
 """The labs, one with Coriolis and one of class III, and the numbers of their students."""
 XS, YS = tuple(np.linspace(22, 408, 17).tolist()), tuple(np.linspace(12, 285, 13).tolist())
 TURNS = (0.0, 90.0, 180.0, 270.0)
+
+
+class Taken(Struct, frozen=True):
+    """What is true of a picture: its lab, what was drawn, and where a grid of places lies in it."""
+
+    lab: str
+    points: tuple[TruePoint, ...]
+    grid: tuple[tuple[float, float], ...]
 
 
 def folder_of(lab: str, numbers: tuple[int, ...], where: Path) -> Path:
@@ -53,7 +66,7 @@ def habits_of(i: int, rng: Any) -> Habits:
         point=rng.uniform(0.25, 0.5),
         line=rng.uniform(0.25, 0.5),
         grey=rng.uniform(0.3, 0.75),
-        width=rng.uniform(0.25, 0.4),
+        width=rng.uniform(0.22, 0.45),
         wobble=rng.uniform(0.03, 0.1),
         mistake=i % 3 == 1,
         missing=i % 12 == 2,
@@ -79,81 +92,140 @@ def shot_of(i: int, rng: Any) -> Shot:
         table=float(rng.choice([60, 110, 180, 235])),
         fill=rng.uniform(0.78, 0.95),
         thumb=hard and i % 8 == 3,
+        grain=float(rng.choice([0.0, 1.5, 4.0])),
     )
 
 
-def main(count: int, keep: Path | None) -> None:
+def take(classes: dict[str, Path], where: Path, i: int) -> None:
+    """Draw the i-th sheet and take its picture, unless it is there."""
+    path, truth = where / f"p{i:03}.jpg", where / f"p{i:03}.truth.json"
+    if truth.exists():
+        return
+    rng = np.random.default_rng([i, 23])
+    lab = list(LABS)[i % len(LABS)]
+    variants = list(read_order(open_class(classes[lab]), Grid()).variants)
+    code = variants[(i // len(LABS)) % len(variants)]
+    kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
+    kind = kinds[int(rng.integers(len(kinds)))]
+    habits = habits_of(i, rng)
+    try:
+        drawing = drawn_sheet(classes[lab], code, kind, habits, i)
+    except AssertionError:
+        return
+    shot = shot_of(i, rng)
+    if i % 8 == 5:
+        turn = round(shot.turn / 90) * 90 + rng.uniform(-1, 1)
+        taken = scan(drawing.image, float(rng.choice([150, 200, 300])), turn, i)
+    else:
+        taken = photograph(drawing.image, shot, i)
+    places = np.stack(np.meshgrid(XS, YS), axis=-1).reshape(-1, 2)
+    grid = tuple((float(x), float(y)) for x, y in taken.where(places))
+    path.write_bytes(taken.data)
+    truth.write_bytes(msgspec.json.encode(Taken(lab, drawing.points, grid)))
+
+
+def read_again(classes: dict[str, Path], where: Path, i: int) -> tuple[str, Taken, Any] | None:
+    """What is read of the i-th picture, with what is true of it."""
+    import cv2
+
+    cv2.setNumThreads(1)
+    path = where / f"p{i:03}.jpg"
+    if not path.exists():
+        return None
+    taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
+    order = read_order(open_class(classes[taken.lab]), Grid(XS, YS))
+    record = read_one(order, Photograph(path.stem, path), "").record
+    return path.stem, taken, record
+
+
+class Tally:
+    """What came of all pictures so far."""
+
+    def __init__(self) -> None:
+        self.count, self.labs = Counter[Any](), Counter[Any]()
+        self.placed: list[float] = []
+        self.maps: list[Any] = []
+        self.spent: list[float] = []
+        self.decided, self.clean = 0, 0
+        self.refused: list[str] = []
+        self.wrongly: list[str] = []
+        self.missed: list[str] = []
+
+    def add(self, name: str, taken: Taken, record: SheetRecord) -> None:
+        """Hold what was read of a picture to what is true of it."""
+        if record.refused is not None:
+            self.refused.append(f"{name}: {record.refused}")
+            return
+        self.spent.append(record.seconds)
+        true = np.array(taken.grid)
+        scale = np.hypot(*(true[0] - true[len(XS) - 1])) / (XS[-1] - XS[0])
+        self.maps.append(np.hypot(*(np.array(record.map) - true).T) / scale)
+        found = {each.step: each for each in record.points}
+        clean = all(each.verdict == "right" for each in taken.points)
+        lab = Path(taken.lab).name
+        for point in taken.points:
+            read = found.get(point.step)
+            if read is None:
+                continue
+            self.count[lab, point.verdict, read.verdict, read.ask] += 1
+            self.clean += clean
+            self.decided += clean and not read.ask
+            where = f"{name} {lab} {record.kind} {point.name} ({point.step})"
+            if point.at is not None:
+                off = 2 * HALF
+                if read.at is not None:
+                    off = float(np.hypot(read.at[0] - point.at[0], read.at[1] - point.at[1]))
+                self.placed.append(off)
+                self.labs[lab, off < 1] += 1
+                if off >= 1:
+                    asked = ", asked" if read.ask else ""
+                    self.missed.append(f"{where}: {point.verdict}, {read.verdict}{asked}, {off:.1f}")
+            if not read.ask and read.verdict != point.verdict:
+                self.wrongly.append(f"{where}: {point.verdict}, said {read.verdict}")
+            elif clean and read.ask and point.at is not None and off < 1:
+                self.missed.append(f"{where}: asked, {read.verdict} at {read.off} of {read.error}")
+
+    def report(self) -> None:
+        """Print it."""
+        off, every = np.array(self.placed), np.concatenate(self.maps)
+        near = off[off < 1]
+        print(f"refused  {len(self.refused)}, read {len(self.maps)}", *self.refused, sep="\n")
+        print(f"map      median {np.median(every):.3f} mm, 95 % {np.percentile(every, 95):.3f} mm")
+        print(f"points   {len(off)}, within 1 mm {np.mean(off < 1):.1%},", end=" ")
+        print(f"95 % of them within {np.percentile(near, 95):.2f} mm")
+        for lab in sorted({lab for lab, _ in self.labs}):
+            right, off_it = self.labs[lab, True], self.labs[lab, False]
+            print(f"         {lab}: {right} of {right + off_it}")
+        share = self.decided / max(self.clean, 1)
+        print(f"decided  {self.decided} of {self.clean} on sheets without a mistake, {share:.1%}")
+        print(f"wrongly  {len(self.wrongly)} of {sum(self.count.values())}", *self.wrongly, sep="\n")
+        print(f"seconds  median {np.median(self.spent):.2f}, most {np.max(self.spent):.2f}")
+        for name, times in sorted(self.count.items()):
+            print(*name[:3], "asked" if name[3] else "decided", times)
+        print("beside or asked:", *self.missed, sep="\n")
+
+
+def main(count: int, keep: Path | None, jobs: int) -> None:
     """Draw, photograph, read and compare so many sheets."""
-    tally, placed, maps, spent = Counter[Any](), [], [], []
-    asked, refused, wrongly = [0, 0], [], []
-    with TemporaryDirectory() as folder:
+    tally = Tally()
+    with TemporaryDirectory() as folder, ProcessPoolExecutor(jobs) as executor:
         where = keep or Path(folder)
-        where.mkdir(exist_ok=True)
-        classes = {lab: folder_of(lab, numbers, where) for lab, numbers in LABS.items()}
-        orders = {lab: read_order(open_class(path), Grid(XS, YS)) for lab, path in classes.items()}
-        places = np.stack(np.meshgrid(XS, YS), axis=-1).reshape(-1, 2)
-        for i in range(count):
-            if i and i % 20 == 0 and maps:
-                report(tally, placed, maps, spent, asked, refused, wrongly)
-            rng = np.random.default_rng([i, 23])
-            lab = list(LABS)[i % len(LABS)]
-            variants = list(orders[lab].variants)
-            code = variants[(i // len(LABS)) % len(variants)]
-            kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
-            kind = kinds[int(rng.integers(len(kinds)))]
-            habits = habits_of(i, rng)
-            try:
-                drawing = drawn_sheet(classes[lab], code, kind, habits, i)
-            except AssertionError:
-                continue
-            taken = photograph(drawing.image, shot_of(i, rng), i)
-            path = where / f"p{i:03}.jpg"
-            path.write_bytes(taken.data)
-            record = read_one(orders[lab], Photograph(path.stem, path), "").record
-            if record.refused is not None:
-                refused.append(f"{path.stem}: {record.refused}")
-                continue
-            spent.append(record.seconds)
-            true = taken.where(places)
-            scale = np.hypot(*(true[0] - true[len(XS) - 1])) / (XS[-1] - XS[0])
-            maps.append(np.hypot(*(np.array(record.map) - true).T) / scale)
-            found = {each.step: each for each in record.points}
-            clean = all(each.verdict == "right" for each in drawing.points)
-            for point in drawing.points:
-                read = found.get(point.step)
-                if read is None:
-                    continue
-                tally[Path(lab).name, point.verdict, read.verdict, read.ask] += 1
-                if point.at is not None:
-                    off = 2 * HALF
-                    if read.at is not None:
-                        off = float(np.hypot(read.at[0] - point.at[0], read.at[1] - point.at[1]))
-                    placed.append(off)
-                asked[0] += clean and not read.ask
-                asked[1] += clean
-                if not read.ask and read.verdict != point.verdict:
-                    told = f"{point.verdict}, said {read.verdict}"
-                    wrongly.append(f"{path.stem} {Path(lab).name} {point.name}: {told}")
-    report(tally, placed, maps, spent, asked, refused, wrongly)
-
-
-def report(
-    tally: Any, placed: Any, maps: Any, spent: Any, asked: Any, refused: Any, wrongly: Any
-) -> None:
-    """Print what came of it."""
-    off, every = np.array(placed), np.concatenate(maps)
-    near = off[off < 1]
-    print(f"refused {len(refused)}, read {len(maps)}", *refused, sep="\n")
-    print(f"map      median {np.median(every):.3f} mm, 95 % {np.percentile(every, 95):.3f} mm")
-    print(f"points   {len(off)}, within 1 mm {np.mean(off < 1):.1%},", end=" ")
-    print(f"95 % of them within {np.percentile(near, 95):.2f} mm")
-    print(f"decided  {asked[0]} of {asked[1]} on sheets without a mistake")
-    print(f"wrongly  {len(wrongly)} of {sum(tally.values())}", *wrongly, sep="\n")
-    print(f"seconds  median {np.median(spent):.2f}, most {np.max(spent):.2f}")
-    for name, times in sorted(tally.items()):
-        print(*name[:3], "asked" if name[3] else "decided", times)
+        where.mkdir(parents=True, exist_ok=True)
+        classes = {lab: where / Path(lab).name for lab in LABS}
+        for lab, numbers in LABS.items():
+            if not classes[lab].exists():
+                folder_of(lab, numbers, where)
+        list(executor.map(partial(take, classes, where), range(count)))
+        for found in executor.map(partial(read_again, classes, where), range(count)):
+            if found is not None:
+                tally.add(*found)
+    tally.report()
 
 
 if __name__ == "__main__":
-    where = Path(sys.argv[sys.argv.index("-o") + 1]) if "-o" in sys.argv else None
-    main(int(sys.argv[1]), where)
+    parser = argparse.ArgumentParser()
+    parser.add_argument("count", type=int)
+    parser.add_argument("-o", type=Path)
+    parser.add_argument("-j", type=int, default=1)
+    said = parser.parse_args()
+    main(said.count, said.o, said.j)

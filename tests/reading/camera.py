@@ -33,6 +33,8 @@ class Shot(Struct, frozen=True):
     fill: float = 0.9
     thumb: bool = False
     table: float = 90.0
+    grain: float = 0.0
+    """Of the paper, in greys."""
 
 
 class Picture(Struct, frozen=True):
@@ -118,6 +120,8 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
     small = rng.normal(0, 1, (height // 16 + 1, width // 16 + 1)).astype(np.float32)
     grain = cv2.resize(cv2.GaussianBlur(small, (0, 0), 2), (width, height))
     table = np.clip(shot.table + 25 * grain, 5, 250)
+    fibres = rng.normal(0, 1, (height // 3 + 1, width // 3 + 1)).astype(np.float32)
+    seen = seen + shot.grain * cv2.resize(fibres, (width, height))
     seen = np.where(on, seen * 0.92, table)
     ys, xs = np.mgrid[0:height, 0:width].astype(np.float32)
     lit = 1 - shot.light * (0.6 * xs / width + 0.4 * ys / height)
@@ -132,6 +136,39 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
     seen = seen + rng.normal(0, shot.noise, seen.shape).astype(np.float32)
     ok, data = cv2.imencode(
         ".jpg", np.clip(seen, 0, 255).astype(np.uint8), [cv2.IMWRITE_JPEG_QUALITY, shot.quality]
+    )
+    assert ok
+    return Picture(data.tobytes(), where)
+
+
+def scan(
+    image: Any, dpi: float, turn: float, seed: int, part: tuple[float, float] = (0.0, WIDE)
+) -> Picture:
+    """A flatbed's picture of a drawn sheet, or of what of it lies between two distances (mm) from
+    its left edge, as it lies on a glass somewhat larger than that.
+    """
+    rng = np.random.default_rng([seed, 78])
+    density, lean = dpi / 25.4, radians(turn)
+    left, right = part
+    corners = np.array([[left, 0], [right, 0], [right, HIGH], [left, HIGH]])
+    spin = np.array([[np.cos(lean), np.sin(lean)], [-np.sin(lean), np.cos(lean)]])
+    low = (corners @ spin).min(0) - rng.uniform(0, 4, 2)
+    high = (corners @ spin).max(0) + rng.uniform(0, 4, 2)
+    width, height = (int(each) for each in (high - low) * density)
+    stretch = 1 + rng.uniform(-0.002, 0.002, 2)
+
+    def where(points: Any) -> Any:
+        return (points @ spin - low) * density * stretch - 0.5
+
+    spots = np.stack(np.meshgrid(np.arange(width), np.arange(height)), axis=-1)
+    paper = ((spots + 0.5) / density / stretch + low) @ spin.T
+    source = (paper * DENSITY - 0.5).astype(np.float32)
+    fine = cv2.GaussianBlur(image, (0, 0), 0.4 * DENSITY / density)
+    seen = cv2.remap(fine, source[..., 0], source[..., 1], cv2.INTER_LINEAR, borderValue=235)
+    on = (paper[..., 0] >= left) & (paper[..., 0] <= right)
+    seen = np.where(on, seen, 235) + rng.normal(0, 1.5, seen.shape)
+    ok, data = cv2.imencode(
+        ".jpg", np.clip(seen, 0, 255).astype(np.uint8), [cv2.IMWRITE_JPEG_QUALITY, 85]
     )
     assert ok
     return Picture(data.tobytes(), where)
