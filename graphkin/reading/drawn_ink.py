@@ -39,6 +39,13 @@ BOW = 5.0
 COVERED = 0.3
 """A place of a line counts as drawn from this part of a usual line on."""
 
+RUN, RUNS, GAP, PITCH = 6.0, 0.8, 1.4, 0.2
+"""A line ends where, after so many mm of which that share is drawn, so many mm are empty; how close
+it is looked at.
+"""
+ASLANT, MOST_NODES = 12.0, 6
+"""Degrees at least by which another line leaves a line; the places where some do that are told."""
+
 
 class InkLine(Struct, frozen=True):
     """A straight line that was found: two places (mm, complex, y down), how much of it is there."""
@@ -57,6 +64,12 @@ class InkLine(Struct, frozen=True):
     def off(self, place: complex) -> float:
         """How far a place lies beside it, in mm, to the left or to the right."""
         return float(((place - self.start) * self.way.conjugate()).imag)
+
+
+class InkStroke(Struct, frozen=True):
+    """A line that comes to a place: how far beyond it the line ends, in mm; None: it goes on."""
+
+    end: float | None
 
 
 class DrawnInk(Struct, frozen=True):
@@ -117,6 +130,62 @@ class DrawnInk(Struct, frozen=True):
                 ends = (place + near * out - 1j * BOW * out, place + distant * out + 1j * BOW * out)
                 lines.append(InkLine(*ends, cover, error))
         return lines
+
+    def stroke(self, place: complex, way: complex, reach: float) -> InkStroke | None:
+        """How a line that comes along a direction goes on about a place; None where it does not
+        come so far.
+        """
+        along = np.arange(-reach - RUN, reach + GAP + PITCH, PITCH)
+        across = np.arange(-0.3, 0.31, 0.15)
+        dark, known = self.at(place + way * (along[:, None] + 1j * across[None, :]))
+        drawn = (dark.max(axis=1) > COVERED) | (known[:, len(across) // 2] == 0)
+        before, beyond = round(RUN / PITCH), round(GAP / PITCH)
+        for i in range(before, len(along) - beyond):
+            if not drawn[i : i + beyond].any():
+                if drawn[i - before : i].mean() < RUNS:
+                    return None
+                return InkStroke(float(along[i - 1]))
+        middle = round((reach + RUN) / PITCH)
+        near = drawn[middle - before : middle + before]
+        return InkStroke(None) if near.mean() >= RUNS else None
+
+    def node(self, place: complex, way: complex, reach: float) -> float | None:
+        """How far along a line, from a place on it, most others leave it; None where none does."""
+        along = np.arange(-reach, reach + PITCH, PITCH)
+        leaving, rays = self.leaving(place + along * way, way, 3.0)
+        strength = np.minimum(leaving.sum(axis=1) / 2, 3.0) - abs(along) / reach
+        best = int(strength.argmax())
+        if leaving[best].max() < RUNS:
+            return None
+        base, ray = place + float(along[best]) * way, complex(rays[int(leaving[best].argmax())])
+        found = self.lines(base, base + (RUN + ENDS) * ray, 0.8, 0.8, most=1)
+        if not found:
+            return None
+        other = found[0]
+        back = other.off(base) / (way * other.way.conjugate()).imag
+        return float(along[best]) - back if abs(back) < GAP else None
+
+    def nodes(self, start: complex, way: complex, long: float) -> list[complex]:
+        """The places of a line from a place on that others leave, those that most do first."""
+        along = np.arange(RUN, long, 3 * PITCH)
+        leaving, _ = self.leaving(start + along * way, way, 6.0)
+        strength = np.where(leaving.max(axis=1) >= RUNS, leaving.sum(axis=1), 0.0)
+        found: list[float] = []
+        for i in np.argsort(-strength):
+            if strength[i] <= 0 or len(found) >= MOST_NODES:
+                break
+            if all(abs(along[i] - other) > 2 * GAP for other in found):
+                found.append(float(along[i]))
+        return [start + each * way for each in found]
+
+    def leaving(self, places: Any, way: complex, turn: float) -> tuple[Any, Any]:
+        """How surely lines leave a line at some places, in each of many directions; these."""
+        turns = np.radians(np.arange(ASLANT, 360 - ASLANT, turn))
+        rays = way * np.exp(1j * turns[abs(turns - np.pi) > np.radians(ASLANT)])
+        radii = np.arange(ENDS, RUN + ENDS, 1.5 * PITCH)
+        dark, known = self.at(places[:, None, None] + rays[:, None] * radii)
+        drawn = ((dark > COVERED) | (known == 0)).mean(axis=2) * (known.mean(axis=2) > TOLD)
+        return np.clip(drawn - RUNS, 0, None) / (1 - RUNS), rays
 
     def cover(
         self, start: complex, end: complex, beside: float = 0.3, hidden: float = 0.0

@@ -16,7 +16,7 @@ from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import join
+from graphkin.construction.core.vocabulary import join, similar_point
 from graphkin.construction.guides.guide_line import GuideLine
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page
@@ -38,13 +38,17 @@ class Leading(Struct, frozen=True):
     """What leads to a point: the step of its other end, a point, or a line that begins there.
 
     ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass, ``after``
-    that it is drawn through the point or from it when that is there.
+    that it is drawn through the point or from it when that is there, ``arrow`` that it is a vector
+    that begins or ends at the point and does not go on, ``back`` that the other end is the tail of
+    a vector.
     """
 
     far: int
     given: bool = False
     bow: bool = False
     after: bool = False
+    arrow: bool = False
+    back: bool = False
 
 
 class LetteredSheet(Struct, frozen=True, dict=True):
@@ -168,14 +172,20 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                     yield Leading(arg, self.is_given(arg))
                 elif isinstance(values.get(arg), Circle):
                     yield Leading(arg, bow=True)
-        for other in values:
-            step = steps[other]
-            if step.arrow and step.action is join and step.plane is steps[number].plane:
-                tail, tip = step.args[:2]
-                if number in (tail, tip):
-                    yield Leading(tip if number == tail else tail)
+        for tail, tip in self.vectors:
+            if number in (tail, tip) and steps[tail].plane is steps[number].plane:
+                yield Leading(tip if number == tail else tail, arrow=True)
+        if steps[number].action is similar_point and hand not in values:
+            yield from (Leading(corner) for corner in steps[number].args[:2])
         yield from (Leading(far) for far in self.bars.get(number, ()))
-        yield from (Leading(other, after=True) for other in self.after(number))
+        yield from self.after(number)
+
+    @cached_property
+    def vectors(self) -> tuple[tuple[int, int], ...]:
+        """The points at the tail and at the tip of each vector that joins two."""
+        steps = self.exact.program.steps
+        joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
+        return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
 
     def after(self, number: int) -> Iterator[int]:
         """The lines that are drawn through a point when it is there, and the arrows set at it."""
@@ -192,11 +202,11 @@ class LetteredSheet(Struct, frozen=True, dict=True):
             if isinstance(value, Line):
                 beside = ((own - value.point) * value.along.conjugate()).imag / abs(value.along)
                 if abs(beside) * self.field(number).mm < EXACT:
-                    yield other
+                    yield Leading(other, after=True)
             elif isinstance(value, Vector) and step.action is not join:
-                off = value.tail - own
-                if abs(off) * self.field(number).mm < EXACT:
-                    yield other
+                for end, back in ((value.tail, False), (value.tip, True)):
+                    if abs(end - own) * self.field(number).mm < EXACT:
+                        yield Leading(other, after=True, back=back)
 
     def is_given(self, number: int) -> bool:
         """Whether a line is that of a printed guide: nothing of it was drawn."""

@@ -40,8 +40,8 @@ DRAWN = 0.7
 """The share of a line that must be there for it to count."""
 PRINTED = 0.3
 """Standard deviation of a hand's mark across the printed line of a guide, in mm."""
-END = 0.4
-"""The same of the end of a line."""
+END, NODE = 0.8, 0.5
+"""The same of the end of a line, and of where others leave it."""
 VAGUE = 4.0
 """Where the pencil explains so many mm, a point that fits is looked at all the same."""
 PAPER = 0.08
@@ -52,7 +52,11 @@ AGREED = 0.5
 """The share of the ways from known ends to a point that is drawn at least."""
 RAY = 7.0
 """The shortest ray that counts, in mm."""
-TRIED = 14
+STOPS, OVER = 0.4, 6.0
+"""What it counts for a place that vectors end there, and how far beyond it, in mm, that is seen."""
+KEPT, LEANS = 0.3, 0.02
+"""What it counts that the lines pass through it that should, and by how much these may turn."""
+TRIED = 24
 """Places that are tried with what would follow from them."""
 
 
@@ -118,6 +122,7 @@ class PointReader:
         self.bad: set[int] = set()
         self.noted: set[int] = set()
         self.unread: set[int] = set()
+        self.guessed: set[int] = set()
         self.readings: dict[int, PointReading] = {}
         self.next: Mapping[int, Any] = {}
 
@@ -159,6 +164,8 @@ class PointReader:
         if best is None or best.cover < DRAWN:
             self.unread.add(number)
             return False
+        if best.count < 2:
+            self.guessed.add(number)
         if where.away(best.place, best.error) > FITS:
             self.bad.add(number)
             self.noted.add(number)
@@ -208,8 +215,10 @@ class PointReader:
         """The other end of what leads to a point."""
         if leading.far in self.own:
             return self.own[leading.far]
-        place = np.ravel(self.sheet.place(leading.far, values[leading.far]))[0]
-        return complex(place)
+        value = values[leading.far]
+        if leading.back:
+            value = value.tail
+        return complex(np.ravel(self.sheet.place(leading.far, value))[0])
 
     def is_known(self, leading: Leading) -> bool:
         """Whether the other end was read, or is printed, or a line from a point that is."""
@@ -269,6 +278,9 @@ class PointReader:
         far = self.far_place(leading, self.next)
         if leading.given or leading.bow or leading.after or abs(far - place) < 2 * SHORT:
             return None
+        if leading.far in self.guessed:
+            found = self.ink.lines(far, place, GUESSED, 0.5)
+            return max((line.cover for line in found), default=0.0)
         if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
             return self.ink.cover(far, place, 0.4, hidden=1.0)
         value = self.sheet.exact.trace.values[leading.far]
@@ -381,19 +393,19 @@ class PointReader:
     def end_near(
         self, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace
     ) -> LinesCrossing | None:
-        """Where a single line ends that leads to a point, near where the point is expected."""
+        """Where a single line ends that leads to a point; where it goes on, where others leave it;
+        and where none does, the place on it that is expected.
+        """
         for line in (line for some in lines for line in some):
             if line.cover < DRAWN or abs(line.off(where.middle)) > where.reach:
                 continue
             foot = where.middle - 1j * line.way * line.off(where.middle)
-            along = np.arange(-3.0, where.reach + 3.0, 0.2)
-            dark, _ = self.ink.at(np.atleast_2d(foot + line.way * along))
-            drawn = dark[0] > COVERED
-            gone = np.flatnonzero(~drawn & (along > -2.0))
-            if not drawn[:5].any() or not len(gone) or along[gone[0]] > where.reach:
-                continue
-            place = foot + line.way * float(along[gone[0]])
-            return LinesCrossing(place, np.eye(2) * END**2, 1, line.cover)
+            found = self.ink.stroke(foot, line.way, where.reach)
+            if found is not None:
+                node = self.ink.node(foot, line.way, where.reach)
+                along = END if found.end is not None else where.reach if node is None else NODE
+                place = foot + line.way * (found.end or node or 0.0)
+                return LinesCrossing(place, along_way(line.way, along, line.error), 1, line.cover)
         return None
 
     def lines_near(self, number: int, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
@@ -430,28 +442,10 @@ class PointReader:
         """The best place of a point that is not where it is expected, by the rays that leave the
         known ends of what leads to it, and by what would follow from it.
         """
-        known = [
-            e for e in self.sheet.leading[number] if self.is_known(e) and not (e.bow or e.after)
-        ]
-        ends = list(dict.fromkeys(self.far_place(each, self.next) for each in known))
-        ends = [end for end in ends if np.isfinite(end)]
-        apart = [
-            end for i, end in enumerate(ends) if all(abs(end - other) > SHORT for other in ends[:i])
-        ]
-        rays = [self.rays(end) for end in apart]
-        places: list[complex] = []
-        for end, some in zip(apart, rays, strict=True):
-            places += [end + way * long for way, long in some]
-        for (end, some), (other, more) in combinations(zip(apart, rays, strict=True), 2):
-            for way, long in some:
-                for way2, long2 in more:
-                    line, line2 = InkLine(end, end + way, 1, 1), InkLine(other, other + way2, 1, 1)
-                    place = met(line, line2)
-                    if place is None:
-                        continue
-                    t, t2 = ((place - end) / way).real, ((place - other) / way2).real
-                    if SHORT < t < long + 1.5 and SHORT < t2 < long2 + 1.5:
-                        places.append(place)
+        ends = self.known_ends(number)
+        ways = [end - where.middle for end in ends]
+        crossed = any(abs(sine(*both)) > CROSSING for both in combinations(ways, 2))
+        places = self.candidates(ends, crossed)
         taken = list(self.own.values())
         plausible = [
             place
@@ -459,10 +453,18 @@ class PointReader:
             if in_fields(place) and all(abs(place - other) > 1.5 for other in taken)
         ]
         first = sorted(
-            ((self.supported(place, apart), place) for place in plausible),
+            (
+                (
+                    self.supported(place, ends, crossed)
+                    + self.stopped(number, place)
+                    + self.on_lines(number, place),
+                    place,
+                )
+                for place in plausible
+            ),
             key=lambda each: -each[0] + 0.002 * abs(each[1] - where.middle),
         )
-        best, most = None, 1.45
+        best, most = None, 1.45 + STOPS / 2 + KEPT / 2
         for support, place in first[:TRIED]:
             if support < DRAWN:
                 break
@@ -472,6 +474,39 @@ class PointReader:
             if score > most:
                 best, most = place, score
         return None if best is None else self.settled(number, best)
+
+    def known_ends(self, number: int) -> list[complex]:
+        """The known ends of what leads to a point, apart from one another."""
+        found: list[complex] = []
+        for each in self.sheet.leading[number]:
+            if self.is_known(each) and not (each.bow or each.after):
+                end = self.far_place(each, self.next)
+                if np.isfinite(end) and all(abs(end - other) > SHORT for other in found):
+                    found.append(end)
+        return found
+
+    def candidates(self, ends: Sequence[complex], crossed: bool) -> list[complex]:
+        """Where the rays that leave some ends end and cross; where rays of one direction are all
+        that is known, also where other lines leave them.
+        """
+        rays = [self.rays(end) for end in ends]
+        places: list[complex] = []
+        for end, some in zip(ends, rays, strict=True):
+            for way, long in some:
+                places.append(end + way * long)
+                if not crossed:
+                    places += self.ink.nodes(end, way, long + GUESSED)
+        for (end, some), (other, more) in combinations(zip(ends, rays, strict=True), 2):
+            for way, long in some:
+                for way2, long2 in more:
+                    line, line2 = InkLine(end, end + way, 1, 1), InkLine(other, other + way2, 1, 1)
+                    place = met(line, line2)
+                    if place is None:
+                        continue
+                    t, t2 = ((place - end) / way).real, ((place - other) / way2).real
+                    if SHORT < t < long + 1.5 and SHORT < t2 < long2 + 1.5:
+                        places.append(place)
+        return places
 
     def rays(self, start: complex) -> list[tuple[complex, float]]:
         """The drawn lines that leave a place: unit direction, and how far each goes."""
@@ -495,10 +530,43 @@ class PointReader:
                 found.append((complex(ways[i]), float(lengths[i])))
         return found
 
-    def supported(self, place: complex, ends: Sequence[complex]) -> float:
-        """How well the ways from some ends to a place are drawn: the best two, or the only one."""
-        covers = sorted((self.ink.cover(end, place) for end in ends), reverse=True)[:2]
-        return sum(covers) / max(len(covers), 1) if covers else 0.0
+    def supported(self, place: complex, ends: Sequence[complex], crossed: bool) -> float:
+        """How well the ways from some ends to a place are drawn: the best two that cross there,
+        where such are expected, or all that lie in one line.
+        """
+        ways = [(self.ink.cover(end, place), end - place) for end in ends]
+        ways = sorted((each for each in ways if abs(each[1]) > SHORT), key=lambda each: -each[0])
+        if not ways:
+            return 0.0
+        cover, way = ways[0]
+        if not crossed:
+            return float(np.mean([each for each, _ in ways]))
+        crossing = [other for other, way2 in ways[1:] if abs(sine(way, way2)) > CROSSING]
+        return (cover + crossing[0]) / 2 if crossing else cover / 2
+
+    def on_lines(self, number: int, place: complex) -> float:
+        """How many of the lines that lead to a point pass through a place: one mistake turns one."""
+        kept = []
+        for each in self.sheet.leading[number]:
+            line = self.next[each.far]
+            if isinstance(line, Line) and not each.after and self.is_known(each):
+                start = self.far_place(each, self.next)
+                way = complex(np.ravel(line.along)[0]).conjugate()
+                off = abs(((place - start) * way.conjugate()).imag) / abs(way)
+                kept.append(off < PASSES + LEANS * abs(place - start))
+        return KEPT * float(np.mean(kept)) if kept else KEPT / 2
+
+    def stopped(self, number: int, place: complex) -> float:
+        """How well the vectors that come to a place end there."""
+        beyond = []
+        for each in self.sheet.leading[number]:
+            if each.arrow and self.is_known(each):
+                far = self.far_place(each, self.next)
+                if abs(place - far) > 2 * SHORT:
+                    way = (place - far) / abs(place - far)
+                    first, last = place + OVER * way, place + 2 * OVER * way
+                    beyond.append(self.ink.cover(first, last, 0.3))
+        return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
 
     def followed(self, number: int, place: complex) -> float:
         """How well what would follow from a place is drawn."""
@@ -543,10 +611,20 @@ def in_fields(place: complex) -> bool:
     return bool(AREA[0] < place.real < AREA[2] and AREA[1] < place.imag < AREA[3])
 
 
+def sine(one: complex, other: complex) -> float:
+    """The sine of the angle between two ways."""
+    return (one.conjugate() * other).imag / abs(one) / abs(other)
+
+
+def along_way(way: complex, along: float, across: float) -> Any:
+    """The covariance of a place that is known so well along a direction, and so well across it."""
+    turned = np.array([[way.real, -way.imag], [way.imag, way.real]])
+    return turned @ np.diag([along**2, across**2 + PAPER**2 / 2]) @ turned.T
+
+
 def met(one: InkLine, other: InkLine) -> complex | None:
     """Where two lines meet; None where they cross too flatly."""
-    sine = (one.way.conjugate() * other.way).imag
-    if abs(sine) < CROSSING:
+    if abs(sine(one.way, other.way)) < CROSSING:
         return None
     along = ((other.start - one.start) * other.way.conjugate()).imag / (
         (one.way * other.way.conjugate()).imag

@@ -179,7 +179,9 @@ class Tally:
                 self.labs[lab, off < 1] += 1
                 if off >= 1:
                     asked = ", asked" if read.ask else ""
-                    self.missed.append(f"{where}: {point.verdict}, {read.verdict}{asked}, {off:.1f}")
+                    self.missed.append(
+                        f"{where}: {point.verdict}, {read.verdict}{asked}, {off:.1f}"
+                    )
             if not read.ask and read.verdict != point.verdict:
                 self.wrongly.append(f"{where}: {point.verdict}, said {read.verdict}")
             elif clean and read.ask and point.at is not None and off < 1:
@@ -198,7 +200,9 @@ class Tally:
             print(f"         {lab}: {right} of {right + off_it}")
         share = self.decided / max(self.clean, 1)
         print(f"decided  {self.decided} of {self.clean} on sheets without a mistake, {share:.1%}")
-        print(f"wrongly  {len(self.wrongly)} of {sum(self.count.values())}", *self.wrongly, sep="\n")
+        print(
+            f"wrongly  {len(self.wrongly)} of {sum(self.count.values())}", *self.wrongly, sep="\n"
+        )
         print(f"seconds  median {np.median(self.spent):.2f}, most {np.max(self.spent):.2f}")
         for name, times in sorted(self.count.items()):
             print(*name[:3], "asked" if name[3] else "decided", times)
