@@ -187,7 +187,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
         return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
 
-    def after(self, number: int) -> Iterator[int]:
+    def after(self, number: int) -> Iterator[Leading]:
         """The lines that are drawn through a point when it is there, and the arrows set at it."""
         steps, values = self.exact.program.steps, self.exact.trace.values
         own = values[number]

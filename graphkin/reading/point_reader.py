@@ -545,7 +545,7 @@ class PointReader:
         return (cover + crossing[0]) / 2 if crossing else cover / 2
 
     def on_lines(self, number: int, place: complex) -> float:
-        """How many of the lines that lead to a point pass through a place: one mistake turns one."""
+        """How many of the lines that lead to a point pass through a place: a mistake turns one."""
         kept = []
         for each in self.sheet.leading[number]:
             line = self.next[each.far]
