@@ -56,6 +56,11 @@ STOPS, OVER = 0.4, 6.0
 """What it counts for a place that vectors end there, and how far beyond it, in mm, that is seen."""
 KEPT, LEANS = 0.3, 0.02
 """What it counts that the lines pass through it that should, and by how much these may turn."""
+ENOUGH, AS_EXPECTED = 1.8, 0.3
+"""What all that must come to for a place that is not expected, and what one has in advance that is.
+"""
+APART = 1.5
+"""Nearer to a known point, in mm, another cannot be told from it."""
 TRIED = 24
 """Places that are tried with what would follow from them."""
 
@@ -238,19 +243,20 @@ class PointReader:
         if not np.isfinite(own.middle):
             return self.told(number, key, own, None)
         best = self.best_near(number, own)
-        if self.holds(number, best, own):
-            return self.told(number, key, own, best)
-        if abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
+        fits = self.holds(number, best, own)
+        if not fits and abs(key.middle - own.middle) > 1.0 and np.isfinite(key.middle):
             other = self.best_near(number, key)
             if self.holds(number, other, key):
-                return self.told(number, key, own, other)
+                best, fits = other, True
+        if best is not None and fits and best.count > 1:
+            return self.told(number, key, own, best)
         far = self.best_far(number, own)
         if far is not None:
-            there = self.agreement(number, far.place)
-            here = self.agreement(number, best.place) if best is not None else 0.0
-            if there > here + 0.15:
-                best = far
-        return self.told(number, key, own, best, doubtful=True)
+            there = self.likely(number, far.place, own)
+            here = self.likely(number, best.place, own) if best is not None else 0.0
+            if there > here + (AS_EXPECTED if fits else 0.0):
+                best, fits = far, False
+        return self.told(number, key, own, best, doubtful=not fits)
 
     def holds(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
         """Whether what was found of a point fits, and all is there that leads to it."""
@@ -258,13 +264,15 @@ class PointReader:
             return False
         return self.agreement(number, best.place) >= AGREED
 
-    def agreement(self, number: int, place: complex) -> float:
+    def agreement(self, number: int, place: complex, *, read: bool = False) -> float:
         """How much of the ways from known ends to a place is drawn: the worst of a plan's arrows
-        and lines, the best two of a mechanism's bars, which nobody draws all.
+        and lines, the best two of a mechanism's bars, which nobody draws all. ``read``: only of
+        those whose ends were surely read.
         """
         covers = [
             found
             for each in self.sheet.leading[number]
+            if not (read and self.is_unsure(each))
             if (found := self.cover_of(number, each, place)) is not None
         ]
         if not covers:
@@ -272,6 +280,13 @@ class PointReader:
         if self.sheet.field(number) is self.sheet.layout.mechanism:
             return float(np.mean(sorted(covers, reverse=True)[:2]))
         return min(covers)
+
+    def is_unsure(self, leading: Leading) -> bool:
+        """Whether the other end, or that of a line where it begins, was not surely read."""
+        steps = {leading.far}
+        if isinstance(self.sheet.exact.trace.values[leading.far], Line):
+            steps |= set(self.sheet.exact.program.steps[leading.far].args[:1])
+        return bool(steps & (self.unread | self.guessed))
 
     def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
         """How much of what leads to a place is drawn; None where that tells nothing."""
@@ -315,7 +330,9 @@ class PointReader:
             steps = self.sheet.exact.program.steps
             untried = any(steps[n].aside is not None for n in self.unread & behind)
             vague = own.radius > VAGUE or untried  # nobody saw from which trial plan it comes
-            ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful or vague
+            odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
+            ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful
+            ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
@@ -388,10 +405,10 @@ class PointReader:
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
                     if score > most:
                         best, most = found, score
-        return best or self.end_near(lines, where)
+        return best or self.end_near(lines, where, self.known_ends(number))
 
     def end_near(
-        self, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace
+        self, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace, ends: Sequence[complex]
     ) -> LinesCrossing | None:
         """Where a single line ends that leads to a point; where it goes on, where others leave it;
         and where none does, the place on it that is expected.
@@ -399,12 +416,18 @@ class PointReader:
         for line in (line for some in lines for line in some):
             if line.cover < DRAWN or abs(line.off(where.middle)) > where.reach:
                 continue
+            straight = InkLine(line.start, where.middle, 1, 1)
+            if any(abs(line.off(e)) < PASSES and abs(straight.off(e)) > 2 * PASSES for e in ends):
+                continue  # what goes to that end
             foot = where.middle - 1j * line.way * line.off(where.middle)
             found = self.ink.stroke(foot, line.way, where.reach)
             if found is not None:
-                node = self.ink.node(foot, line.way, where.reach)
-                along = END if found.end is not None else where.reach if node is None else NODE
-                place = foot + line.way * (found.end or node or 0.0)
+                shift, along = self.ink.node(foot, line.way, where.reach), NODE
+                if shift is None:
+                    shift, along = found.end, END
+                if shift is None or any(abs(foot + line.way * shift - e) < SHORT for e in ends):
+                    shift, along = 0.0, where.reach
+                place = foot + line.way * shift
                 return LinesCrossing(place, along_way(line.way, along, line.error), 1, line.cover)
         return None
 
@@ -443,37 +466,39 @@ class PointReader:
         known ends of what leads to it, and by what would follow from it.
         """
         ends = self.known_ends(number)
-        ways = [end - where.middle for end in ends]
-        crossed = any(abs(sine(*both)) > CROSSING for both in combinations(ways, 2))
+        crossed = are_crossing(ends, where.middle)
         places = self.candidates(ends, crossed)
         taken = list(self.own.values())
         plausible = [
             place
             for place in places
-            if in_fields(place) and all(abs(place - other) > 1.5 for other in taken)
+            if in_fields(place) and all(abs(place - other) > APART for other in taken)
         ]
         first = sorted(
-            (
-                (
-                    self.supported(place, ends, crossed)
-                    + self.stopped(number, place)
-                    + self.on_lines(number, place),
-                    place,
-                )
-                for place in plausible
-            ),
+            ((self.led_to(number, place, ends, crossed), place) for place in plausible),
             key=lambda each: -each[0] + 0.002 * abs(each[1] - where.middle),
         )
-        best, most = None, 1.45 + STOPS / 2 + KEPT / 2
-        for support, place in first[:TRIED]:
-            if support < DRAWN:
+        best, most = None, ENOUGH
+        for led, place in first[:TRIED]:
+            if led < DRAWN:
                 break
-            if self.agreement(number, place) < AGREED:
+            if self.agreement(number, place, read=True) < AGREED:
                 continue
-            score = support + self.followed(number, place) - 0.003 * abs(place - where.middle)
+            score = led + self.followed(number, place) - 0.003 * abs(place - where.middle)
             if score > most:
                 best, most = place, score
         return None if best is None else self.settled(number, best)
+
+    def likely(self, number: int, place: complex, where: ExpectedPlace) -> float:
+        """How much of what leads to a place and of what would follow from it is drawn."""
+        ends = self.known_ends(number)
+        led = self.led_to(number, place, ends, are_crossing(ends, where.middle))
+        return led + self.followed(number, place)
+
+    def led_to(self, number: int, place: complex, ends: Sequence[complex], crossed: bool) -> float:
+        """How well what leads to a place is drawn, ends there, and runs as it should."""
+        support = self.supported(place, ends, crossed)
+        return support + self.stopped(number, place) + self.on_lines(number, place)
 
     def known_ends(self, number: int) -> list[complex]:
         """The known ends of what leads to a point, apart from one another."""
@@ -574,7 +599,7 @@ class PointReader:
         covers = [
             self.ink.cover(place, self.far_place(each, values), 0.8)
             for each in self.sheet.leading[number]
-            if each.after or not (self.is_known(each) or each.bow)
+            if each.after or not (self.is_known(each) or each.bow or self.is_unsure(each))
         ]
         if not covers:
             return 0.75
@@ -609,6 +634,12 @@ def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading,
 def in_fields(place: complex) -> bool:
     """Whether a place lies where is drawn."""
     return bool(AREA[0] < place.real < AREA[2] and AREA[1] < place.imag < AREA[3])
+
+
+def are_crossing(ends: Sequence[complex], place: complex) -> bool:
+    """Whether some of the ways from some ends to a place cross there."""
+    ways = [end - place for end in ends]
+    return any(abs(sine(*both)) > CROSSING for both in combinations(ways, 2))
 
 
 def sine(one: complex, other: complex) -> float:
