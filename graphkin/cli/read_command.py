@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 NEEDED = {
     "bottle": "bottle",
     "cv2": "opencv-python-headless",
+    "pillow_heif": "pillow-heif",
     "waitress": "waitress",
     "zxingcpp": "zxing-cpp",
 }
@@ -67,7 +68,7 @@ def read(
 ) -> None:
     """Read the drawings of a class from photographs.
 
-    CLASS is what graphkin variants wrote, PHOTOS are pictures (JPEG, PNG), scans (PDF), or folders
+    CLASS is what graphkin variants wrote, PHOTOS are pictures (JPEG, PNG, HEIC), scans (PDF), or folders
     of them: one A3 sheet in each, with its square seen whole and most of its frame.
 
     Finds whose each sheet is by its code, flattens it to millimetres of paper by its own frame, and

@@ -18,16 +18,16 @@ from graphkin.scene.file_limits import file_bytes
 from graphkin.text.errors import FileError, Problem
 from graphkin.writers.files import file_part
 
-KINDS = (".jpg", ".jpeg", ".png", ".pdf")
+KINDS = (".jpg", ".jpeg", ".png", ".heic", ".heif", ".pdf")
 """The files that are read."""
-FORMATS = ("JPEG", "PNG")
+FORMATS = ("JPEG", "PNG", "HEIF")
 """What they hold; of several pictures in one file the first."""
 MOST_BYTES = 200 << 20
 MOST_PIXELS, LEAST_SIDE = 120_000_000, 900
 """Pixels of a picture at most, and those of its shorter side at least."""
 MOST_PAGES = 400
 """Pages of a PDF file."""
-EXPECTED = "a JPEG, PNG or PDF file"
+EXPECTED = "a JPEG, PNG, HEIC or PDF file"
 
 
 class Photograph(Struct, frozen=True):
@@ -121,14 +121,16 @@ def grey_of(photograph: Photograph) -> Any:
         raise Unreadable(f"is no picture: {EXPECTED} is expected") from None
     except Image.DecompressionBombError:
         raise Unreadable(f"has more than {MOST_PIXELS // 10**6} million pixels") from None
-    except (OSError, ValueError, SyntaxError, EOFError, MemoryError):
+    except (OSError, ValueError, SyntaxError, EOFError, MemoryError, RuntimeError):
         raise Unreadable("is cut short or damaged") from None
 
 
 def opened(data: bytes) -> Any:
     """A picture whose pixels are not yet read."""
     from PIL import Image
+    from pillow_heif import register_heif_opener
 
+    register_heif_opener(thumbnails=False)
     image = Image.open(io.BytesIO(data), formats=FORMATS)
     refuse_size(*image.size)
     return image

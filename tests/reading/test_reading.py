@@ -197,7 +197,18 @@ def empty_pdf() -> bytes:
     return out.getvalue()
 
 
+def heic(image: np.ndarray) -> bytes:
+    """A picture as telephones save it."""
+    import pillow_heif
+
+    out = io.BytesIO()
+    pillow_heif.from_pillow(Image.fromarray(image).convert("RGB")).save(out, quality=90)
+    return out.getvalue()
+
+
 HOSTILE = {
+    "large.png": (png_head(20_000, 10_000), "120 million pixels"),
+    "half.heic": (heic(np.full((1500, 2000), 90, np.uint8))[:900], "cut short"),
     "blank.jpg": (sheet_jpeg(np.full((1500, 2000), 230, np.uint8)), "no code is found"),
     "bomb.png": (png_head(60_000, 60_000), "million pixels"),
     "cut.jpg": (sheet_jpeg(np.zeros((1500, 2000), np.uint8))[:2000], "cut short"),
@@ -255,6 +266,19 @@ def test_a_scan_is_read_from_a_pdf(a_class: Path, code: str, tmp_path: Path) -> 
     assert d.at is not None
     assert true.at is not None
     assert np.hypot(d.at[0] - true.at[0], d.at[1] - true.at[1]) < 0.5
+
+
+def test_a_picture_of_a_telephone_is_read(a_class: Path, taken: Path, tmp_path: Path) -> None:
+    image = np.asarray(Image.open(taken / "plain.jpg").convert("L"))
+    (tmp_path / "plain.heic").write_bytes(heic(image))
+    found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
+    assert found.exit_code == 0, found.output
+    (record,) = records_in(tmp_path / "read")
+    before = next(each for each in records_in(taken / "read") if each.name == "plain")
+    assert record.code == before.code
+    for point, other in zip(record.points, before.points, strict=True):
+        assert point.verdict == other.verdict
+        assert abs(complex(*point.at) - complex(*other.at)) < 0.3
 
 
 def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:
