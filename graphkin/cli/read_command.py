@@ -68,8 +68,8 @@ def read(
 ) -> None:
     """Read the drawings of a class from photographs.
 
-    CLASS is what graphkin variants wrote, PHOTOS are pictures (JPEG, PNG, HEIC), scans (PDF), or folders
-    of them: one A3 sheet in each, with its square seen whole and most of its frame.
+    CLASS is what graphkin variants wrote, PHOTOS are pictures (JPEG, PNG, HEIC), scans (PDF), or
+    folders of them: one A3 sheet in each, with its square seen whole and most of its frame.
 
     Finds whose each sheet is by its code, flattens it to millimetres of paper by its own frame, and
     reads the points one after the other, each expected from the student's own earlier ones. What

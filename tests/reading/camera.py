@@ -130,7 +130,9 @@ def photograph(image: Any, shot: Shot, seed: int) -> Picture:
         lit = lit * (1 - 0.175 * (1 + np.tanh((xs - edge) / 60)))
     seen = seen * lit
     if shot.thumb:
-        spot = where(np.array([rng.uniform(60, 360), 290.0]))
+        along = rng.uniform(60, 360)
+        edges = (along, 290.0), (along, 7.0), (8.0, along * 0.7), (412.0, along * 0.7)
+        spot = where(np.array(edges[int(rng.integers(4))]))
         cv2.ellipse(seen, (int(spot[0]), int(spot[1])), (130, 200), 20, 0, 360, 140, -1)
     seen = cv2.GaussianBlur(seen, (0, 0), shot.blur)
     seen = seen + rng.normal(0, shot.noise, seen.shape).astype(np.float32)
