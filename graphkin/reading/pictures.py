@@ -25,17 +25,23 @@ FORMATS = ("JPEG", "PNG", "HEIF")
 MOST_BYTES = 200 << 20
 MOST_PIXELS, LEAST_SIDE = 120_000_000, 900
 """Pixels of a picture at most, and those of its shorter side at least."""
+HALVES = "-left", "-right"
+"""How the names of the pictures of a sheet's halves end."""
 MOST_PAGES = 400
 """Pages of a PDF file."""
 EXPECTED = "a JPEG, PNG, HEIC or PDF file"
 
 
 class Photograph(Struct, frozen=True):
-    """A picture by the name that its reading has: its file, and which page of a PDF it is."""
+    """A picture by the name that its reading has: its file, and which page of a PDF it is.
+
+    ``left`` is the picture of the left half of a sheet of which this one is the right half.
+    """
 
     name: str
     path: Path
     page: int | None = None
+    left: Photograph | None = None
 
 
 class Unreadable(Exception):  # noqa: N818
@@ -70,7 +76,25 @@ def photographs(paths: list[Path]) -> list[Photograph]:
             )
     if problems:
         raise FileError(problems)
-    return found
+    return with_halves(found)
+
+
+def with_halves(found: list[Photograph]) -> list[Photograph]:
+    """Some pictures, the two halves of a sheet (NAME-left, NAME-right) as one of the sheet."""
+    named = {each.name: each for each in found}
+    left, right = HALVES
+    sheets = []
+    for each in found:
+        name, half = each.name.removesuffix(left), each.name.endswith(left)
+        if half and f"{name}{right}" in named and name not in named:
+            continue
+        name = each.name.removesuffix(right)
+        other = named.get(f"{name}{left}")
+        if each.name.endswith(right) and other is not None and name not in named:
+            sheets.append(Photograph(name, each.path, each.page, other))
+        else:
+            sheets.append(each)
+    return sheets
 
 
 def pages_of(path: Path) -> Iterator[Photograph]:
@@ -96,7 +120,8 @@ def hash_of_picture(photograph: Photograph) -> str:
         data = file_bytes(photograph.path, MOST_BYTES)
     except (OSError, ValueError):
         data = b""
-    return sha256(data + str(photograph.page).encode()).hexdigest()
+    other = hash_of_picture(photograph.left) if photograph.left else ""
+    return sha256(data + f"{photograph.page}{other}".encode()).hexdigest()
 
 
 def grey_of(photograph: Photograph) -> Any:

@@ -97,6 +97,8 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
     code = ""
     try:
         grey = grey_of(photograph)
+        if photograph.left is not None:
+            grey = of_halves(grey_of(photograph.left), grey, order)
         code, corners = known_code(grey, order.variants)
         found = found_sheet(grey, order, code, corners)
         points, corners_at = unread(found) if order.by_hand else read_points(grey, found)
@@ -160,6 +162,15 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
     if best is None or refused:
         raise Unreadable(refused or "no sheet of this student has a square to begin with")
     return best
+
+
+def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
+    """The sheet of two pictures of its halves. Raises Unreadable where one of them is not found."""
+    from graphkin.reading.halves import put_together
+
+    variant = next(iter(order.variants.values()))
+    sheets = sheets_of(order.order, variant, order.order.language)
+    return put_together(left, right, task_pages(sheets)[0][1])
 
 
 def task_pages(sheets: Sheets) -> list[tuple[str, Page]]:

@@ -63,6 +63,7 @@ ROUNDS, NUDGE = 3, 1e-6
 """Steps of Gauss and Newton for each fit, and of the differences that they use."""
 LEAST_FOUND, WORST = 0.45, 0.5
 """The share of lines within the picture that is to be found, and how far off they may lie."""
+SIDES = ("left", "right", "upper", "lower")
 LEAST_SIDE = 0.25
 """The same share on each half of the sheet."""
 
@@ -138,9 +139,14 @@ def square_of(page: Page) -> Any:
     return np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
 
 
-def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
-    """The map of a printed page whose square has its corners at some pixels of a grey picture."""
-    square = square_of(page)
+def registered(
+    grey: Any, page: Page, corners: Any, square: Any = None, sides: tuple[str, ...] = SIDES
+) -> Registration | None:
+    """The map of a printed page whose square has its corners at some pixels of a grey picture.
+
+    Another square of the paper may stand for that of the code; of ``sides`` the frame must be seen.
+    """
+    square = square_of(page) if square is None else square
     if square is None:
         return None
     height, width = grey.shape
@@ -154,7 +160,7 @@ def registered(grey: Any, page: Page, corners: Any) -> Registration | None:
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
     for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
         fit.to(measure(smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
-    return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines)
+    return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines, sides)
 
 
 class MeasuredLines(Struct, frozen=True):
@@ -303,7 +309,9 @@ def start(width: int, height: int, square: Any, corners: Any) -> Any:
     return found
 
 
-def judged(over: PaperMap, last: MeasuredLines, lines: PrintedLines) -> Registration:
+def judged(
+    over: PaperMap, last: MeasuredLines, lines: PrintedLines, wanted: tuple[str, ...]
+) -> Registration:
     """A map with how well it holds; refused where lines are missing, or off."""
     seen, found = last.seen, last.found
     share = float(found.sum() / max(seen.sum(), 1))
@@ -312,11 +320,11 @@ def judged(over: PaperMap, last: MeasuredLines, lines: PrintedLines) -> Registra
     own = seen & ~lines.shared
     own_share = float((found & own).sum() / max(own.sum(), 1))
     refused = ""
-    halves = lines.places[:, 0] < 210, lines.places[:, 0] >= 210
-    tops = lines.places[:, 1] < 60, lines.places[:, 1] > 230
-    sides = [float((found & part).sum() / max(part.sum(), 1)) for part in (*halves, *tops)]
-    if min(sides) < LEAST_SIDE:
-        side = ("left", "right", "upper", "lower")[int(np.argmin(sides))]
+    x, y = lines.places.T
+    parts = dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
+    held = {side: float((found & parts[side]).sum() / parts[side].sum()) for side in wanted}
+    side = min(held, key=lambda each: held[each])
+    if held[side] < LEAST_SIDE:
         refused = f"too little of the frame is seen on the {side} side of the sheet"
     elif share < LEAST_FOUND:
         refused = f"only {share:.0%} of the printed lines are found: too blurred, dark or covered"

@@ -29,7 +29,7 @@ from graphkin.reading.settled_points import (
 )
 from graphkin.studio.guard import Guard
 from graphkin.text import words
-from tests.reading.camera import Picture, Shot, photograph
+from tests.reading.camera import Picture, Shot, photograph, scan
 from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, sheets_of
 
 ROSTER = "Nr.;Matricol;Nume;Grupa\n7;0042;Ana Pop;A\n12;0043;Dan Ion;A\n"
@@ -279,6 +279,46 @@ def test_a_picture_of_a_telephone_is_read(a_class: Path, taken: Path, tmp_path: 
     for point, other in zip(record.points, before.points, strict=True):
         assert point.verdict == other.verdict
         assert abs(complex(*point.at) - complex(*other.at)) < 0.3
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "dpi", "lap"), [(0.6, -0.8, 200, 0), (90.5, 181.0, 150, 3)]
+)
+def test_two_scans_of_the_halves_are_one_sheet(
+    a_class: Path, code: str, tmp_path: Path, first: float, second: float, dpi: float, lap: float
+) -> None:
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
+    photos = tmp_path / "photos"
+    photos.mkdir()
+    left = scan(drawing.image, dpi, first, 1, (0.0, 210.0 + lap))
+    right = scan(drawing.image, dpi, second, 2, (210.0 - lap, 420.0))
+    (photos / "one-left.jpg").write_bytes(left.data)
+    (photos / "one-right.jpg").write_bytes(right.data)
+    found = call("read", a_class, photos, "-o", tmp_path / "read", "--jobs", "1")
+    assert found.exit_code == 0, found.output
+    (record,) = records_in(tmp_path / "read")
+    assert (record.name, record.kind) == ("one", "velocity")
+    true = {point.step: point for point in drawing.points}
+    for point in record.points:
+        if point.step in true:
+            assert point.verdict == "right"
+            assert abs(complex(*point.at) - complex(*true[point.step].at)) < 0.6
+
+
+def test_halves_that_are_no_sheet_are_refused(
+    a_class: Path, code: str, tmp_path: Path
+) -> None:
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(), 3)
+    for name in ("one-left", "one-right"):
+        left = scan(drawing.image, 150, 0.0, 1, (0.0, 210.0))
+        (tmp_path / f"{name}.jpg").write_bytes(left.data)
+    found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
+    assert "one: refused: the frame of the right half is not found" in found.output
+    right = scan(drawing.image, 150, 0.0, 1, (210.0, 420.0))
+    for name in ("two-left", "two-right"):
+        (tmp_path / f"{name}.jpg").write_bytes(right.data)
+    found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
+    assert "two: refused: " in found.output
 
 
 def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:

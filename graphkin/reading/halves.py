@@ -1,0 +1,106 @@
+"""Two A4 scans of the halves of one A3 sheet, put together to one picture of the sheet.
+
+The frame is the same on all sheets. In each half its upper corner is looked for, in all four turns
+and at the density of a scanner; from there its lines are followed. The code is read of the whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import cv2
+import numpy as np
+from msgspec.structs import replace
+
+from graphkin.drawing.marks import Page
+from graphkin.drawing.style import style_of
+from graphkin.reading.drawn_ink import flattened
+from graphkin.reading.paper_map import PaperMap
+from graphkin.reading.pictures import Unreadable
+from graphkin.reading.registration import SHARED, SIDES, registered, segments
+
+CUT, HIGH = 210.0, 297.0
+"""Where the sheet is parted, and how high it is, in mm."""
+DENSITY = 9.0
+"""Pixels for each mm of the sheet that is put together."""
+CORNERS = {"left": (8.0, 4.0, 68.0, 64.0), "right": (352.0, 4.0, 412.0, 64.0)}
+"""The corner of each half that is looked for, in mm."""
+COARSE, ROOM = 3.0, 30.0
+"""Pixels for each mm where it is looked for, and how far it lies from its place on the glass."""
+SCANNERS = (100, 150, 200, 240, 300, 400, 600)
+"""Pixels for each inch."""
+WHOLE = (0.0, 0.0, 420.0, 297.0)
+
+
+def put_together(left: Any, right: Any, page: Page) -> Any:
+    """The sheet whose halves are two grey pictures, framed as a page. Raises Unreadable where a
+    half is not found.
+    """
+    frame = replace(page, marks=[m for m in page.marks if m.cls.split()[0] in SHARED])
+    first, second = half_found(left, frame, "left"), half_found(right, frame, "right")
+    ours, cut = seen(first, left), round(CUT * DENSITY)
+    ours[:, cut:] &= ~seen(second, right)[:, cut:]
+    parts = (
+        flattened(grey, over, WHOLE, DENSITY) for grey, over in ((left, first), (right, second))
+    )
+    return np.where(ours, *parts)
+
+
+def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
+    """The map of a half of a sheet in its picture. Raises Unreadable where it is not found."""
+    x1, y1, x2, y2 = CORNERS[half]
+    square = np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])
+    sides = tuple(side for side in SIDES if side in (half, "upper", "lower"))
+    tries = [
+        registered(grey, frame, at, square, sides) for at in corners_in(grey, frame, CORNERS[half])
+    ]
+    held = [each for each in tries if each is not None and not each.refused]
+    if not held:
+        raise Unreadable(f"the frame of the {half} half is not found")
+    return max(held, key=lambda each: each.found).map
+
+
+def seen(over: PaperMap, grey: Any) -> Any:
+    """Which pixels of the sheet lie in a picture of a half."""
+    inside = np.zeros(grey.shape, np.uint8)
+    inside[1:-1, 1:-1] = 255
+    return flattened(inside, over, WHOLE, DENSITY) > 0
+
+
+def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) -> Iterator[Any]:
+    """Where a corner of the frame may lie in a scan, as the pixels of its rectangle's own corners,
+    for each turn of the scan.
+    """
+    high = max(grey.shape) / HIGH * 25.4
+    shrink = COARSE * 25.4 / min(SCANNERS, key=lambda dpi: abs(dpi - high))
+    small = cv2.resize(grey, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
+    paper = cv2.morphologyEx(small, cv2.MORPH_CLOSE, np.ones((15, 15), np.uint8))
+    dark = cv2.GaussianBlur(1 - small.astype(np.float32) / np.maximum(paper, 8), (0, 0), 1.5)
+    pattern = cv2.GaussianBlur(printed_ink(frame, rect), (0, 0), 1.5)
+    beside = cv2.dilate((pattern > 0.02).astype(np.float32), np.ones((7, 7), np.uint8))
+    ring = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    side, size = np.array(pattern.shape[::-1]), np.array(dark.shape[::-1])
+    room = side + round(ROOM * COARSE)
+    if (size < room).any():
+        return
+    for turn in range(4):
+        turned = np.roll(ring, turn, axis=0)
+        low = turned[0 if rect[0] < CUT else 1] * (size - room)
+        part = dark[low[1] : low[1] + room[1], low[0] : low[0] + room[0]]
+        ink, mask = (np.ascontiguousarray(np.rot90(each, turn)) for each in (pattern, beside))
+        likeness = cv2.matchTemplate(part, ink, cv2.TM_CCOEFF_NORMED, mask=mask)
+        likeness[~np.isfinite(likeness)] = -1
+        yield (turned * side + low + cv2.minMaxLoc(likeness)[3]) / shrink
+
+
+def printed_ink(page: Page, rect: tuple[float, float, float, float]) -> Any:
+    """The lines of a part of a page as they are printed, 1 where there is ink."""
+    left, top, right, bottom = rect
+    found = np.zeros((round((bottom - top) * COARSE), round((right - left) * COARSE)), np.uint8)
+    for x1, y1, x2, y2, cls in segments(page):
+        ends = ((np.array([[x1, y1], [x2, y2]]) - (left, top)) * COARSE - 0.5) * 16
+        a, b = np.round(ends).astype(int).tolist()
+        ink = min(255, round(255 * style_of(cls, "black").width * COARSE))
+        cv2.line(found, a, b, ink, 1, cv2.LINE_AA, 4)
+    return found.astype(np.float32) / 255
