@@ -16,7 +16,10 @@ from PIL import Image
 from pypdf import PdfWriter
 
 from graphkin.cli.main import app
+from graphkin.drawing.areas import AREA
 from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
+from graphkin.reading.drawn_ink import DENSITY as INK
+from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
 from graphkin.reading.point_reading import PointReading
@@ -305,9 +308,7 @@ def test_two_scans_of_the_halves_are_one_sheet(
             assert abs(complex(*point.at) - complex(*true[point.step].at)) < 0.6
 
 
-def test_halves_that_are_no_sheet_are_refused(
-    a_class: Path, code: str, tmp_path: Path
-) -> None:
+def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path: Path) -> None:
     drawing = drawn_sheet(a_class, code, "velocity", Habits(), 3)
     for name in ("one-left", "one-right"):
         left = scan(drawing.image, 150, 0.0, 1, (0.0, 210.0))
@@ -319,6 +320,38 @@ def test_halves_that_are_no_sheet_are_refused(
         (tmp_path / f"{name}.jpg").write_bytes(right.data)
     found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
     assert "two: refused: " in found.output
+
+
+def ink_of(*lines: tuple[complex, complex]) -> DrawnInk:
+    """Lines between places of the paper, and nothing printed."""
+    width, height = (round((AREA[i + 2] - AREA[i]) * INK) for i in (0, 1))
+    dark = np.zeros((height, width), np.float32)
+    for start, end in lines:
+        a, b = (
+            (round((p.real - AREA[0]) * INK * 16), round((p.imag - AREA[1]) * INK * 16))
+            for p in (start, end)
+        )
+        cv2.line(dark, a, b, 1.0, 2, cv2.LINE_8, 4)
+    return DrawnInk(dark, np.ones_like(dark))
+
+
+def test_a_line_ends_where_its_ink_does_and_one_that_does_not_come_so_far_is_none() -> None:
+    ink = ink_of((200 + 100j, 260 + 100j))
+    end = ink.stroke(258.5 + 100j, 1 + 0j, 4.0)
+    assert end is not None
+    assert end.end == pytest.approx(1.5, abs=0.5)
+    on = ink.stroke(230 + 100j, 1 + 0j, 4.0)
+    assert on is not None
+    assert on.end is None
+    assert ink.stroke(280 + 100j, 1 + 0j, 4.0) is None
+
+
+def test_others_leave_a_line_at_its_node() -> None:
+    ink = ink_of((200 + 100j, 260 + 100j), (232 + 100j, 245 + 120j))
+    assert ink.node(230.5 + 100j, 1 + 0j, 4.0) == pytest.approx(1.5, abs=0.4)
+    assert ink.node(215 + 100j, 1 + 0j, 4.0) is None
+    (first, *_) = ink.nodes(200 + 100j, 1 + 0j, 60.0)
+    assert abs(first - (232 + 100j)) < 1.5
 
 
 def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:
