@@ -156,6 +156,8 @@ def registered(
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
         near = lines.some((far < ring) & lines.shared)
+        if not len(near.places):
+            continue
         measured = measure(smooth, fit.map, near, REACH)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
     for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):

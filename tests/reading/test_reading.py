@@ -17,6 +17,7 @@ from pypdf import PdfWriter
 
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
+from graphkin.reading import registration
 from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
@@ -352,6 +353,14 @@ def test_others_leave_a_line_at_its_node() -> None:
     assert ink.node(215 + 100j, 1 + 0j, 4.0) is None
     (first, *_) = ink.nodes(200 + 100j, 1 + 0j, 60.0)
     assert abs(first - (232 + 100j)) < 1.5
+
+
+def test_a_square_far_from_all_lines_begins_where_the_first_are(
+    a_class: Path, taken: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(registration, "RINGS", (1.0, *registration.RINGS))
+    found = call("read", a_class, taken / "plain.jpg", "-o", tmp_path / "read", "--jobs", "1")
+    assert found.exit_code == 0, found.output
 
 
 def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:
