@@ -95,7 +95,8 @@ class PointReader(PointSearch):
             other = self.best_near(number, key)
             if self.holds(number, other, key):
                 best, fits = other, True
-        if best is not None and fits and best.count > 1:
+        led = best is not None and self.agreement(number, best.place) >= DRAWN
+        if best is not None and fits and led and best.count > 1:
             return self.told(number, key, own, best)
         far = self.best_far(number, own)
         if far is not None:
@@ -103,7 +104,7 @@ class PointReader(PointSearch):
             here = self.likely(number, best.place, own) if best is not None else 0.0
             if there > here + (AS_EXPECTED if fits else 0.0):
                 best, fits = far, False
-        return self.told(number, key, own, best, doubtful=not fits)
+        return self.told(number, key, own, best, doubtful=not (fits and led))
 
     def told(
         self,
