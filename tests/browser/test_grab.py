@@ -15,7 +15,8 @@ DESKTOP = {"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce
 SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (1024, 768): 0.45, (820, 1180): 0.45}
 """The least part of a window's height that the drawings take."""
 PLACE = """name => { const pin = document.querySelector(`#sheet-0 circle.pin[data-name='${name}']`);
-  const { x, y, width, height } = pin.getBoundingClientRect(); return [x + width / 2, y + height / 2]; }"""
+  const { x, y, width, height } = pin.getBoundingClientRect();
+  return [x + width / 2, y + height / 2]; }"""
 FRAMES = (
     "[...document.querySelectorAll('#sheet-0 .view > svg')].map(svg => svg.getAttribute('viewBox'))"
 )
