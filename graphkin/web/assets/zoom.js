@@ -103,7 +103,9 @@ function roomy(one, picture, sheet, side) {
   const { whole, drawn } = one, base = closer(picture, whole, drawn);
   const begins = state.step === 0 && sheet + side === 0;
   const found = motion && (moved() || begins) && all_the_way(sheet, side);
-  return found ? about(found, base) : base;
+  const frame = found ? about(found, base) : base;
+  const rests = moved() && !state.going && !state.dead && motion.extent(state.x, sheet, side);
+  return rests ? about(rests, frame) : frame; // what has left the frame is in sight once all rests
 }
 
 /** The box of what is drawn in a field on most of the way, with all the way of its pins; it stays while all moves. */
