@@ -84,6 +84,16 @@ class MarkBindings(Struct, frozen=True, dict=True):
         before = {mark.cls.split()[0] for mark in self.marks[max(k - 2, 0) : k]}
         return not before & {"leader", "number"} and (record[0] == "b" or self.is_upright(record))
 
+    def going_before(self, k: int, bound: Mapping[int, int]) -> list[int]:
+        """The records of the leader and the circle that come right before a label; ``bound`` has
+        those of the marks so far."""
+        found = []
+        for before in (k - 1, k - 2):
+            if before < 0 or self.marks[before].cls.split()[0] not in LABELS[1:]:
+                break
+            found += [bound[before]] if before in bound else []
+        return found
+
     def keeps_off(self, k: int, record: Record) -> bool:
         """Whether a letter, or the leader or circle that goes with it, stands off a point."""
         text = self.text_of(k) if self.marks[k].cls.split()[0] in LABELS else None

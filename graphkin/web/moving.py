@@ -15,7 +15,7 @@ from msgspec import Struct
 from graphkin.construction.core.crossings import is_drawn
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.drawing.areas import Rect
-from graphkin.drawing.marks import Text
+from graphkin.drawing.marks import CircleMark, Text
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, reach_of
 from graphkin.numbers.plane import Vector
@@ -44,14 +44,18 @@ law of time is to be shown."""
 class Moving(Struct, frozen=True):
     """JavaScript that moves the marks of a page.
 
-    ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step,
-    set(x, element, times), extent(x, sheet, field, times), values(x), margins(x)}: ``set`` writes
-    the coordinates of all marks, which ``element`` finds by their ids, and tells {ok: false} where
-    the mechanism does not close; ``extent`` is the box (x, y, width, height) that must be in sight
-    of a field, 0 the mechanism or 1 the plan; ``times``, of each field of each sheet or of one, is
-    how many times larger what keeps its size on the screen is drawn, 1 if not told;
-    ``values`` are in SI by the names of the rows of the tables, ``margins`` sines of crossings by
-    the step. ``data`` is what it knows of the marks, ``tracing`` what it reckons.
+    ``source`` defines ``graphkinMotion`` = {name, unit, low, high, start, whole, step, sense,
+    grips, set(x, element, times, sheet, lettering), extent(x, sheet, field, times), labels(sheet,
+    field), place(id, x), values(x), margins(x)}: ``set`` writes the coordinates of all marks, or
+    those of one sheet, which ``element`` finds by their ids, and tells {ok: false} where the
+    mechanism does not close; ``lettering`` gives the record by which each label stands that leaves
+    its place, null for one that is hidden; ``labels`` are those of a field with the sides where
+    they may stand; ``place`` is where a circle stands, ``grips`` are the pins of each sheet;
+    ``extent`` is the box (x, y, width, height) that must be in sight of a field, 0 the mechanism or
+    1 the plan; ``times``, of each field of each sheet or of one, is how many times larger what
+    keeps its size on the screen is drawn, 1 if not told; ``values`` are in SI by the names of the
+    rows of the tables, ``margins`` sines of crossings by the step. ``data`` is what it knows of the
+    marks, ``tracing`` what it reckons.
     """
 
     source: str
@@ -104,9 +108,10 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
     driven, (reach, course) = tracing.driven, found
     rects: list[Rect] = []
     more: dict[str, tuple[str, str, str]] = {}
+    led: dict[int, list[int]] = {}
     marks: list[Record] = []
     fields = [
-        followed(s, sheet, here, rects, marks, more, tracing)
+        followed(s, sheet, here, rects, marks, more, led, tracing)
         for s, (sheet, here) in enumerate(zip(sheets, places, strict=True))
     ]
     data = {
@@ -117,10 +122,13 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "start": driven.start,
         "whole": reach.whole,
         "step": reach.step,
+        "sense": driven.sense,
         "inputs": len(tracing.inputs),
         "closed": closed,
         "marks": marks,
         "more": more,
+        "led": led,
+        "grips": [list(grips(s, sheet, driven)) for s, sheet in enumerate(sheets)],
         "rects": rects,
         "fields": fields,
         "values": list(read_outs(places)),
@@ -139,12 +147,14 @@ def followed(
     rects: list[Rect],
     records: list[Record],
     more: dict[str, tuple[str, str, str]],
+    led: dict[int, list[int]],
     tracing: Tracing,
 ) -> list[dict[str, Any]]:
     """What must be in sight of both fields of a sheet.
 
     ``records`` takes those of its marks, each with the id of its mark, ``more`` the marks that a
-    page makes itself: by id after which one, element and class. A field has the place of its first
+    page makes itself: by id after which one, element and class, ``led`` those of the leader and the
+    circle that go with a label, by its record. A field has the place of its first
     record, its room, the box of what stands still in it, of each mark that must be in sight the
     place of its record and how far it reaches across and down, and the same of its labels, as their
     steps are drawn, with 1 where one may stand on the other side of what it names; and the places
@@ -158,6 +168,7 @@ def followed(
         following = MarkBindings(binder, sheet.layout, marks, angles)
         still, seen, off, began = set(marks), [], [], len(records)
         labels: list[tuple[int, list[float]]] = []
+        bound: dict[int, int] = {}
         for k, record in following.records():
             still.discard(marks[k])
             if following.in_sight(marks[k], record):
@@ -167,6 +178,9 @@ def followed(
             if record[0] in "tb" and isinstance(marks[k], Text):
                 own = [len(records), *half(marks[k]), int(following.has_sides(k, record))]
                 labels.append((-1 if (step := marks[k].step) is None else step, own))
+                if with_it := following.going_before(k, bound):
+                    led[len(records)] = with_it
+            bound[k] = len(records)
             records.append([f"m{s}-{first + k}", *record])
         for k, element, cls, record in following.more():
             before = f"m{s}-{first + k}"
@@ -176,6 +190,13 @@ def followed(
         found[-1] |= {"off": off, "labels": [own for _, own in sorted(labels)]}
         first += len(marks)
     return found
+
+
+def grips(s: int, sheet: ScreenSheet, driven: PageDriver) -> Iterator[tuple[str, str, bool]]:
+    """The pins by which the mechanism of a sheet may be moved: id, name, whether it is driven."""
+    for k, mark in enumerate(sheet.left):
+        if isinstance(mark, CircleMark) and mark.cls.split()[0] == "pin":
+            yield f"m{s}-{k}", mark.name, mark.name in driven.pins
 
 
 def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, int]]:

@@ -51,6 +51,16 @@ class PageDriver(Struct, frozen=True):
         """The letter of what moves, as markup."""
         return f"*{COORDINATES[self.what].letter}*"
 
+    @property
+    def sense(self) -> int:
+        """In which sense it goes, by the driver's speed; a time runs on."""
+        return -1 if self.driver is not None and stated(self.driver, self.scene)[1] < 0 else 1
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The points of the link that is driven; none of a time."""
+        return () if self.driver is None else tuple(self.scene.link(self.driver.link).points)
+
     def overrides(self, program: Program, x: TracedNumber) -> dict[int, Any]:
         """The values of the drivers' own steps for a traced position or time."""
         found: dict[int, Any] = {}

@@ -12,6 +12,8 @@ STEP_PAGE = (
     "sheets.js",
     "bars.js",
     "zoom.js",
+    "view.js",
+    "lettering.js",
     "halos.js",
     "highlights.js",
     "carried.js",
@@ -20,7 +22,9 @@ STEP_PAGE = (
     "sentences.js",
     "values.js",
     "stepping.js",
+    "travel.js",
     "driver.js",
+    "grab.js",
     "beginning.js",
     "room.js",
     "address.js",
@@ -36,7 +40,7 @@ STEP_PAGE = (
 """The script of a step page: at once, a file uses only what stands before it."""
 PLAYER = ("numbers.js", "curves.js", "player.js")
 """The script of a cycle's page."""
-MOVING = ("moving.js",)
+MOVING = ("closing.js", "moving.js")
 """What lays out the marks that follow the driver."""
 FORM = ("form.js",)
 """The script of a form for answers."""

@@ -1,9 +1,9 @@
 // The beginning: the whole mechanism is there at once, as a ghost, and moves once through its range.
 const STILL = matchMedia("(prefers-reduced-motion:reduce)");
-const SWEEP = 5000, PLACES = 24; // milliseconds of it, and at how many places its room is looked for
+const SWEEP = 5000; // milliseconds of it
 const ghosts = data.ghosts.map(k => byId(`m0-${k}`));
 sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
-let ghost = 0, shown_once = false, room = null;
+let ghost = 0, shown_once = false;
 
 /** Show it where the page begins, and take it off elsewhere. */
 function begin() {
@@ -21,7 +21,7 @@ function sweep() {
   const next = now => {
     const part = (now - from) / SWEEP;
     if (part >= 1 || moved()) return settle();
-    motion.set(along(part), byId, DRAWN[0]);
+    motion.set(along(part), byId, DRAWN, 0);
     ghost = requestAnimationFrame(next);
   };
   ghost = requestAnimationFrame(next);
@@ -41,15 +41,4 @@ function settle() {
   cancelAnimationFrame(ghost);
   ghost = 0;
   if (!moved()) put();
-}
-
-/** The box of a field over the whole motion, for the beginning; null anywhere else. */
-function swept(sheet, side) {
-  if (state.step || !motion || sheet || side || moved()) return null;
-  room ??= Array.from({ length: PLACES }, (_, i) => motion.extent(along(i / PLACES), 0, 0)).filter(Boolean).reduce(
-    ([x, y, w, h], [u, v, across, down]) => {
-      const [left, top] = [Math.min(x, u), Math.min(y, v)];
-      return [left, top, Math.max(x + w, u + across) - left, Math.max(y + h, v + down) - top];
-    });
-  return room;
 }

@@ -14,8 +14,40 @@ if (motion) {
   for (const [name, value] of Object.entries({ min, max: high, step })) driver.setAttribute(name, value);
 }
 
+const REST = 250; // milliseconds after which what moved rests
+let resting = 0;
+
 /** Set it. */
-function drive(x) {
+function drive(x, glides = false) {
+  place_driver(x);
+  look(glides);
+  follow_pins();
+  remember();
+}
+
+/** Move it on: scale and frame stay while it goes. */
+function move(x) {
+  const first = !state.going;
+  state.going = true;
+  clearTimeout(resting);
+  resting = setTimeout(rest, REST);
+  place_driver(x);
+  if (first) look(true);
+  follow_pins();
+}
+
+/** What moved rests: all labels that have room come back. */
+function rest() {
+  state.going = false;
+  put();
+  look(true);
+  if (!state.dead) read();
+  remember();
+  setTimeout(() => state.going || put(), HUSH + 20);
+}
+
+/** Put all that follows where it stands. */
+function place_driver(x) {
   lift();
   const place = meant(x);
   const there = Math.abs(place - motion.start) < 1e-6 * motion.step;
@@ -31,14 +63,13 @@ function drive(x) {
   const flat = ok ? flat_crossings() : [];
   const dead = flat.some(step => !data.aside.includes(step));
   state.dead = !ok || dead;
-  clear_off(step => !ok || flat.some(crossing => data.hangs[step].includes(crossing)));
+  clear_off(!ok, flat);
   byId("place").textContent = !ok ? byId("place").dataset.open : dead ? byId("place").dataset.dead : "";
   if (!state.dead) read();
   tell_rates();
   page.classList.toggle("silent", state.dead);
   warn(byId("told"), places[state.step - 1]?.crossings ?? []);
-  trace();
-  remember();
+  halos();
 }
 
 /** The place of the driver that is meant by a number: an angle may be whole turns off. */
@@ -60,11 +91,16 @@ function flat_crossings() {
   return sines.filter(([step, sine]) => sine < (data.aside.includes(step) ? FAR : DEAD)).map(([step]) => step);
 }
 
-/** Take what hangs on lines that do not cross off the drawings. */
-function clear_off(hangs) {
+let cleared = "";
+
+/** Take what hangs on lines that do not cross, or all, off the drawings. */
+function clear_off(all, flat) {
+  const now = `${all} ${flat}`;
+  if (now === cleared) return;
+  cleared = now;
   for (const { of } of sheets) {
     for (const [step, marks] of of) {
-      const gone = step in data.hangs && hangs(step);
+      const gone = step in data.hangs && (all || flat.some(crossing => data.hangs[step].includes(crossing)));
       for (const mark of marks) mark.classList.toggle("void", gone);
     }
   }

@@ -13,17 +13,11 @@ function key(event) {
     End: range ? null : () => go(last),
     " ": pressed ? null : toggle,
     z: zoom,
+    m: motion ? travel : null,
   }[event.key] ?? (stop === undefined ? null : () => go(stop));
   if (!act) return;
   event.preventDefault();
   act();
-}
-
-/** Show what a mark that is pointed at is drawn from, alone. */
-function point_at(step) {
-  if (state.over === step) return;
-  state.over = step;
-  trace();
 }
 
 document.addEventListener("keydown", key);
@@ -39,29 +33,25 @@ places.forEach(({ link }, i) => link.addEventListener("click", event => {
   event.preventDefault();
   go(i + 1);
 }));
-for (const { element } of sheets) {
-  element.addEventListener("click", event => {
-    const at = data.at[aimed(event)];
-    if (at) go(at);
-  });
-  element.addEventListener("pointermove", event => {
-    if (event.pointerType !== "mouse" || event.buttons || !event.target.closest(".view")) return;
-    const over = aimed(event);
-    event.target.closest(".view").classList.toggle("aimed", Boolean(data.at[over]));
-    point_at(over);
-  });
-  element.addEventListener("pointerleave", () => point_at(null));
-}
 if (motion) {
-  driver.addEventListener("input", () => drive(Number(driver.value)));
-  byId("back").addEventListener("click", () => drive(motion.start));
+  const follow_slider = () => move(Number(driver.value));
+  driver.addEventListener("input", () => {
+    rest_from_travel();
+    next_frame(follow_slider);
+  });
+  traveller.addEventListener("click", travel);
+  byId("back").addEventListener("click", () => {
+    rest_from_travel();
+    sheets.forEach(({ fields }) => fields.forEach(one => see(one, null)));
+    drive(motion.start, true);
+  });
 }
 for (const sign of ["pointerover", "focusin"]) byId("reason").addEventListener(sign, light);
 for (const sign of ["pointerleave", "focusout"]) byId("reason").addEventListener(sign, () => point_at(null));
 addEventListener("hashchange", follow_address);
 addEventListener("resize", fit);
 addEventListener("beforeprint", whole);
-addEventListener("afterprint", look);
+addEventListener("afterprint", () => look());
 byId("because").open = !SMALL.matches;
 byId("because").addEventListener("toggle", reason_in_sight);
 byId("because").querySelector("summary").addEventListener("click", () => by_hand = true);

@@ -1,60 +1,6 @@
-// Marks that follow the driver. `run(x, y)` is the construction itself, printed from its trace; `data`
-// says of each mark from which of the results in y its coordinates are laid off (see binding.py).
+// Marks that follow the driver: `data` says of each from which of the results in y its coordinates are
+// laid off (see field_binder.py).
 const BEYOND = 7, HEAD = 3.2, SHORT = 2, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6, OVER = 0.5;
-const y = new Float64Array(data.size), x = new Float64Array(data.inputs);
-let reckoned = NaN, closes = false;
-
-const reckon = (at) => {
-  if (at !== reckoned) {
-    reckoned = at;
-    x[0] = at;
-    count();
-    closes = closeAll() && (run(x, y), data.closed.every((i) => Number.isFinite(y[i])));
-  }
-  return closes;
-};
-
-// How often links went round that only pins turn: near which angle each counts from a place on.
-const count = () => {
-  for (const { place, at, near } of data.turned) {
-    let k = at.length - 1;
-    while (k > 0 && at[k] > x[0]) k--;
-    x[place] = near[k];
-  }
-};
-
-// Groups of class III: near a state that the way through the range gives, the secant closes them.
-const TRIES = 24, TRIAL = 1e-6, CLOSED = 1e-9;
-const trial = [0, 0];
-const secant = (miss, start, step) => {
-  let old = start + step, now = start, before = miss(old), after = miss(now);
-  for (let k = 0; k < TRIES && after !== 0 && after !== before; k++) {
-    const next = now - after * (now - old) / (after - before);
-    old = now; now = next; before = after; after = miss(now);
-    if (!(Math.abs(now - old) >= 1e-15 * Math.max(1, Math.abs(now)))) break;
-  }
-  return Math.abs(after) < CLOSED * data.reach && trial[1] > 0;
-};
-const closedNear = (state) => {
-  state.forEach((number, i) => { x[i + 1] = number; });
-  return closings.every((miss, i) => {
-    const place = data.course.places[i], start = x[place], step = TRIAL * data.course.sizes[i];
-    const missed = (tried) => { x[place] = tried; miss(x, trial); return trial[0]; };
-    return secant(missed, start, step) || secant(missed, start, -step);
-  });
-};
-const closeAll = () => {
-  if (!closings.length) return true;
-  const { at, states, turn } = data.course;
-  const place = turn ? at[0] + ((((x[0] - at[0]) % turn) + turn) % turn) : x[0];
-  let k = 1;
-  while (k < at.length - 1 && at[k] < place) k++;
-  const part = (place - at[k - 1]) / (at[k] - at[k - 1]), before = states[k - 1], after = states[k];
-  // between these two a dyad is stretched
-  if (before.some((number, i) => number === -after[i])) return closedNear(before) || closedNear(after);
-  return closedNear(before.map((number, i) => number + part * (after[i] - number)));
-};
-
 const written = (number) => String(Number(number.toFixed(DIGITS)));
 const point = (i) => [y[i], y[i + 1]];
 const laid = (o, d, a, b) => [y[o] + a * y[d] - b * y[d + 1], y[o + 1] + a * y[d + 1] + b * y[d]];
@@ -235,24 +181,56 @@ const made = (id, element) => {
   return mark;
 };
 
-const draw = (at, element, times) => {
+// What each mark was last given: what stays is not written again.
+const given = new WeakMap();
+const give = (mark, name, text) => {
+  const had = given.get(mark) || given.set(mark, {}).get(mark);
+  if (had[name] === text) return;
+  had[name] = text;
+  if (text === null) mark.removeAttribute(name);
+  else mark.setAttribute(name, text);
+};
+
+// The records of one sheet, or of all.
+const within = (sheet) => {
+  const first = (s) => data.fields[s]?.[0].first ?? data.marks.length;
+  return sheet === undefined ? [0, data.marks.length] : [first(sheet), first(sheet + 1)];
+};
+
+const draw = (at, element, times, sheet, lettering) => {
   if (!reckon(at)) return { ok: false };
   grow(times);
-  const turned = arranged();
-  for (const [i, [id]] of data.marks.entries()) {
-    const mark = element(id) || made(id, element);
+  const turned = lettering ? lettering() : arranged();
+  for (let [i, end] = within(sheet); i < end; i++) {
+    const [id] = data.marks[i], mark = element(id) || made(id, element);
     if (!mark) continue;
     const [kind, shown, ...rest] = turned.get(i) || grown(i), hidden = turned.get(i) === null;
     const found = !hidden && (shown < 0 || y[shown] > 0) ? shapes[kind](...rest) : null;
     const good = found && Object.values(found).every((text) => !text.includes("NaN") && !text.includes("Infinity"));
-    if (!good) mark.setAttribute("visibility", "hidden");
-    else {
-      mark.removeAttribute("visibility");
-      for (const name in found) mark.setAttribute(name, found[name]);
-    }
+    give(mark, "visibility", good ? null : "hidden");
+    if (good) for (const name in found) give(mark, name, found[name]);
   }
   return { ok: true };
 };
+
+// The labels of a field that have something to name here: record, half its size, and the records of the
+// sides on which it may stand, its own first; with it go its leader and the circle about it.
+const ASIDE = 7;
+const sides = ([kind, shown, o, d, a, b, ...rest], turns) => {
+  const own = [[a, b]];
+  if (kind === "b") own.push([a, -b], ...[ASIDE, -ASIDE].flatMap((by) => [[a + by, b], [a + by, -b]]));
+  else if (turns) own.push([-a, -b], [-b, a], [b, -a], [1.6 * a, 1.6 * b], [-1.6 * a, -1.6 * b]);
+  return own.map(([along, off]) => [kind, shown, o, d, along, off, ...rest]);
+};
+const labels = (sheet, side) => data.fields[sheet][side].labels.map(([i, across, down, turns]) => {
+  const [id] = data.marks[i], own = grown(i), shown = own[1] < 0 || y[own[1]] > 0;
+  const records = shown ? sides(own, turns) : [];
+  return { i, id, half: [across, down], records, spots: records.map(([kind, , ...rest]) => middles[kind](...rest)), led: data.led[i] ?? [] };
+});
+
+// Where the circle of a record stands at a place of the driver; null where nothing closes.
+const circles = new Map(data.marks.flatMap(([id, kind, , ...rest]) => (kind === "m" ? [[id, rest]] : [])));
+const place = (id, at) => (circles.has(id) && reckon(at) ? laid(...circles.get(id)) : null);
 
 const settled = (found) => {
   // what is only rounding beside the largest of its kind is nought
@@ -264,7 +242,7 @@ const settled = (found) => {
 
 return {
   name: data.name, unit: data.unit, low: data.low, high: data.high, start: data.start, whole: data.whole, step: data.step,
-  set: draw, extent,
+  sense: data.sense, grips: data.grips, set: draw, extent, labels, place, named: (i) => data.marks[i][0],
   values: (at) => (reckon(at) ? settled({}) : {}),
   margins: (at) => (reckon(at) ? Object.fromEntries(data.margins.map(([step, i]) => [step, y[i]])) : {}),
 };

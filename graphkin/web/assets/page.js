@@ -5,7 +5,7 @@ const data = JSON.parse(byId("run").textContent);
 const motion = typeof graphkinMotion === "undefined" ? null : graphkinMotion;
 const last = data.bounds.at(-1)[1];
 const SMALL = matchMedia("(max-width:40rem),(max-height:34rem)"); // as in page.css
-const state = { step: 0, x: motion ? motion.start : 0, over: null, dead: false };
+const state = { step: 0, x: motion ? motion.start : 0, over: null, dead: false, going: false };
 
 page.classList.add("js");
 motion?.set(motion.start, byId); // what moves may add marks

@@ -2,8 +2,9 @@
 let timer = 0;
 
 function start() {
+  if (motion) rest_from_travel();
   play.setAttribute("data-on", "");
-  named(play.dataset.pause);
+  called(play, play.dataset.pause);
   if (state.step === last) show(0);
   wait();
 }
@@ -12,7 +13,7 @@ function pause() {
   clearTimeout(timer);
   timer = 0;
   play.removeAttribute("data-on");
-  named(play.dataset.play);
+  called(play, play.dataset.play);
 }
 
 function toggle() {
@@ -31,8 +32,8 @@ function wait() {
   }, Math.max(Math.min(1500 + 45 * letters, 25000), state.step ? 0 : SWEEP));
 }
 
-/** Say what the button does. */
-function named(words) {
-  play.title = words;
-  play.setAttribute("aria-label", words);
+/** Say what a button does. */
+function called(button, words) {
+  button.title = words;
+  button.setAttribute("aria-label", words);
 }

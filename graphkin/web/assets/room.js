@@ -1,8 +1,18 @@
 // As much room for words and values as the longest of them need, so that nothing jumps.
-const LOW = 900; // dots of a window in which what the keys do comes below all else
+const NARROWEST = 0.36; // part of the width that a field has at least
+const ROOM = 14; // dots between the drawing, the keys and the end of the window
+const LOW = 1000; // dots of a window in which what the keys do comes below all else
+const BESIDE = matchMedia("(min-width:60.01rem) and (min-height:34.01rem)"); // as in steps.css: words stand beside the drawing
+
+/** Put the words beside the drawing, or between it and the keys. */
+function seat_words() {
+  const told = byId("told"), place = BESIDE.matches ? byId("page") : byId("dock");
+  if (told.parentElement !== place) place.prepend(told);
+}
 
 /** Keep it. */
 function fit() {
+  seat_words();
   const told = byId("told").cloneNode(true), values = byId("read")?.cloneNode(true);
   tallest(told, "told", [0, ...places.map((_, i) => i + 1)], step => {
     tell(told, step);
@@ -16,9 +26,19 @@ function fit() {
   }
   const below = innerHeight < LOW ? byId("help").offsetHeight : 0; // there the drawing needs the room more
   style(page, "--dock", `${byId("dock").offsetHeight - below}px`);
+  const seen = sheets[here()].element.querySelector(".view");
+  style(page, "--above", `${Math.ceil(seen.getBoundingClientRect().top + scrollY + ROOM)}px`);
   const box = byId("told");
   box.tabIndex = told.scrollHeight > box.clientHeight + 1 ? 0 : -1;
+  sheets.forEach(share);
   look();
+}
+
+/** Give both fields of a sheet so much of its width that both are drawn as large. */
+function share({ element, fields }) {
+  const sides = fields.map(({ drawn, whole }) => (drawn ? Math.max(drawn[2] + 2 * EDGE, LEAST) : whole[2]));
+  const [left, right] = sides.map(side => Math.max(side, NARROWEST * (sides[0] + sides[1])));
+  for (const [name, wide] of [["--left", left], ["--right", right]]) style(element.querySelector(".fields"), name, `${wide.toFixed(1)}fr`);
 }
 
 /** Tell the style sheet how tall a copy of a part is in the worst of some cases. */

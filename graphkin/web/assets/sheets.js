@@ -23,7 +23,8 @@ function field(svg) {
   for (const group of [halo, front]) group.setAttribute("class", "halo");
   const { x, y, width, height } = svg.viewBox.baseVal;
   svg.style.aspectRatio = `${width} / ${height}`; // whatever part of it is shown
-  return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED) };
+  const sizes = [...svg.querySelectorAll(".lettering :is([font-size])")].map(run => Number(run.getAttribute("font-size")));
+  return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED), least: Math.min(...sizes, 3), view: null };
 }
 
 /** The box of what is drawn in a picture or a part of it. */

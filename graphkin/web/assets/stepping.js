@@ -18,7 +18,11 @@ function show(step) {
   byId("next").disabled = state.step === last;
   begin();
   say();
-  if (motion) read_out();
+  if (motion) {
+    read_out();
+    put();
+    follow_pins();
+  }
   trace();
   if (state.step === before + 1) write();
   else lift();

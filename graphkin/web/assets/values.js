@@ -20,26 +20,36 @@ const TOLD = {
   },
 };
 
-/** Write those of this position. */
+const tables = [...document.querySelectorAll("#results table")].map(table => {
+  const rows = [...table.querySelectorAll("[data-row]")];
+  return { kind: table.className, rows: rows.map(row => ({ row, cells: [...row.querySelectorAll("td")], asked: "asked" in row.dataset })) };
+});
+
+/** Write those of this position; while it moves, what is asked and is in sight. */
 function read() {
-  const values = motion.values(state.x), margins = motion.margins(state.x);
-  for (const table of document.querySelectorAll("#results table")) {
-    const rows = [...table.querySelectorAll("[data-row]")].filter(row => row.dataset.row in values);
-    const sizes = rows.map(row => Math.abs(values[row.dataset.row]));
+  const values = motion.values(state.x), going = state.going;
+  for (const { kind, rows } of tables) {
+    const known = rows.filter(({ row }) => row.dataset.row in values);
+    const sizes = known.map(({ row }) => Math.abs(values[row.dataset.row]));
     const noise = 1e-9 * Math.max(...sizes);
-    rows.forEach((row, i) => {
-      const value = sizes[i] > noise ? values[row.dataset.row] : 0;
-      TOLD[table.className](row, [...row.querySelectorAll("td")], value);
+    known.forEach(({ row, cells, asked }, i) => {
+      if (asked || !going) TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
     });
   }
-  for (const line of document.querySelectorAll("#steps .crossing")) {
+  read_margins(going ? places[state.step - 1].crossings : document.querySelectorAll("#steps .crossing"));
+  read_out();
+}
+
+/** Write how lines cross here. */
+function read_margins(lines) {
+  const margins = motion.margins(state.x);
+  for (const line of lines) {
     const sine = margins[line.dataset.of];
     if (sine === undefined) continue;
     const angle = Math.asin(Math.min(Math.max(sine, 0), 1));
     line.querySelector(".angle").textContent = written(angle * 180 / Math.PI, 0);
     line.querySelector(".factor").textContent = angle ? significant(1 / Math.sin(angle / 2), 2) : "∞";
   }
-  read_out();
 }
 
 /** Tell in the line below the slider what the sheet in sight asks for. */

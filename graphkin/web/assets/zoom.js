@@ -1,30 +1,32 @@
 // What is looked at: all that is drawn in each field, or what is marked so large that it can be read.
 const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can be read
 const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
-const AIR = 3, MOST = [0.6, 3.5]; // mm about what a field is shifted or grows for; parts of the mechanism's and the plan's field beyond its edges that are shown
+const AIR = 3, MOST = 0.12, PIN = 6; // mm about what a field is shifted or grows for; the part of a field beyond its edges that is shown; mm about a pin
+const PLACES = 72, NEARLY = 0.75; // of a motion that are looked at, and the part of them whose drawing is in the frame
+const LEGIBLE = 9.1, GLIDE = 250; // dots of the height of the smallest lettering; milliseconds from one frame to another
 const KEPT = [2, Infinity]; // how many times smaller than as drawn a field can be and lettering keep its size
 let wanted = null; // whether what is marked is to be shown large; as the screen is, until one says
 const DRAWN = sheets.map(() => [1, 1]); // as where the scene stands
 let grown = DRAWN; // how many times larger what keeps its size is drawn in each field
 
-/** Show the fields in sight so. */
-function look() {
+/** Show the fields in sight so; what is in sight glides there when told. */
+function look(glides = false) {
   const sheet = sheets[here()];
   const sizes = sheet.fields.map(({ svg }) => [svg.clientWidth, svg.clientHeight]); // read, then written
   const near = wanted ?? SMALL.matches;
   const done = !sheet.element.classList.contains("growing");
   follow.setAttribute("aria-pressed", near);
-  if (near || state.dead) keep_size(DRAWN); // then what is looked at is found by what is drawn
   const boxes = sheet.fields.map((one, i) => {
     const room = roomy(one, sizes[i], here(), i);
+    if (one.view) return viewed(one.view, sizes[i]);
     return near ? closer(sizes[i], room, extent(done ? one.svg : one.halo, SEEN)) : room;
   });
   const times = sheet.fields.map((one, i) => kept(one, sizes[i], boxes[i], i));
   keep_size(sheets.map(one => one === sheet ? times : [1, 1]));
-  sheet.fields.forEach(({ svg }, i) => {
-    const readable = READABLE / dots(sizes[i], boxes[i]);
-    style(svg, "--dot", (1 / dots(sizes[i], boxes[i])).toFixed(3));
-    frame(svg, boxes[i], times[i], Math.min(readable, (near ? 2 : 1.3) * times[i]));
+  sheet.fields.forEach((one, i) => {
+    const scale = dots(sizes[i], boxes[i]), most = (near ? 2 : 1.3) * times[i];
+    style(one.svg, "--dot", (1 / scale).toFixed(3));
+    frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), 3 * times[i])), glides);
   });
   bars(sheet, sizes, boxes);
 }
@@ -33,19 +35,37 @@ function look() {
 function whole() {
   const paper = sheets.map(({ fields }, sheet) => fields.map((one, side) => {
     const box = roomy(one, one.whole.slice(2), sheet, side);
-    return [one.svg, box, kept(one, one.whole.slice(2), box, side)];
+    return [one, box, kept(one, one.whole.slice(2), box, side)];
   }));
   keep_size(paper.map(fields => fields.map(([, , times]) => times)));
-  for (const [svg, box, times] of paper.flat()) frame(svg, box, times, times);
+  for (const [one, box, times] of paper.flat()) frame(one, box, times, times);
   sheets.forEach((sheet, i) => bars(sheet, sheet.fields.map(({ whole }) => whole.slice(2)), paper[i].map(([, box]) => box)));
 }
 
 /** Show a box of a field, what keeps its size and the lettering so many times larger. */
-function frame(svg, box, times, lettering) {
-  svg.setAttribute("viewBox", box.map(number => number.toFixed(2)).join(" "));
-  svg.classList.toggle("larger", lettering > 1.02);
-  style(svg, "--g", times.toFixed(2));
-  style(svg, "--t", lettering.toFixed(2));
+function frame(one, box, times, lettering, glides = false) {
+  one.lettering = Math.max(lettering, 1);
+  one.svg.classList.toggle("larger", lettering > 1.02);
+  style(one.svg, "--g", times.toFixed(2));
+  style(one.svg, "--t", lettering.toFixed(2));
+  cancelAnimationFrame(one.gliding);
+  if (glides && one.box && !STILL.matches) glide(one, one.box, box, performance.now());
+  else framed(one, box);
+}
+
+/** Show a box of a field at once. */
+function framed(one, box) {
+  one.box = box;
+  one.svg.setAttribute("viewBox", box.map(number => number.toFixed(2)).join(" "));
+}
+
+/** Go from one box of a field to another, slowly at both ends. */
+function glide(one, from, to, since) {
+  one.gliding = requestAnimationFrame(now => {
+    const part = Math.min(Math.max((now - since) / GLIDE, 0), 1), share = part * part * (3 - 2 * part);
+    framed(one, to.map((end, i) => from[i] + share * (end - from[i])));
+    if (part < 1) glide(one, from, to, since);
+  });
 }
 
 /** How many times smaller than as drawn a field is shown in a box, as far as lettering then keeps its size. */
@@ -61,10 +81,10 @@ function keep_size(times) {
   halos();
 }
 
-/** Put the marks where the driver stands; tells whether the mechanism closes there. */
+/** Put the marks of the sheet in sight where the driver stands; tells whether the mechanism closes there. */
 function put(times = moved() ? grown : DRAWN) {
   grown = times;
-  return motion.set(state.x, byId, times).ok;
+  return motion.set(state.x, byId, times, here(), lettering).ok;
 }
 
 /** Show what is marked large, or all that is drawn. */
@@ -78,24 +98,38 @@ function dots([across, high], [, , width, height]) {
   return Math.min(across / width, high / height) || READABLE;
 }
 
-/** The part of a field in which all is drawn, shifted for what has moved out of it, and larger where that is not enough. */
+/** The part of a field in which all is drawn; of one that moves it is that of the whole motion. */
 function roomy(one, picture, sheet, side) {
-  const { svg, whole, drawn } = one, base = closer(picture, whole, drawn);
-  const known = () => svg.clientWidth ? extent(svg, MOVED) : null; // without what has no place
-  const found = swept(sheet, side) ?? (moved() && (state.dead ? known() : motion.extent(state.x, sheet, side)));
-  if (!found) return base;
-  const box = about(found, base, whole, MOST[side]), times = kept(one, picture, box, side);
-  if (times === 1 || state.dead) return box;
-  return about(motion.extent(state.x, sheet, side, times), base, whole, MOST[side]);
+  const { whole, drawn } = one, base = closer(picture, whole, drawn);
+  const begins = state.step === 0 && sheet + side === 0;
+  const found = motion && (moved() || begins) && all_the_way(sheet, side);
+  const frame = found ? about(found, base) : base;
+  const rests = moved() && !state.going && !state.dead && motion.extent(state.x, sheet, side);
+  return rests ? about(rests, frame) : frame; // what has left the frame is in sight once all rests
+}
+
+/** The box of what is drawn in a field on most of the way, with all the way of its pins; it stays while all moves. */
+function all_the_way(sheet, side) {
+  const one = sheets[sheet].fields[side];
+  if (one.motion === undefined) {
+    const { low, high } = motion, at = Array.from({ length: PLACES + 1 }, (_, i) => low + (high - low) * i / PLACES);
+    const found = at.map(x => motion.extent(x, sheet, side)).filter(Boolean), pins = side ? [] : grips[sheet].flatMap(({ way }) => way).filter(Boolean);
+    const end = (k, sign) => {
+      const ends = found.map(box => sign * (sign < 0 ? box[k] : box[k] + box[k + 2])).sort((p, q) => p - q);
+      const edge = one.whole[k] + (sign < 0 ? 0 : one.whole[k + 2]) + sign * MOST * one.whole[k + 2];
+      return sign * Math.max(Math.min(ends[Math.floor(NEARLY * (ends.length - 1))], sign * edge), ...pins.map(place => sign * place[k] + PIN));
+    };
+    const [left, top, right, bottom] = [end(0, -1), end(1, -1), end(0, 1), end(1, 1)];
+    one.motion = found.length ? [left, top, right - left, bottom - top] : null;
+  }
+  return one.motion;
 }
 
 /** A box so shifted, and if need be so much larger, that another lies in it with some air about it. */
-function about(found, base, whole, most) {
+function about(found, base) {
   const [starts, sizes] = [[], []];
   for (const axis of [0, 1]) {
-    const reach = most * whole[axis + 2];
-    const low = Math.max(found[axis] - AIR, whole[axis] - reach);
-    const high = Math.min(found[axis] + found[axis + 2] + AIR, whole[axis] + whole[axis + 2] + reach);
+    const low = found[axis] - AIR, high = found[axis] + found[axis + 2] + AIR;
     const size = Math.max(base[axis + 2], high - low);
     starts.push(Math.min(Math.max(base[axis], high - size), low));
     sizes.push(size);

@@ -1,0 +1,55 @@
+// The construction at a place of the driver: `run(x, y)` is printed from its trace, x are its inputs and
+// y its results; groups of class III are closed anew from the way that leads through the range.
+const y = new Float64Array(data.size), x = new Float64Array(data.inputs);
+let reckoned = NaN, closes = false;
+
+const reckon = (at) => {
+  if (at !== reckoned) {
+    reckoned = at;
+    x[0] = at;
+    count();
+    closes = closeAll() && (run(x, y), data.closed.every((i) => Number.isFinite(y[i])));
+  }
+  return closes;
+};
+
+// How often links went round that only pins turn: near which angle each counts from a place on.
+const count = () => {
+  for (const { place, at, near } of data.turned) {
+    let k = at.length - 1;
+    while (k > 0 && at[k] > x[0]) k--;
+    x[place] = near[k];
+  }
+};
+
+// Groups of class III: near a state that the way through the range gives, the secant closes them.
+const TRIES = 24, TRIAL = 1e-6, CLOSED = 1e-9;
+const trial = [0, 0];
+const secant = (miss, start, step) => {
+  let old = start + step, now = start, before = miss(old), after = miss(now);
+  for (let k = 0; k < TRIES && after !== 0 && after !== before; k++) {
+    const next = now - after * (now - old) / (after - before);
+    old = now; now = next; before = after; after = miss(now);
+    if (!(Math.abs(now - old) >= 1e-15 * Math.max(1, Math.abs(now)))) break;
+  }
+  return Math.abs(after) < CLOSED * data.reach && trial[1] > 0;
+};
+const closedNear = (state) => {
+  state.forEach((number, i) => { x[i + 1] = number; });
+  return closings.every((miss, i) => {
+    const place = data.course.places[i], start = x[place], step = TRIAL * data.course.sizes[i];
+    const missed = (tried) => { x[place] = tried; miss(x, trial); return trial[0]; };
+    return secant(missed, start, step) || secant(missed, start, -step);
+  });
+};
+const closeAll = () => {
+  if (!closings.length) return true;
+  const { at, states, turn } = data.course;
+  const place = turn ? at[0] + ((((x[0] - at[0]) % turn) + turn) % turn) : x[0];
+  let k = 1;
+  while (k < at.length - 1 && at[k] < place) k++;
+  const part = (place - at[k - 1]) / (at[k] - at[k - 1]), before = states[k - 1], after = states[k];
+  // between these two a dyad is stretched
+  if (before.some((number, i) => number === -after[i])) return closedNear(before) || closedNear(after);
+  return closedNear(before.map((number, i) => number + part * (after[i] - number)));
+};

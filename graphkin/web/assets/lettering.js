@@ -1,0 +1,57 @@
+// The labels of the sheet in sight while all moves: each keeps its side of what it names as long as it
+// stands free there, fades where it does not, and comes back where there is room for it.
+const APART = 0.3, CLEAR = 1.5; // mm that one is off others, and one that comes back in motion
+const HUSH = 160; // milliseconds that one stays away
+const LEAP = 11; // dots that one may go while the driver goes by one step
+const standing = new Map(); // of each label the side where it is, whether it is seen, since when, and where it was
+let lettered = motion?.start; // where the driver was then
+
+/** The records by which labels stand that are not where they were drawn. */
+function lettering() {
+  const found = new Map(), gone = Math.abs(state.x - lettered) / motion.step;
+  if (!moved() && gone) standing.clear();
+  lettered = state.x;
+  sheets[here()].fields.forEach((one, side) => letter(one, motion.labels(here(), side), gone, found));
+  return found;
+}
+
+/** Place those of a field, the first ones first. */
+function letter(one, labels, gone, found) {
+  const placed = [...letters_at_rest(one, labels)], far = LEAP * Math.max(1, gone) * (Number(one.svg.style.getPropertyValue("--dot")) || 0.3);
+  const now = performance.now();
+  for (const { i, id, half, records, spots, led } of labels) {
+    const mark = byId(id), was = standing.get(id) ?? { side: 0, seen: false, since: -Infinity, spot: null };
+    standing.set(id, was);
+    if (!spots.length || mark.matches(".later,.void")) {
+      Object.assign(was, { seen: false, since: -Infinity, spot: null });
+      continue;
+    }
+    const box = half.map(size => size * one.lettering), at = spots[was.side];
+    const free = ([u, v], air) => !placed.some(([x, z, w, h]) => Math.abs(u - x) < w + box[0] + air && Math.abs(v - z) < h + box[1] + air);
+    if (state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far) Object.assign(was, { seen: false, since: now });
+    else if (was.seen && !free(at, APART)) Object.assign(was, { seen: false, since: now });
+    else if (!was.seen && now - was.since >= HUSH) {
+      const side = spots.findIndex(spot => free(spot, state.going ? CLEAR : APART));
+      if (side >= 0) Object.assign(was, { seen: true, side });
+    }
+    was.spot = spots[was.side];
+    if (was.seen) placed.push([...was.spot, ...box]);
+    if (was.side) found.set(i, records[was.side]);
+    for (const part of [mark, ...led.map(motion.named).map(byId)]) part?.classList.toggle("hushed", !was.seen);
+  }
+}
+
+/** The boxes of the letters of a field that stay where they are. */
+function letters_at_rest(one, labels) {
+  if (!one.resting) {
+    const moving = new Set(labels.map(({ id }) => id));
+    const texts = [...one.svg.querySelectorAll(".lettering>text:not([data-aside])")].filter(text => !moving.has(text.id));
+    one.resting = texts.map(text => {
+      const { x, y, width, height } = text.getBBox();
+      return [text, x + width / 2, y + height / 2, width / 2, INK * height / 2];
+    });
+  }
+  const seen = one.resting.filter(([text]) => !text.matches(".later,.void,[visibility]"));
+  return seen.map(([, u, v, ...half]) => [u, v, ...half.map(size => size * one.lettering)]);
+}
+const INK = 0.7; // part of the height of a line that letters fill

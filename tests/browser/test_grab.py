@@ -1,0 +1,139 @@
+"""Pins that are dragged, fields that are zoomed and moved, and how still all stays meanwhile."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.web.step_page import step_page
+from tests.bench.stillness import counted
+from tests.browser.opening import Opened, barred
+
+DESKTOP = {"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce"}
+SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (1024, 768): 0.45, (820, 1180): 0.45}
+"""The least part of a window's height that the drawings take."""
+PLACE = """name => { const pin = document.querySelector(`#sheet-0 circle.pin[data-name='${name}']`);
+  const { x, y, width, height } = pin.getBoundingClientRect();
+  return [x + width / 2, y + height / 2]; }"""
+FRAMES = (
+    "[...document.querySelectorAll('#sheet-0 .view > svg')].map(svg => svg.getAttribute('viewBox'))"
+)
+DRIVER = "Number(document.getElementById('driver').value)"
+CROWDED = """Object.fromEntries([...document.querySelectorAll('#dock button')]
+  .filter(one => one.checkVisibility())
+  .map(one => [one.id || one.textContent, one.getBoundingClientRect()])
+  .map(([name, { x, y, width, height }]) => [name, [x, y, x + width, y + height]]))"""
+
+
+@pytest.fixture(scope="module")
+def pump(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The pump's page."""
+    path = tmp_path_factory.mktemp("grab") / "pump.html"
+    path.write_text(step_page(load("pump"), "en"), encoding="utf-8")
+    return path
+
+
+def dragged(page: Any, name: str, across: float, down: float) -> None:
+    """Take a pin and lead it by some dots; it is let go at the end."""
+    x, y = page.evaluate(PLACE, name)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for part in range(1, 11):
+        page.mouse.move(x + across * part / 10, y + down * part / 10)
+        page.wait_for_timeout(20)
+    page.mouse.up()
+
+
+@pytest.mark.parametrize("name", ["A", "C"])
+def test_a_pin_goes_along_its_way_to_where_it_is_led(opened: Opened, pump: Path, name: str):
+    page = opened(pump, "#step=9", **DESKTOP)
+    before = page.evaluate(DRIVER)
+    dragged(page, name, 40, 30)
+    page.wait_for_timeout(500)
+    assert abs(page.evaluate(DRIVER) - before) > 3
+    assert page.locator("#driven").inner_text() != "44.0°"
+    page.locator("#back").click()
+    assert page.evaluate(DRIVER) == before
+
+
+def test_scale_and_frame_stay_while_a_pin_is_dragged(opened: Opened, pump: Path):
+    page = opened(pump, "#step=9", **DESKTOP)
+    dragged(page, "A", 10, 10)
+    first = page.evaluate(FRAMES)
+    for across, down in ((20, 30), (5, 25), (-20, 30)):
+        dragged(page, "A", across, down)
+        assert page.evaluate(FRAMES) == first
+
+
+def test_a_pin_moves_by_keys_and_the_motion_plays(opened: Opened, pump: Path):
+    page = opened(pump, "#step=9", **DESKTOP)
+    before = page.evaluate(DRIVER)
+    page.locator("#sheet-0 .grip.driven").focus()
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate(DRIVER) == pytest.approx(before + 1)
+    assert page.locator("#sheet-0 .grip.driven").get_attribute("aria-valuetext") == "45.0°"
+    page.keyboard.press("m")
+    page.wait_for_timeout(400)
+    assert page.evaluate(DRIVER) > before + 2
+    page.keyboard.press("m")
+    held = page.evaluate(DRIVER)
+    page.wait_for_timeout(200)
+    assert page.evaluate(DRIVER) == held
+    assert not barred(page)
+
+
+def test_the_wheel_and_keys_zoom_and_a_double_click_restores(opened: Opened, pump: Path):
+    page = opened(pump, "#step=9", **DESKTOP)
+    drawn = page.evaluate(FRAMES)
+    plan = page.locator("#sheet-0 .view > svg").nth(1)
+    plan.hover(position={"x": 20, "y": 300})
+    page.mouse.wheel(0, -200)
+    page.wait_for_timeout(100)
+    zoomed = page.evaluate(FRAMES)
+    assert zoomed[0] == drawn[0] and zoomed[1] != drawn[1]
+    plan.dblclick(position={"x": 20, "y": 300})
+    page.wait_for_timeout(100)
+    assert page.evaluate(FRAMES) == drawn
+    plan.focus()
+    page.keyboard.press("+")
+    page.wait_for_timeout(100)
+    assert page.evaluate(FRAMES) != drawn
+
+
+def test_marks_are_reached_by_keys(opened: Opened, pump: Path):
+    page = opened(pump, "#step=9", **DESKTOP)
+    page.locator("#sheet-0 .view > svg").nth(1).focus()
+    page.keyboard.press("ArrowDown")
+    assert page.locator("#pointed").inner_text()
+    page.keyboard.press("Enter")
+    assert page.locator("#count").inner_text() != "Step 9 of 42"
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
+def test_the_drawings_have_room_and_no_button_covers_another(
+    opened: Opened, pump: Path, size: tuple[int, int]
+):
+    page = opened(pump, "#step=9", viewport=dict(zip(("width", "height"), size, strict=True)))
+    high = page.locator("#sheet-0 .view").first.evaluate("view => view.clientHeight")
+    assert high >= SIZES[size] * size[1]
+    keys = page.evaluate(CROWDED)
+    stops = page.locator("#stops").bounding_box()
+    for name in ("previous", "play", "next", "follow", "turn"):
+        left, top, right, bottom = keys[name]
+        beside = right <= stops["x"] or left >= stops["x"] + stops["width"]
+        assert beside or bottom <= stops["y"] or top >= stops["y"] + stops["height"]
+
+
+def test_labels_neither_leap_nor_lie_on_one_another_while_all_moves(opened: Opened, pump: Path):
+    """At most 1 % of the 973 leaps there were when labels changed sides at once."""
+    page = opened(pump, **DESKTOP)
+    found = counted(page, pump)
+    assert found["leaps"] <= 9
+    assert found["overlapping"] <= 0.02 * found["positions"]
+    assert found["faded"] < 0.1 * found["shown"]
+    page.evaluate("document.querySelector('.view text.rest').classList.add('hushed')")
+    page.wait_for_timeout(300)
+    assert page.evaluate("getComputedStyle(document.querySelector('.hushed')).opacity") == "0"
