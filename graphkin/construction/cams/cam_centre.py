@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action
@@ -111,6 +112,9 @@ class CurvatureCentre(Construction, frozen=True, kw_only=True):
     follower: str
     start: str
     name: str
+    lift: int
+    rate: int
+    bend: int
     point: int
 
     @property
@@ -124,10 +128,19 @@ class CurvatureCentre(Construction, frozen=True, kw_only=True):
         way = spot(self.name) - spot(self.start)
         fields = {"name": symbol(self.name), "g": escape(self.link), "p": symbol(self.start)}
         if abs(way) <= 1e-9 * drawing.standing.size:
-            return words("step.cam-centre-dwell", **fields)
+            return words("step.cam-centre-dwell", law=self.law_words(drawing), **fields)
         angle = words.fixed(degrees(phase(way)), 1)
-        laid = bar(self.start, self.name)
-        return words("step.cam-centre", bar=laid, angle=angle, **fields)
+        laid = f"{bar(self.start, self.name)} = {drawn_amount(drawing, abs(way))}"
+        return words(
+            "step.cam-centre", laid=laid, angle=angle, law=self.law_words(drawing), **fields
+        )
+
+    def law_words(self, drawing: Drawing) -> str:
+        """The displacement of the follower and its derivatives, by numbers."""
+        unit, values = drawing.scene.units["length"], drawing.trace.values
+        numbers = (values[self.lift], values[self.rate], values[self.bend])
+        s, rate, bend = (drawing.words.fixed(drawing.length(each), 3) for each in numbers)
+        return drawing.words("page.cam_law", s=s, rate=rate, bend=bend, unit=unit)
 
 
 def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:
@@ -153,7 +166,7 @@ def height(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
             prime = pen.given("length", cam.base)
             if cam.tip == "roller":
                 prime = pen.draw(widened, prime, pen.given("length", cam.roller))
-            lifted = pen.draw(lift, *steps, extra=extra)
+            lifted = pen.draw_shared(("cam lift", follower), lift, *steps, extra=extra)
             kind = height_of_face if cam.is_flat else height_of_tip
             pen.shared[key] = pen.draw(kind, path, pivot, prime, lifted)
     return path, pivot, pen.shared[key]
@@ -174,9 +187,11 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int
     with pen.on(Part.POSITION, Plane.NUMBERS):
         rate = pen.draw(lift_rate, *steps, extra=extra)
         bend = pen.draw(lift_bend, *steps, extra=extra)
+    lifted = pen.shared["cam lift", follower]
     kind = centre_under_face if cam.is_flat else centre_under_tip
     with pen.on(Part.POSITION, Plane.MECHANISM):
         point = pen.draw(kind, *line, rate, bend, name=name)
         roles = {"link": cam.on, "follower": follower, "start": cam.pivot, "name": name}
-        pen.make(CurvatureCentre(**roles, point=point))
+        made = CurvatureCentre(**roles, lift=lifted, rate=rate, bend=bend, point=point)
+        pen.make(made)
     return point
