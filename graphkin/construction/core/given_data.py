@@ -77,7 +77,12 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
     scene, words = drawing.scene, drawing.words
     sentences = [
         *sides(scene, words),
-        *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
+        *(
+            of_guide(drawing, link, slide)
+            for link in scene.links.values()
+            if link.name not in scene.cam_links
+            for slide in link.slides
+        ),
         *wheels(scene, words),
         *tracks(drawing),
         *cams(drawing),
