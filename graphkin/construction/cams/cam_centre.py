@@ -82,7 +82,7 @@ def coordinate(path: Line, pivot: Point, height: Real) -> Real:
 
 
 @action("cam-centre")
-def centre_under_tip(path: Line, pivot: Point, height: Real, rate: Real, bend: Real) -> Point:
+def centre_under_tip(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> Point:
     """The centre of curvature of the pitch curve of a roller or a knife."""
     along = path.along / abs(path.along)
     place = height * along + 1j * along * cross(along, path.point - pivot)
@@ -92,7 +92,7 @@ def centre_under_tip(path: Line, pivot: Point, height: Real, rate: Real, bend: R
 
 
 @action("cam-centre")
-def centre_under_face(path: Line, pivot: Point, height: Real, rate: Real, bend: Real) -> Point:
+def centre_under_face(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> Point:
     """The centre of curvature of the profile under a flat face."""
     along = path.along / abs(path.along)
     return pivot - along * bend - 1j * along * rate
@@ -182,7 +182,7 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int
     """The centre of curvature of a cam under its follower, in the plane."""
     follower = pen.scene.cam_centres[name]
     cam = pen.scene.cams[follower]
-    line = height(pen, shapes, follower)
+    path, pivot, above = height(pen, shapes, follower)
     steps, extra = law_steps(pen, shapes, cam)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         rate = pen.draw(lift_rate, *steps, extra=extra)
@@ -190,7 +190,7 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int
     lifted = pen.shared["cam lift", follower]
     kind = centre_under_face if cam.is_flat else centre_under_tip
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        point = pen.draw(kind, *line, rate, bend, name=name)
+        point = pen.draw(kind, pivot, path, above, rate, bend, name=name)
         roles = {"link": cam.on, "follower": follower, "start": cam.pivot, "name": name}
         made = CurvatureCentre(**roles, lift=lifted, rate=rate, bend=bend, point=point)
         pen.make(made)
