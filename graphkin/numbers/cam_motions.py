@@ -16,6 +16,10 @@ BORDER = 1e-9
 not decide on which side of a border a cam stands."""
 
 
+HALVED = 0.0123
+"""The cosine at which the halves of a turn part, where no angle of a scene is likely to be."""
+
+
 class Rise(NamedTuple):
     """A displacement and its first and second derivatives by the angle."""
 
@@ -75,15 +79,16 @@ def cycloidal(u: Real) -> Rise:
 
 def polynomial_345(u: Real) -> Rise:
     """The polynomial 3-4-5: no acceleration at both ends."""
-    v = 1 - u
-    return Rise(u**3 * (10 - 15 * u + 6 * u**2), 30 * (u * v) ** 2, 60 * u * v * (1 - 2 * u))
+    v, w = 1 - u, u * (1 - u)
+    lift = u * u * u * (10 - u * (15 - 6 * u))
+    return Rise(lift, 30 * w * w, 60 * w * (v - u))
 
 
 def polynomial_4567(u: Real) -> Rise:
     """The polynomial 4-5-6-7: no jerk at both ends either."""
-    v = 1 - u
-    lift = u**4 * (35 - 84 * u + 70 * u**2 - 20 * u**3)
-    return Rise(lift, 140 * (u * v) ** 3, 420 * (u * v) ** 2 * (1 - 2 * u))
+    v, w = 1 - u, u * (1 - u)
+    lift = u * u * u * u * (35 - u * (84 - u * (70 - 20 * u)))
+    return Rise(lift, 140 * w * w * w, 420 * w * w * (v - u))
 
 
 def modified_sine(u: Real) -> Rise:
@@ -135,15 +140,24 @@ MOTIONS: dict[str, Motion] = {
 """Every motion by its name in a scene."""
 
 
+def turned(turn: Point) -> Real:
+    """The angle of a unit vector from 0 to a whole turn; rounding puts none below 0.
+
+    Each half of the turn is measured from its own middle, so that a ball meets no jump but at 0.
+    """
+    ahead, behind = phase(turn), phase(-turn)
+    half = half_turn(ahead)
+    ahead = pick(below(ahead, -abs(ahead) * 0 - BORDER), ahead + 2 * half, ahead)
+    return pick(below(turn.real, abs(ahead) * 0 + HALVED), behind + half, ahead)
+
+
 def displaced(turn: Point, ends: list[Real], rises: list[Real], motions: list[str]) -> Rise:
     """The displacement of a follower where the cam has turned by ``turn`` (a unit vector).
 
     The pieces end at angles ``ends`` (radians, the last a whole turn) and add up ``rises``; at a
     border the piece that begins there holds.
     """
-    angle = phase(turn)
-    whole = 2 * half_turn(angle)
-    angle = pick(below(angle, -abs(angle) * 0 - BORDER), angle + whole, angle)
+    angle = turned(turn)
     found = None
     low, start = angle * 0, angle * 0
     pieces = []
@@ -153,7 +167,7 @@ def displaced(turn: Point, ends: list[Real], rises: list[Real], motions: list[st
     for low, end, start, rise, motion in reversed(pieces):
         span = end - low
         f = MOTIONS[motion]((angle - low) / span)
-        own = Rise(start + rise * f.at, rise * f.rate / span, rise * f.bend / span**2)
+        own = Rise(start + rise * f.at, rise * f.rate / span, rise * f.bend / (span * span))
         found = own if found is None else chosen(below(angle, end - BORDER), own, found)
     assert found is not None
     return found

@@ -188,6 +188,11 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures) -> None:
             found = f"{to:g} after {low:g}"
             findings.add(f"{numbered(place, index, len(pieces))}.to", found, "angles that grow")
         low, lift = to, lift + float(piece.rise.number(values))
+        if lift < -1e-9 * abs(float(piece.rise.number(values))):
+            where = f"{numbered(place, index, len(pieces))}.rise"
+            found = f"the follower stands {-lift:g} below where the law begins"
+            hint = "the base circle is the smallest: let the law begin at its lowest place"
+            findings.add(where, found, "0 or more", hint)
     whole = 360.0 if unit == "deg" else 6.283185307179586
     if abs(low - whole) > 1e-9 * whole:
         findings.add(place, f"ends at {low:g}", '360 (in rad "2*pi")', "a cam turns round")

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
+from graphkin.accuracy.certified import Certifier
 from graphkin.construction.cams import cam_centre
 from graphkin.construction.core.cam_profiles import CamProfile
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.read_scene import read_text
-from graphkin.text.errors import SceneError
+from graphkin.text.errors import SceneError, StructureError
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 PEAKS = {
@@ -190,6 +191,21 @@ def test_a_cam_with_too_small_a_base_circle_is_undercut():
         assert (profile.sharpest[0] <= 0) is sharp
 
 
+def test_a_follower_that_passes_beside_its_cam_is_refused():
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    with pytest.raises(StructureError, match=r"60 mm beside O; expected less than .* 50 mm"):
+        Mechanism(read_text(text.replace("offset = -10", "offset = -60"), "cam")).solve()
+
+
+@pytest.mark.parametrize("angle", [0, 20, 90, 120, 150, 180, 230, 270, 300])
+def test_balls_decide_on_which_piece_a_cam_stands(angle):
+    """Nothing fails in them, not even at the borders of the pieces."""
+    mechanism = load(SCENES / "cam-roller.toml", angle=angle)
+    balls = Certifier.of(mechanism).run(120, narrowed=False)
+    assert not balls.blame
+    assert float(balls.trace.value("slide", "2").rad()) < 1e-30
+
+
 def test_the_pressure_angle_is_that_of_the_closed_form():
     """tan α = |s' - e| / (s + sqrt(r² - e²)), the offset e to the right of a guide upwards."""
     mechanism = load(SCENES / "cam-roller.toml")
@@ -223,6 +239,7 @@ def test_every_mistake_of_a_cam_is_told_at_its_place():
         ("{ to = 180 }", "{ to = 100 }", "links.2.cam.law[1].to"),
         ("{ to = 360 }", "{ to = 350 }", "links.2.cam.law"),
         ("rise = -20", "rise = -19", "links.2.cam.law"),
+        ("rise = 20", "rise = -20", "links.2.cam.law[0].rise"),
         ("on = 1\n", "on = 7\n", "links.2.cam.on"),
         ("roller = 10\n", "", "links.2.cam.roller"),
         ("slides = { on = 0,", "slides = { on = 1,", "links.2.cam"),
