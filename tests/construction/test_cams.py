@@ -178,7 +178,9 @@ def test_the_profile_is_the_envelope_of_the_follower(name):
 
 
 def test_a_dwell_has_its_centre_of_curvature_at_the_pivot():
-    solution = load(SCENES / "cam-roller.toml", angle=150).solve()
+    mechanism = load(SCENES / "cam-roller.toml", angle=150)
+    solution = mechanism.solve()
+    assert mechanism.witness(solution).agrees
     assert solution.points["K"].position == pytest.approx(0, abs=1e-15)
     assert solution.points["B"].velocity == pytest.approx(0, abs=1e-14)
 
