@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction import asked
 from graphkin.construction.acceleration import acceleration
+from graphkin.construction.cams import cam
 from graphkin.construction.centres.centres import draw_centres
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
@@ -21,6 +22,7 @@ from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
+    CamFollower,
     CoupledTrain,
     Crank,
     Driven,
@@ -86,6 +88,8 @@ def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -
             position.driven(pen, shapes, group)
         case Dyad():
             position.dyad(pen, shapes, group)
+        case CamFollower():
+            cam.place(pen, shapes, group)
         case Stretched():
             cylinder.place(pen, shapes, group)
         case Geared():
@@ -136,6 +140,8 @@ def move(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) ->
             velocity.driven(pen, shapes, group)
         case Dyad():
             velocity.dyad(pen, shapes, group)
+        case CamFollower(dyad=dyad):
+            velocity.dyad(pen, shapes, dyad)
         case Stretched():
             cylinder.move(pen, shapes, group)
         case Geared():
@@ -172,6 +178,8 @@ def accelerate(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ..
             acceleration.driven(pen, shapes, group)
         case Dyad():
             acceleration.dyad(pen, shapes, group)
+        case CamFollower(dyad=dyad):
+            acceleration.dyad(pen, shapes, dyad)
         case Stretched():
             cylinder.accelerate(pen, shapes, group)
         case Geared():

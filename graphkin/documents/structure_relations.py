@@ -9,7 +9,17 @@ from graphkin.construction.core.relation import Relation
 from graphkin.drawing.richtext import escape
 from graphkin.scene.findings import natural
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.groups import ROMAN, Crank, Driven, Dyad, Group, Higher, Stretched, Tie
+from graphkin.structure.groups import (
+    ROMAN,
+    CamFollower,
+    Crank,
+    Driven,
+    Dyad,
+    Group,
+    Higher,
+    Stretched,
+    Tie,
+)
 from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Sliding
 from graphkin.text import Words
@@ -36,6 +46,8 @@ def group_words(words: Words, group: Group) -> str:
             return words("calculation.group_driven", links=links)
         case Dyad():
             return words("calculation.group_dyad", links=links, type=group.type)
+        case CamFollower():
+            return words("calculation.group_cam", links=links, type=group.dyad.type)
         case Stretched():
             return words("calculation.group_stretched", links=links, type=group.dyad.type)
         case Higher() if isinstance(group.last, Tie):

@@ -13,6 +13,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from graphkin.loops.branch_closures import closures, scattered, turned_side
+from graphkin.loops.cam_laws import by_law
 from graphkin.loops.closing_groups import Group, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, undriven
 from graphkin.loops.loop_motion import Motion
@@ -36,6 +37,7 @@ def assemble(scene: Scene, values: Mapping[str, Any] | None = None) -> LoopSolut
     cannot be. Raises WitnessError where one scene does not close, StructureError where a group
     could close in several ways and the scene does not say which, or where drivers are missing.
     """
+    scene = by_law(scene)
     loops = equations(scene, values)
     return closed_from(loops, starting(scene, loops))
 

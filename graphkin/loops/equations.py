@@ -16,6 +16,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.loops.cam_laws import by_law
 from graphkin.loops.chains import Chains, Linear, packed
 from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
@@ -157,6 +158,7 @@ def equations(
     StructureError for links that nothing joins, wheels that do not touch, and a block whose angle
     on a further guide is not told.
     """
+    scene = by_law(scene)
     numbers = Numbers.of({**scene.values, **(values or {})})
     bodies, starts = bodies_of(scene, numbers)
     gears, arms = gears_of(scene, bodies, numbers)

@@ -44,7 +44,7 @@ def true_mobility(scene: Scene, positions: Mapping[str, Point] | None = None) ->
     """
     loops = equations(scene)
     unknowns = position_of(scene, loops, positions)
-    return loops.unknown_count - rank(undriven_rows(loops, unknowns)[0])
+    return loops.unknown_count - rank(undriven_rows(loops, unknowns)[0]) - len(scene.cams)
 
 
 def undriven_rows(loops: Equations, unknowns: Reals) -> Reals:

@@ -190,6 +190,44 @@ class Profile(NamedTuple):
     through: str
 
 
+class CamPiece(NamedTuple):
+    """A piece of a cam's law: up to the angle ``to`` it lifts by ``rise``, nought in a dwell."""
+
+    to: Quantity
+    rise: Quantity
+    motion: str
+
+
+class Cam(NamedTuple):
+    """What lifts a follower, by its law: the disc of link ``on``, which turns about ``pivot``.
+
+    ``tip`` is the follower's: a roller of the radius ``roller``, a knife, a flat face. The law
+    counts from the cam's angle ``start``, ``sense`` +1 counter-clockwise. The equivalent linkage
+    of an instant joins the centre of curvature ``centre``, a point of the cam, by link ``link``.
+    """
+
+    on: str
+    pivot: str
+    tip: str
+    base: Quantity
+    roller: Quantity
+    law: tuple[CamPiece, ...]
+    start: Quantity
+    sense: int
+    centre: str
+    link: str
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether a face touches the cam."""
+        return self.tip == "flat"
+
+    def called(self, names: Mapping[str, str]) -> Cam:
+        """The same with links by other names."""
+        on, link = (names.get(name, name) for name in (self.on, self.link))
+        return self._replace(on=on, link=link)
+
+
 class Link(NamedTuple):
     """A rigid body: its points in the order written, how they are placed, what it slides on."""
 
@@ -200,6 +238,7 @@ class Link(NamedTuple):
     wheels: tuple[Wheel, ...] = ()
     rolls: tuple[Rolling, ...] = ()
     profiles: tuple[Profile, ...] = ()
+    cam: Cam | None = None
 
     @property
     def paths(self) -> tuple[GuideOrTrack, ...]:
@@ -212,6 +251,7 @@ class Link(NamedTuple):
             name=names.get(self.name, self.name),
             slides=tuple(slide.called(names) for slide in self.slides),
             rolls=tuple(rolling.called(names) for rolling in self.rolls),
+            cam=None if self.cam is None else self.cam.called(names),
         )
 
 
@@ -350,6 +390,21 @@ class Scene(Struct, frozen=True):
         """Each wheel with the link on which it rolls, as written."""
         links = self.links.values()
         return tuple((link.name, rolling.on) for link in links for rolling in link.rolls)
+
+    @property
+    def cams(self) -> Mapping[str, Cam]:
+        """The cams by the links that they lift."""
+        return {link.name: link.cam for link in self.links.values() if link.cam is not None}
+
+    @property
+    def cam_links(self) -> Mapping[str, str]:
+        """The links of equivalent linkages, with the follower that each moves."""
+        return {cam.link: follower for follower, cam in self.cams.items()}
+
+    @property
+    def cam_centres(self) -> Mapping[str, str]:
+        """The centres of curvature of cams, with the follower that each moves."""
+        return {cam.centre: follower for follower, cam in self.cams.items()}
 
     def link(self, name: str) -> Link:
         """The link of a name, the frame included."""

@@ -20,6 +20,7 @@ from graphkin.scene.parameters import read_parameters, set_values
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name
 from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
+from graphkin.scene.read_cams import with_cams
 from graphkin.scene.read_drivers import read_drivers
 from graphkin.scene.read_joints import read_rolls, read_slides, read_wheels
 from graphkin.scene.read_profiles import read_profiles
@@ -103,7 +104,7 @@ def assembled(
     module = read_module(top, measures)
     title = top.text("title", name)
     frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
-    links = read_links(top, measures, module)
+    links = read_links(top, frame, measures, module)
     return Scene(
         name=name,
         title=title,
@@ -158,7 +159,9 @@ def read_module(top: Table, measures: Measures) -> Quantity | None:
     return None if raw is None else measures.length("module", raw, positive=True)
 
 
-def read_links(top: Table, measures: Measures, module: Quantity | None) -> dict[str, Link]:
+def read_links(
+    top: Table, fixed: Link, measures: Measures, module: Quantity | None
+) -> dict[str, Link]:
     """The moving links, by name."""
     table = top.table("links")
     if not table.raw and not measures.findings.inside(table.place):
@@ -183,7 +186,7 @@ def read_links(top: Table, measures: Measures, module: Quantity | None) -> dict[
     frame = Table(FRAME_WORD, as_table(top.raw.get(FRAME_WORD)), measures.findings)
     for name, lengths in normals(written, frame, links, measures):
         links[name] = read_link(name, lengths, measures, module)
-    return links
+    return with_cams(written, fixed, links, measures)
 
 
 def as_table(raw: object) -> dict[str, Any]:
@@ -196,7 +199,7 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     points, placings = read_shape(table, measures)
     wheels, profiles = read_wheels(table, measures, module), read_profiles(table)
     if name == FRAME:
-        for key in ("slides", "rolls", "touches"):
+        for key in ("slides", "rolls", "touches", "cam"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
         return Link(FRAME, points, placings, wheels=wheels, profiles=profiles)

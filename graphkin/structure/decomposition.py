@@ -7,6 +7,7 @@ are joined one after the other. The smallest, two links and three pairs, is the 
 from __future__ import annotations
 
 from graphkin.scene.model import FRAME, Scene
+from graphkin.structure.cam_guides import refuse_far_guides
 from graphkin.structure.coupled_trains import next_coupled
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.higher_groups import next_higher
@@ -15,7 +16,8 @@ from graphkin.structure.next_group import next_driven, next_group, next_stretche
 
 
 def decompose(scene: Scene) -> tuple[Group, ...]:
-    """The groups in order of construction."""
+    """The groups in order of construction. StructureError: a follower that misses its cam."""
+    refuse_far_guides(scene)
     joints = Joints(scene)
     known = {FRAME}
     waiting = list(scene.drivers)

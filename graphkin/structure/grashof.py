@@ -129,6 +129,8 @@ def compare(one: float, other: float) -> int:
 def single_loops(scene: Scene) -> tuple[Loop, ...]:
     """The loops of four links with four pins, or three pins and a slide, the frame's first."""
     found: list[Loop] = []
+    if scene.cams:  # an equivalent linkage holds at its instant alone
+        return ()
     every, bodies = Joints(scene), Bodies(scene)
     for links in four_cycles(every):
         beside = zip(links, (*links[1:], links[0]), strict=True)

@@ -81,6 +81,30 @@ class Dyad(Struct, frozen=True):
         return f"dyad {self.type}"
 
 
+class CamFollower(Struct, frozen=True):
+    """A follower that a cam sets by its law, with the equivalent linkage of the instant.
+
+    ``dyad`` are the link of that linkage and the follower: its plans are theirs.
+    """
+
+    dyad: Dyad
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.dyad.outer
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The equivalent link and the follower."""
+        return self.dyad.links
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return f"{self.dyad.title}, set by the law of a cam"
+
+
 class Stretched(Struct, frozen=True):
     """A dyad of which one bar is a cylinder: a block on a known pin and a rod driven in it.
 
@@ -257,7 +281,17 @@ class Unresolved(Struct, frozen=True):
 
 
 Group = (
-    Crank | Driven | Dyad | Stretched | Geared | Train | Tie | CoupledTrain | Higher | Unresolved
+    Crank
+    | Driven
+    | Dyad
+    | CamFollower
+    | Stretched
+    | Geared
+    | Train
+    | Tie
+    | CoupledTrain
+    | Higher
+    | Unresolved
 )
 
 

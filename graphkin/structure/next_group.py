@@ -6,6 +6,7 @@ from collections.abc import Collection
 
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import (
+    CamFollower,
     Crank,
     Driven,
     Dyad,
@@ -76,10 +77,15 @@ def next_group(joints: Joints, known: Collection[str]) -> Group | None:
         if geared := geared_of(first, left, known):
             return geared
         if dyad := dyad_with(joints, known, first, left):
-            return dyad
+            return CamFollower(dyad) if is_of_cam(joints, dyad) else dyad
         if train := train_with(joints, known, first, left):
             return train
     return None
+
+
+def is_of_cam(joints: Joints, dyad: Dyad) -> bool:
+    """Whether a dyad is the equivalent linkage of a cam: the cam's law closes it."""
+    return any(link in joints.scene.cam_links for link in dyad.links)
 
 
 def train_with(

@@ -156,8 +156,10 @@ class Tracing(Struct, frozen=True, dict=True):
             if self.moves(point):
                 first = self.tape.point(point)
                 found |= {first, first + 1}
-        for link in self.mechanism.scene.links.values():
-            points = [places[name] for name in link.points if name in places]
+        scene = self.mechanism.scene
+        for link in scene.links.values():
+            kept = (name for name in link.points if name not in scene.cam_centres)
+            points = [places[name] for name in kept if name in places]
             for point in points[1:]:
                 length = abs(point - points[0])
                 if self.moves(length):

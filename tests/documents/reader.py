@@ -403,7 +403,9 @@ class Reader:
         "draw the mechanism as on the velocity sheet",
         "transfer .* to the mechanism, each to its point.*",
         "over the motion .*",
+        "nothing is set on the mechanism, because .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
+        "join ⟨p⟩⟨q⟩: link .*? stands for the contact at this instant",
         "the perpendiculars are parallel: .* is at infinity",
     )
     def nothing(self, **_: str) -> None:
@@ -527,7 +529,7 @@ class Reader:
         radius = number(size[1]) * MILLIMETRES[size[2]] / self.scale
         self.ray = Line(track.point + away * radius, track.along)
 
-    @says(r"on it lay off s(?:_\{.*?\})? \(⟨drawn:number⟩ mm\) from its zero: ⟨name⟩")
+    @says(r"on it lay off (?:s(?:_\{.*?\})? \()?⟨drawn:number⟩ mm\)? from its zero: ⟨name⟩")
     def set_at(self, drawn: str, name: str) -> None:
         if self.ray is None:
             item = self.told_of(rf"(?:pin )?{re.escape(name)} slides")
@@ -579,6 +581,14 @@ class Reader:
     def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(1, math.radians(number(angle)))
         self.put(name, self.at(p) + along * self.length(s, t))
+
+    @says(
+        r"by the law s = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm at ⟨angle:number⟩° "
+        r"to the x axis: ⟨name⟩, the centre of curvature of cam ⟨g:number⟩"
+    )
+    def centre_of_curvature(self, p: str, size: str, angle: str, name: str, **_: str) -> None:
+        along = cmath.rect(number(size), math.radians(number(angle)))
+        self.put(name, self.at(p) + along)
 
     @says(
         r"links ⟨g:number⟩ and ⟨k:number⟩ touch in ⟨name⟩ on their line of centres, "

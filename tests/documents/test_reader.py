@@ -22,6 +22,7 @@ CLOSE = 0.3
 """How near to the key, in mm, the hand must land."""
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 APART = {
+    "cam-flat": "the face of a follower, told by its guide",
     "gears-double-planet": "trials",
     "gears-ravigneaux": "trials",
     "gears-simpson": "trials",

@@ -26,6 +26,7 @@ from graphkin.documents.sheet_documents import (
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.reading.desk_app import SAID
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words, words
@@ -194,13 +195,14 @@ def test_every_sentence_is_used():
     spoken = Recording("en")
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
     every = [mechanism_named(lab, 7) for lab in SHIPPED[1:]]
-    more = ("gears-ravigneaux", "stephenson-2-binary", "two-loops")
+    more = ("cam-flat", "cam-knife", "gears-ravigneaux", "stephenson-2-binary", "two-loops")
     every += [mechanism_named(name) for name in (*OTHERS, *CHOSEN, *more)]
     every += [rare(name) for name in RARE]
     for mechanism in every:
         every_page(mechanism, spoken)
     unused = words("en").sentences.keys() - USED - literals() - {*SLIPS.values()} - palette_keys()
     unused -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
+    unused -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
     assert not unused, " ".join(sorted(unused))
 
 

@@ -45,6 +45,7 @@ class Checking:
         try:
             yield from structure(scene)
             yield from labelled("groups", group_lines(decompose(scene)))
+            yield from labelled("cams", self.cams())
             yield from self.closing()
             yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
@@ -56,6 +57,14 @@ class Checking:
             yield from labelled("witness", [self.witness(trace)])
         except GraphkinError as error:
             self.problems += error.problems
+
+    def cams(self) -> list[str]:
+        """Pressure angle and curvature of each cam."""
+        if not self.mechanism.scene.cams:
+            return []
+        from graphkin.cli.report.cam_report import cam_lines
+
+        return list(cam_lines(self.mechanism.scene))
 
     def closing(self) -> Iterator[str]:
         """Closures of the dyads, and the driver's angles for which everything closes."""

@@ -305,6 +305,8 @@ def known_points(pen: Pen, base: Base) -> list[str]:
     The normal where a wheel touches runs through its centre, as the one there does.
     """
     points = [base.start, *([base.end] if base.end else []), *base.others]
+    if base.link not in pen.scene.cam_links:  # in a dwell it falls on the cam's pivot
+        points = [point for point in points if point not in pen.scene.cam_centres]
     moving = ("position", "velocity", "acceleration")
     known = [p for p in dict.fromkeys(points) if all(pen.has(what, p) for what in moving)]
     return sorted(known, key=lambda point: "@" in point)

@@ -9,6 +9,7 @@ from msgspec import Struct
 from graphkin.construction.core.program import ContactName
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
+    CamFollower,
     CoupledTrain,
     Crank,
     Driven,
@@ -59,9 +60,9 @@ def contact_name(contact: Contact) -> ContactName:
 def crank_tip(scene: Scene, crank: Crank) -> str | None:
     """The first point of a driven link beside its pivot, along the line whose angle is given.
 
-    None for a wheel that has its pivot only.
+    None for a wheel or a cam that has its pivot only.
     """
-    points = scene.link(crank.link).points
+    points = tuple(p for p in scene.link(crank.link).points if p not in scene.cam_centres)
     line = (crank.driver.of if crank.driver.link == crank.link else None) or points[:2]
     return next((point for point in (*line, *points) if point != crank.pivot), None)
 
@@ -75,6 +76,8 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return (led_base(scene, link, pair.led_point(scene, link), pair),)
         case Dyad():
             return dyad_bases(scene, group)
+        case CamFollower(dyad=dyad):
+            return dyad_bases(scene, dyad)
         case Stretched(near=near, pin=pin, dyad=dyad):
             far = dyad.links[0]
             first, second = dyad_bases(scene, dyad)
@@ -100,6 +103,8 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
 def leads_of(group: Group) -> dict[str, str]:
     """The links that turn as another does, because they slide on one another, and which that is."""
     match group:
+        case CamFollower(dyad=dyad):
+            return leads_of(dyad)
         case Driven(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
         case Stretched(near=near, dyad=dyad):

@@ -150,9 +150,20 @@ class Drawing(Struct, frozen=True, dict=True):
         for disc in self.standing.discs:
             yield disc.centre + disc.outer * (1 + 1j)
             yield disc.centre - disc.outer * (1 + 1j)
+        if self.scene.cams:
+            yield from self.cam_corners()
         yield from (touch.at for touch in self.standing.touches)
         ways = self.standing.guideways
         yield from (self.standing.beside_wheels(way) for way in ways if way.slide.on == FRAME)
+
+    def cam_corners(self) -> Iterator[complex]:
+        """The corners of the boxes in which the profiles of cams turn."""
+        from graphkin.construction.core.cam_profiles import DRAWN, CamProfile
+
+        for follower, cam in self.scene.cams.items():
+            if cam.pivot in self.positions:
+                reach = CamProfile(self.scene, follower, DRAWN).reach
+                yield from (self.positions[cam.pivot] + reach * way for way in (1 + 1j, -1 - 1j))
 
     def guide(self, slide: Slide) -> tuple[complex, complex] | None:
         """A point and the unit direction of the line that a guide of the frame keeps a block on.

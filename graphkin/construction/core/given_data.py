@@ -23,6 +23,7 @@ from graphkin.scene.model import (
     FRAME,
     Angled,
     At,
+    CamPiece,
     Driver,
     OnLine,
     Polar,
@@ -76,9 +77,15 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
     scene, words = drawing.scene, drawing.words
     sentences = [
         *sides(scene, words),
-        *(of_guide(drawing, link, slide) for link in scene.links.values() for slide in link.slides),
+        *(
+            of_guide(drawing, link, slide)
+            for link in scene.links.values()
+            if link.name not in scene.cam_links
+            for slide in link.slides
+        ),
         *wheels(scene, words),
         *tracks(drawing),
+        *cams(drawing),
         *closures(drawing),
         *of_scales(drawing),
         *(escape(note) for note in [scene.notes.get(words.language)] if note),
@@ -95,6 +102,34 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
         *plates(drawing),
         *map(Datum, sentences),
     ]
+
+
+def cams(drawing: Drawing) -> Iterator[str]:
+    """Each cam with its follower's tip, its circles and its law, piece by piece."""
+    scene, words = drawing.scene, drawing.words
+    for follower, cam in scene.cams.items():
+        fields = {"g": escape(cam.on), "k": escape(follower)}
+        fields["tip"] = words(f"page.cam_{cam.tip}", radius=written(scene, words, cam.roller))
+        base = written(scene, words, cam.base)
+        sense = words("page.cam_clockwise" if cam.sense < 0 else "page.cam_counter")
+        start = words("page.cam_start", angle=written(scene, words, cam.start))
+        turned = sense + ("" if cam.start.is_zero() else start)
+        yield words("page.cam", base=base, **fields)
+        first, *rest = (cam_piece(scene, words, piece) for piece in cam.law)
+        yield words("page.cam_by", sense=turned, piece=first, **fields)
+        yield from rest
+
+
+def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:
+    """A piece of a law: how far it goes, and by which motion it lifts or lowers."""
+    to, rise = written(scene, words, piece.to), piece.rise
+    size = rise.number(scene.values)
+    if size == 0:
+        return words("page.cam_dwell", to=to)
+    motion = words(f"page.motion_{piece.motion.replace(' ', '_')}")
+    size = written(scene, words, rise if size > 0 else rise.negative())
+    key = "page.cam_rise" if rise.number(scene.values) > 0 else "page.cam_return"
+    return words(key, to=to, size=size, motion=motion)
 
 
 def of_scales(drawing: Drawing) -> Iterator[str]:

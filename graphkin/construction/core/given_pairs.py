@@ -79,7 +79,8 @@ def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for the positive sense of a guide that the data or the answers count along."""
     scene, words = drawing.scene, drawing.words
     driven = any(d.kind == "slide" and d.link == link.name for d in scene.drivers)
-    if slide is not link.slides[0] or not (driven or link.name in scene.ask.slides):
+    counted = driven or link.cam is not None or link.name in scene.ask.slides
+    if slide is not link.slides[0] or not counted:
         return ""
     if slide.along:
         p, q = (symbol(point) for point in slide.along)

@@ -160,6 +160,8 @@ class LinkPoses(Struct, frozen=True, dict=True):
         zero = self.carried(slide.on, slide.along[0] if slide.along else slide.through)
         if zero is None:
             zero = at - 1j * offset * along
+        if block.name in self.scene.cam_links:
+            offset = cross(along, at - zero)
         return Guideway(block.name, slide, zero, along, at, offset)
 
     @cached_property

@@ -33,4 +33,5 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
         laid = any(len(points & names) > 1 for names in told)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
-            yield Sentence(-1, IDLE + link.name, drawing.words("step.idle", **names))
+            key = "step.cam-link" if link.name in drawing.scene.cam_links else "step.idle"
+            yield Sentence(-1, IDLE + link.name, drawing.words(key, **names))

@@ -37,6 +37,12 @@ def angled(vertex: Point, arm: Point, turn: Point, length: Real) -> Point:
     return vertex + way * turn * (length / abs(way))
 
 
+@action("beside")
+def brought_back(start: Point, point: Point, axis: Point, here: Point) -> Point:
+    """A point in its link's axes, from where it and another stand."""
+    return here + (point - start) * axis.conjugate()
+
+
 class LinkShapes:
     """Local positions of the points of each link, written down when first asked for."""
 
@@ -50,7 +56,27 @@ class LinkShapes:
         if link not in self.placed:
             with self.pen.on(Part.SHAPE, Plane.NUMBERS):
                 self.placed[link] = place_all(self.pen, self.pen.scene.link(link))
+        if point not in self.placed[link]:
+            self.placed[link][point] = self.found(link, point)
         return self.placed[link][point]
+
+    def found(self, link: str, point: str) -> int:
+        """The local position of a point that a cam's law sets, from where it stands.
+
+        In the bar of an equivalent linkage the axis leads from the centre to the roller's.
+        """
+        if link in self.pen.scene.cam_links:
+            points = self.pen.scene.link(link).points
+            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+                if point == points[0]:
+                    return self.pen.given("origin")
+                length = self.pen.draw(distance, *(self.pen.the("position", p) for p in points))
+                return self.pen.draw(lay_off, self.pen.given("origin"), length)
+        start = self.pen.bases[link].start
+        ends = (self.pen.the("position", each) for each in (start, point))
+        here = self.local(link, start)
+        with self.pen.on(Part.SHAPE, Plane.NUMBERS):
+            return self.pen.draw(brought_back, *ends, self.pen.the("axis", link), here)
 
     def ratio(self, link: str, base: str, end: str, point: str) -> int:
         """(C - A)/(B - A) of three points of a link."""

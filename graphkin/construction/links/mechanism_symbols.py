@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphkin.construction.cams.cam_symbols import draw_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import above_foot
 from graphkin.construction.guides.pivot_grounds import ground_ways, height_at
@@ -123,6 +124,7 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_bodies(board, drawing, field, carriers=False)
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
+    draw_cams(board, drawing, field)
     draw_contacts(board, drawing, field)
     draw_pins(board, drawing, field)
 
@@ -166,6 +168,7 @@ def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_bodies(board, drawing, field, carriers=False)
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
+    draw_cams(board, drawing, field)
     draw_contacts(board, drawing, field)
     draw_numbers(board, drawing, field)
 

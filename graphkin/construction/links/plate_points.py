@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from msgspec.structs import replace
 
+from graphkin.construction.cams.cam_centre import curvature_centre
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.link_poses import lettered
@@ -159,7 +160,9 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
     for point in base.others:
         if pen.has("position", point):
             continue
-        if base.end is None or "@" in base.end:
+        if point in pen.scene.cam_centres:
+            found = curvature_centre(pen, shapes, base, point)
+        elif base.end is None or "@" in base.end:
             found = set_by_axis(pen, shapes, base, point)
         else:
             found = set_by_base(pen, shapes, base, point)

@@ -10,6 +10,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.loops.assemble import completed
+from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.equations import Equations, equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
@@ -108,6 +109,7 @@ def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) 
 
     Links and accelerations of which it says nothing are left alone.
     """
+    solution, scene = without_linkages(scene, solution), by_law(scene)
     loops = equations(scene, values)
     within = links_concerned(scene, loops, solution)
     if within is not None:
@@ -128,6 +130,7 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
     What they do not tell comes from the loops' own assembly, by the branches that the scene
     states; the links and blocks for which that was done are named.
     """
+    solution, scene = without_linkages(scene, solution), by_law(scene)
     places = {name: p.position for name, p in solution.points.items() if p.position is not None}
     slides = {name: s.position for name, s in solution.slides.items() if s.position is not None}
     named = {name: place for name, place in places.items() if "@" not in name}

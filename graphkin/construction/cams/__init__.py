@@ -1,0 +1,1 @@
+"""Cams by their law: the follower set, the centre of curvature, the profile."""

@@ -1,0 +1,150 @@
+"""Profiles of cams over a whole turn: the envelope of the follower, and how well it lifts.
+
+The angle θ of the cam runs over a turn; places are counted from the cam's pivot, in the cam's own
+axes (m). At θ the follower's point stands at w in the frame's axes, the pitch curve at w·exp(-iθ).
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from msgspec import Struct
+
+from graphkin.numbers.cam_motions import Rise, displaced
+from graphkin.scene.model import Cam, Scene
+from graphkin.structure.link_axes import body, guide_line
+
+DRAWN = 180
+"""Corners of a profile as it is drawn."""
+EXAMINED = 3600
+"""Angles at which a profile is examined."""
+
+
+class CamProfile(Struct, frozen=True, dict=True):
+    """The cam of a follower, at ``count`` angles evenly over a turn."""
+
+    scene: Scene
+    follower: str
+    count: int = EXAMINED
+
+    @property
+    def cam(self) -> Cam:
+        """The cam as written."""
+        return self.scene.cams[self.follower]
+
+    @cached_property
+    def angles(self) -> Any:
+        """The angles of the cam's axis, in radians."""
+        return np.arange(self.count) * (2 * np.pi / self.count)
+
+    @property
+    def law_angles(self) -> Any:
+        """The angles from which the law counts, in degrees from 0 to 360."""
+        start = self.cam.start.si(self.scene.values)
+        return np.degrees(self.cam.sense * (self.angles - start)) % 360
+
+    @cached_property
+    def rise(self) -> Rise:
+        """The displacement of the follower and its derivatives by the cam's angle."""
+        cam, values = self.cam, self.scene.values
+        turn = np.exp(1j * self.angles) / complex(cam.start.direction(values))
+        found = displaced(
+            turn if cam.sense > 0 else turn.conj(),
+            [float(piece.to.si(values)) for piece in cam.law],
+            [float(piece.rise.si(values)) for piece in cam.law],
+            [piece.motion for piece in cam.law],
+        )
+        return Rise(found.at, cam.sense * found.rate, found.bend)
+
+    @cached_property
+    def guide(self) -> tuple[complex, float]:
+        """The unit vector of the guide, and how far to its left the path passes the cam's pivot."""
+        scene = self.scene
+        slide = scene.link(self.follower).slides[0]
+        line = guide_line(scene, slide)
+        pivot = body(scene, slide.on)[self.cam.pivot]
+        aside = ((line.point - pivot) * line.along.conjugate()).imag
+        return complex(line.along), aside + float(slide.offset.si(scene.values))
+
+    @property
+    def roller(self) -> float:
+        """The radius of the roller."""
+        return float(self.cam.roller.si(self.scene.values))
+
+    @property
+    def base(self) -> float:
+        """The radius of the base circle."""
+        return float(self.cam.base.si(self.scene.values))
+
+    @property
+    def height(self) -> Any:
+        """How far the follower's point stands along the guide from the foot of the pivot."""
+        if self.cam.is_flat:
+            return self.base + self.rise.at
+        return np.sqrt((self.base + self.roller) ** 2 - self.guide[1] ** 2) + self.rise.at
+
+    @cached_property
+    def pitch(self) -> tuple[Any, Any, Any]:
+        """The follower's point in the frame's axes, and by the angle in the cam's: way and bend."""
+        along, aside = self.guide
+        place = (self.height + 1j * aside) * along
+        way = self.rise.rate * along - 1j * place
+        return place, way, self.rise.bend * along - 2j * self.rise.rate * along - place
+
+    @cached_property
+    def outline(self) -> Any:
+        """The places of the profile in the cam's axes."""
+        along, _ = self.guide
+        if self.cam.is_flat:
+            place = (self.height - 1j * self.rise.rate) * along
+        else:
+            place, way, _ = self.pitch
+            place = place - 1j * way * (self.roller / abs(way))
+        return place * np.exp(-1j * self.angles)
+
+    @property
+    def reach(self) -> float:
+        """The farthest that the profile comes from the pivot."""
+        return float(abs(self.outline).max())
+
+    @property
+    def face(self) -> float:
+        """How far a flat face must reach on either side of the pivot's perpendicular."""
+        return float(abs(self.rise.rate).max())
+
+    @property
+    def pressure(self) -> Any:
+        """The pressure angle at each angle, in degrees: of the common normal with the guide."""
+        if self.cam.is_flat:
+            return np.zeros(self.count)
+        along, _ = self.guide
+        _, way, _ = self.pitch
+        return abs(np.degrees(np.angle(1j * way / along)))
+
+    @property
+    def bend(self) -> Any:
+        """The curvature of the pitch curve, or the radius of a profile under a flat face.
+
+        A curvature is positive where the curve is convex.
+        """
+        if self.cam.is_flat:
+            return self.height + self.rise.bend
+        _, way, turn = self.pitch
+        return -(way.conj() * turn).imag / abs(way) ** 3
+
+    @property
+    def sharpest(self) -> tuple[float, float]:
+        """The least radius of curvature of the profile where it is convex (m), and at which law's
+        angle; nought or less where it is undercut."""
+        bend = self.bend
+        number = int(bend.argmin() if self.cam.is_flat else bend.argmax())
+        radius = float(bend[number] if self.cam.is_flat else 1 / bend[number] - self.roller)
+        return radius, float(self.law_angles[number])
+
+    @property
+    def steepest(self) -> tuple[float, float]:
+        """The largest pressure angle, and at which angle of the law, in degrees."""
+        number = int(self.pressure.argmax())
+        return float(self.pressure[number]), float(self.law_angles[number])

@@ -1,0 +1,173 @@
+"""The motions of cams: a rise from 0 to 1 over u from 0 to 1, with both derivatives by u.
+
+Written for any kind of number. The forms are those of the textbooks (Norton, Cam Design and
+Manufacturing Handbook): modified trapezoid and modified sine are made of pieces of sines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from graphkin.numbers.arithmetic import Point, Real, at, below, phase, pick, turn_by
+
+BORDER = 1e-9
+"""How far before the end of a piece (radians, or parts of it) the next one begins: rounding does
+not decide on which side of a border a cam stands."""
+
+
+HALVED = 0.0123
+"""The cosine at which the halves of a turn part, where no angle of a scene is likely to be."""
+
+
+class Rise(NamedTuple):
+    """A displacement and its first and second derivatives by the angle."""
+
+    at: Real
+    rate: Real
+    bend: Real
+
+
+Motion = Callable[[Real], Rise]
+
+
+def half_turn(u: Real) -> Real:
+    """Pi as a number of the kind of another."""
+    nought = abs(u) * 0
+    return phase(at(nought - 1, nought))
+
+
+def chosen(condition: object, yes: Rise, no: Rise) -> Rise:
+    """One of two by a condition."""
+    return Rise(*(pick(condition, *pair) for pair in zip(yes, no, strict=True)))
+
+
+def before(u: Real, border: float) -> object:
+    """Whether u lies before a border."""
+    return below(u, abs(u) * 0 + (border - BORDER))
+
+
+def uniform(u: Real) -> Rise:
+    """Constant velocity."""
+    return Rise(u, u * 0 + 1, u * 0)
+
+
+def mirrored(u: Real, first: Motion) -> Rise:
+    """A motion whose second half is the first, turned by half a turn about its middle."""
+    late = first(1 - u)
+    return chosen(before(u, 0.5), first(u), Rise(1 - late.at, late.rate, -late.bend))
+
+
+def parabolic(u: Real) -> Rise:
+    """Constant acceleration, then as much the other way."""
+    return mirrored(u, lambda w: Rise(2 * w * w, 4 * w, w * 0 + 4))
+
+
+def harmonic(u: Real) -> Rise:
+    """Half a cosine."""
+    pi = half_turn(u)
+    way = turn_by(pi * u)
+    return Rise((1 - way.real) / 2, pi * way.imag / 2, pi * pi * way.real / 2)
+
+
+def cycloidal(u: Real) -> Rise:
+    """A whole sine of acceleration."""
+    pi = half_turn(u)
+    way = turn_by(2 * pi * u)
+    return Rise(u - way.imag / (2 * pi), 1 - way.real, 2 * pi * way.imag)
+
+
+def polynomial_345(u: Real) -> Rise:
+    """The polynomial 3-4-5: no acceleration at both ends."""
+    v, w = 1 - u, u * (1 - u)
+    lift = u * u * u * (10 - u * (15 - 6 * u))
+    return Rise(lift, 30 * w * w, 60 * w * (v - u))
+
+
+def polynomial_4567(u: Real) -> Rise:
+    """The polynomial 4-5-6-7: no jerk at both ends either."""
+    v, w = 1 - u, u * (1 - u)
+    lift = u * u * u * u * (35 - u * (84 - u * (70 - 20 * u)))
+    return Rise(lift, 140 * w * w * w, 420 * w * w * (v - u))
+
+
+def modified_sine(u: Real) -> Rise:
+    """Quick sines of acceleration in the first and last eighth, a slow one between them."""
+    pi = half_turn(u)
+    size, quick, slow = pi + 4, turn_by(4 * pi * u), turn_by((4 * pi * u + pi) / 3)
+    peak = 4 * pi * pi / size
+
+    def end(lift: int) -> Rise:
+        at_u = (lift + pi * u - quick.imag / 4) / size
+        return Rise(at_u, pi * (1 - quick.real) / size, peak * quick.imag)
+
+    middle = Rise(
+        (2 + pi * u - 9 * slow.imag / 4) / size, pi * (1 - 3 * slow.real) / size, peak * slow.imag
+    )
+    return chosen(before(u, 0.125), end(0), chosen(before(u, 0.875), middle, end(4)))
+
+
+def modified_trapezoid(u: Real) -> Rise:
+    """Constant acceleration that begins and ends in quarters of sines."""
+    pi = half_turn(u)
+    peak, k = 8 * pi / (pi + 2), 4 * pi
+
+    def first(w: Real) -> Rise:
+        early, late, far = turn_by(k * w), turn_by(k * (w - 0.375)), w - 0.125
+        start, rate = 0.125 / k - 1 / k**2, 1 / k
+        then, quicker = start + 0.25 * rate + 0.03125, rate + 0.25
+        begins = Rise(w / k - early.imag / k**2, (1 - early.real) / k, early.imag)
+        level = Rise(start + rate * far + far * far / 2, rate + far, w * 0 + 1)
+        on = w - 0.375
+        ends = Rise(
+            then + quicker * on + (1 - late.real) / k**2, quicker + late.imag / k, late.real
+        )
+        return chosen(before(w, 0.125), begins, chosen(before(w, 0.375), level, ends))
+
+    return mirrored(u, lambda w: Rise(*(peak * each for each in first(w))))
+
+
+MOTIONS: dict[str, Motion] = {
+    "uniform": uniform,
+    "parabolic": parabolic,
+    "harmonic": harmonic,
+    "cycloidal": cycloidal,
+    "3-4-5": polynomial_345,
+    "4-5-6-7": polynomial_4567,
+    "modified trapezoid": modified_trapezoid,
+    "modified sine": modified_sine,
+}
+"""Every motion by its name in a scene."""
+
+
+def turned(turn: Point) -> Real:
+    """The angle of a unit vector from 0 to a whole turn; rounding puts none below 0.
+
+    Each half of the turn is measured from its own middle, so that a ball meets no jump but at 0.
+    """
+    ahead, behind = phase(turn), phase(-turn)
+    half = half_turn(ahead)
+    ahead = pick(below(ahead, -abs(ahead) * 0 - BORDER), ahead + 2 * half, ahead)
+    return pick(below(turn.real, abs(ahead) * 0 + HALVED), behind + half, ahead)
+
+
+def displaced(turn: Point, ends: list[Real], rises: list[Real], motions: list[str]) -> Rise:
+    """The displacement of a follower where the cam has turned by ``turn`` (a unit vector).
+
+    The pieces end at angles ``ends`` (radians, the last a whole turn) and add up ``rises``; at a
+    border the piece that begins there holds.
+    """
+    angle = turned(turn)
+    found = None
+    low, start = angle * 0, angle * 0
+    pieces = []
+    for end, rise, motion in zip(ends, rises, motions, strict=True):
+        pieces.append((low, end, start, rise, motion))
+        low, start = end, start + rise
+    for low, end, start, rise, motion in reversed(pieces):
+        span = end - low
+        f = MOTIONS[motion]((angle - low) / span)
+        own = Rise(start + rise * f.at, rise * f.rate / span, rise * f.bend / (span * span))
+        found = own if found is None else chosen(below(angle, end - BORDER), own, found)
+    assert found is not None
+    return found

@@ -1,0 +1,219 @@
+"""Cams by their law: what is written of them, and the equivalent linkage that stands for each.
+
+At an instant a cam moves its follower as the circle of its curvature would: a bar from the centre
+of curvature to the roller's centre, or a block at the centre on the follower's face.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from graphkin.numbers.cam_motions import MOTIONS
+from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, shown
+from graphkin.scene.measures import Measures
+from graphkin.scene.model import FRAME, Cam, CamPiece, Driver, Link, Scene, Slide
+from graphkin.scene.phrases import is_link_name, is_name, link_name
+from graphkin.scene.quantity import exact
+
+TIPS = ("roller", "knife", "flat")
+DWELL = "dwell"
+MOST_PIECES = 24
+CAM = "the link of the cam"
+
+
+def with_cams(
+    written: Mapping[str, Table], frame: Link, links: Mapping[str, Link], measures: Measures
+) -> dict[str, Link]:
+    """The links with their cams, and with the equivalent linkage of each."""
+    found = dict(links)
+    many = sum("cam" in table for table in written.values()) > 1
+    count = 0
+    for name, table in written.items():
+        if "cam" not in table:
+            continue
+        raw = table.take("cam")
+        if not isinstance(raw, dict):
+            measures.findings.add(table.at("cam"), shown(raw), "a table { on = …, law = [ … ] }")
+            continue
+        count += 1
+        own = Table(table.at("cam"), raw, measures.findings)
+        cam = read_cam(name, own, frame, found, measures, f"K{count}" if many else "K")
+        if cam is not None:
+            join(found, name, cam, measures)
+    return found
+
+
+def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:
+    """Put the equivalent linkage of a cam among the links."""
+    own, disc = links[follower], links[cam.on]
+    links[follower] = own._replace(cam=cam)
+    links[cam.on] = disc._replace(points=(*disc.points, cam.centre))
+    if cam.is_flat:
+        unit = measures.units["angle"]
+        face = exact(90, "deg") if unit == "deg" else measures.angle("", "pi/2")
+        guide = Slide(follower, own.points[0], face, None, exact(0, measures.units["length"]))
+        links[cam.link] = Link(cam.link, (cam.centre,), (), (guide,))
+    else:
+        links[cam.link] = Link(cam.link, (cam.centre, own.points[0]), ())
+
+
+def read_cam(
+    follower: str,
+    table: Table,
+    frame: Link,
+    links: Mapping[str, Link],
+    measures: Measures,
+    letter: str,
+) -> Cam | None:
+    """One cam, ``{ on, tip, base, roller, law, start, clockwise }``; None where none can be."""
+    findings = measures.findings
+    before = len(findings.problems)
+    on = link_name(table.at("on"), table.take("on"), findings, CAM)
+    tip = choice(table, "tip", TIPS)
+    base = measures.length(table.at("base"), table.take("base"), positive=True)
+    raw = table.take("roller")
+    if tip == "roller" and raw is None:
+        findings.add(table.at("roller"), "is missing", "the radius of the roller")
+    elif tip != "roller" and raw is not None:
+        findings.add(table.at("roller"), f"a roller on a {tip} follower", 'tip = "roller"')
+    if tip == "roller" and raw is not None:
+        roller = measures.length(table.at("roller"), raw, positive=True)
+    else:
+        roller = exact(0, measures.units["length"])
+    law = read_law(table, measures)
+    turned = table.take("start")
+    start = measures.angle(table.at("start"), 0 if turned is None else turned)
+    sense = -1 if table.flag("clockwise") else 1
+    centre = table.text("centre", letter)
+    name = table.text("link", f"n{on}_{follower}")
+    table.finish()
+    pivot = pivot_of(follower, on, table, frame, links, measures)
+    if not is_name(centre) or any(centre in link.points for link in (frame, *links.values())):
+        found = f"{shown(centre)} for the centre of curvature"
+        findings.add(table.at("centre"), found, "the name of a new point")
+    if not is_link_name(name) or name in links:
+        findings.add(table.at("link"), f"{shown(name)}", "the name of a new link")
+    if len(findings.problems) > before or on is None:
+        return None
+    return Cam(on, pivot, tip, base, roller, law, start, sense, centre, name)
+
+
+def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:
+    """One of some words."""
+    raw = table.take(key)
+    if isinstance(raw, str) and raw in choices:
+        return raw
+    found = "is missing" if raw is None else shown(raw)
+    hint = nearest(raw, choices) if isinstance(raw, str) else ""
+    table.findings.add(table.at(key), found, listed(choices), hint)
+    return choices[0]
+
+
+def pivot_of(
+    follower: str,
+    on: str | None,
+    table: Table,
+    frame: Link,
+    links: Mapping[str, Link],
+    measures: Measures,
+) -> str:
+    """The pin of the cam on the frame; the follower is a block on one guide of the frame."""
+    own, findings = links[follower], measures.findings
+    if len(own.slides) != 1 or own.slides[0].on != FRAME or not own.points:
+        found = f"link {follower} does not slide on a guide of the frame"
+        expected = "a follower with slides = { on = 0, … }, its first point the roller's centre"
+        findings.add(table.place, found, expected)
+    if on is None:
+        return ""
+    if on not in links or on == follower:
+        expected = listed(name for name in links if name != follower)
+        findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}")
+        return ""
+    pivots = [point for point in links[on].points if point in frame.points]
+    if len(pivots) != 1:
+        found = f"link {on} has {len(pivots)} points of the frame"
+        findings.add(table.at("on"), found, "a cam on one pin of the frame")
+        return ""
+    return pivots[0]
+
+
+def read_law(table: Table, measures: Measures) -> tuple[CamPiece, ...]:
+    """The pieces of a law: they follow one another to a whole turn and come back to nought."""
+    findings, raw, place = measures.findings, table.take("law"), table.at("law")
+    if not isinstance(raw, list) or not 0 < len(raw) <= MOST_PIECES:
+        found = "is missing" if raw is None else shown(raw)
+        expected = f"at most {MOST_PIECES} pieces: [ {{ to = 120, rise = 20, motion = … }}, … ]"
+        findings.add(place, found, expected)
+        return ()
+    pieces, bad = [], len(findings.problems)
+    for index, each in enumerate(raw):
+        where = numbered(place, index, len(raw))
+        if isinstance(each, dict):
+            pieces.append(read_piece(Table(where, each, findings), measures))
+        else:
+            findings.add(where, shown(each), "a table { to = …, rise = …, motion = … }")
+    if len(findings.problems) > bad:
+        return ()
+    check_law(place, pieces, measures)
+    return tuple(pieces)
+
+
+def read_piece(table: Table, measures: Measures) -> CamPiece:
+    """One piece, ``{ to, rise, motion }``; without a rise it is a dwell."""
+    to = measures.angle(table.at("to"), table.take("to"))
+    raw, motion = table.take("rise"), table.take("motion")
+    rise = measures.length(table.at("rise"), 0 if raw is None else raw)
+    table.finish()
+    if raw is None and motion is None:
+        return CamPiece(to, rise, "uniform")
+    if not isinstance(motion, str) or motion not in MOTIONS:
+        found = "is missing" if motion is None else shown(motion)
+        hint = nearest(motion, MOTIONS) if isinstance(motion, str) else ""
+        table.findings.add(table.at("motion"), found, listed(MOTIONS), hint)
+        motion = "uniform"
+    if raw is None:
+        hint = "a dwell has neither rise nor motion"
+        table.findings.add(table.at("rise"), "is missing", "how far it lifts", hint)
+    return CamPiece(to, rise, motion)
+
+
+def check_law(place: str, pieces: list[CamPiece], measures: Measures) -> None:
+    """Angles grow to a whole turn, and the follower comes back."""
+    values, findings = measures.values, measures.findings
+    unit = measures.units["angle"]
+    low, lift = 0.0, 0.0
+    for index, piece in enumerate(pieces):
+        to = float(piece.to.number(values))
+        if to <= low:
+            found = f"{to:g} after {low:g}"
+            findings.add(f"{numbered(place, index, len(pieces))}.to", found, "angles that grow")
+        low, lift = to, lift + float(piece.rise.number(values))
+        if lift < -1e-9 * abs(float(piece.rise.number(values))):
+            where = f"{numbered(place, index, len(pieces))}.rise"
+            found = f"the follower stands {-lift:g} below where the law begins"
+            hint = "the base circle is the smallest: let the law begin at its lowest place"
+            findings.add(where, found, "0 or more", hint)
+    whole = 360.0 if unit == "deg" else 6.283185307179586
+    if abs(low - whole) > 1e-9 * whole:
+        findings.add(place, f"ends at {low:g}", '360 (in rad "2*pi")', "a cam turns round")
+    size = max(abs(float(piece.rise.number(values))) for piece in pieces)
+    if abs(lift) > 1e-9 * size:
+        found = f"the rises add up to {lift:g}"
+        findings.add(place, found, "0: after a whole turn the follower stands as before")
+
+
+def turning_driver(scene: Scene, cam: Cam) -> Driver | None:
+    """The driver that turns a cam against the frame by the angle of its x axis."""
+    for driver in scene.drivers:
+        if driver.kind == "turn" and (driver.link, driver.against) == (cam.on, FRAME):
+            return driver if driver.of is None else None
+    return None
+
+
+def check_cams(scene: Scene, findings: Findings) -> None:
+    """Every cam is turned by a driver, by whose angle the law is read."""
+    for follower, cam in scene.cams.items():
+        if turning_driver(scene, cam) is None:
+            found = f"no driver turns link {cam.on} against the frame by its own x axis"
+            expected = f"[[drivers]] turn = {cam.on}, without against and of"
+            findings.add(f"links.{follower}.cam.on", found, expected)

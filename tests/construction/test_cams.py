@@ -1,0 +1,256 @@
+"""Cams by their law: v = s'ω and a = s"ω² + s'ε, by two routes; the profile is the envelope."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+
+from graphkin.accuracy.certified import Certifier
+from graphkin.construction.cams import cam_centre
+from graphkin.construction.core.cam_profiles import CamProfile
+from graphkin.mechanism import Mechanism, load
+from graphkin.numbers.cam_motions import MOTIONS
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import SceneError, StructureError
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+PEAKS = {
+    "uniform": (1, 0),
+    "parabolic": (2, 4),
+    "harmonic": (np.pi / 2, np.pi**2 / 2),
+    "cycloidal": (2, 2 * np.pi),
+    "3-4-5": (15 / 8, 10 / np.sqrt(3)),
+    "4-5-6-7": (35 / 16, 84 / np.sqrt(125)),
+    "modified trapezoid": (2, 8 * np.pi / (2 + np.pi)),
+    "modified sine": (4 * np.pi / (4 + np.pi), 4 * np.pi**2 / (4 + np.pi)),
+}
+"""The largest velocity and acceleration of each motion, as the textbooks' factors C_v and C_a."""
+
+TEXT = """
+graphkin = 1
+title = "cam"
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[parameters]
+at = {{ value = {at}, min = -720, max = 720 }}
+[frame]
+O = [{x}, {y}]
+[links.cam]
+O-A = {arm}
+[links.follower]
+B = [0, 0]
+slides = {{ on = 0, through = "O", angle = {lean}, offset = {offset} }}
+[links.follower.cam]
+on = "cam"
+tip = "{tip}"
+base = {base}
+{roller}
+start = {start}
+clockwise = {clock}
+law = [
+  {{ to = 110, rise = {rise}, motion = "{motion}" }}, {{ to = 170 }},
+  {{ to = 310, rise = -{rise}, motion = "{back}" }}, {{ to = 360 }},
+]
+[[drivers]]
+turn = "cam"
+angle = "at"
+speed = {speed}
+acceleration = {push}
+"""
+
+
+def drawn(rng, tip, motion):
+    """A cam of random size, from a micrometre to kilometres, and what it is made of."""
+    size, base = 10 ** rng.uniform(-3, 6), rng.uniform(0.5, 1.5)
+    data = {
+        "at": rng.uniform(-180, 180),
+        "x": size * rng.uniform(-3, 3),
+        "y": size * rng.uniform(-3, 3),
+        "arm": size * rng.uniform(0.1, 1),
+        "lean": rng.uniform(-180, 180),
+        "offset": 0 if tip == "flat" else size * base * rng.uniform(-0.4, 0.4),
+        "base": size * base,
+        "start": rng.uniform(-180, 180),
+        "clock": str(bool(rng.integers(2))).lower(),
+        "rise": size * rng.uniform(0.1, 0.4),
+        "speed": 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1]),
+        "motion": motion,
+        "back": rng.choice(list(MOTIONS)),
+    }
+    data["push"] = data["speed"] ** 2 * rng.uniform(-2, 2)
+    radius = size * rng.uniform(0.1, 0.3)
+    roller = f"roller = {radius:.17g}" if tip == "roller" else ""
+    numbers = {k: f"{v:.17g}" if isinstance(v, float) else v for k, v in data.items()}
+    scene = read_text(TEXT.format(tip=tip, roller=roller, **numbers), "cam")
+    return scene, data
+
+
+def by_hand(data, at):
+    """s' and s" (m by radian of the cam, counter-clockwise) of the law of ``TEXT``, by itself."""
+    sense = -1 if data["clock"] == "true" else 1
+    angle = np.radians((sense * (at - data["start"])) % 360)
+    low, high, rise, motion = 0.0, 0.0, 0.0, "uniform"
+    pieces = ((110, data["rise"], data["motion"]), (170, 0, "uniform"))
+    pieces += ((310, -data["rise"], data["back"]), (360, 0, "uniform"))
+    for to, lift, name in pieces:
+        if angle < np.radians(to):
+            high, rise, motion = np.radians(to), lift / 1000, name
+            break
+        low = np.radians(to)
+    found, span = MOTIONS[motion](float((angle - low) / (high - low))), high - low
+    return sense * rise * found.rate / span, rise * found.bend / span**2
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_motion_rises_from_nought_to_one_and_its_derivatives_are_right(name):
+    motion, step = MOTIONS[name], 1e-5
+    assert motion(0.0).at == pytest.approx(0, abs=1e-12)
+    assert motion(1.0).at == pytest.approx(1, abs=1e-12)
+    for u in np.linspace(0.0137, 0.9911, 60):
+        before, here, after = (motion(float(u + k * step)) for k in (-1, 0, 1))
+        assert (after.at - before.at) / (2 * step) == pytest.approx(here.rate, abs=1e-7)
+        assert (after.rate - before.rate) / (2 * step) == pytest.approx(here.bend, abs=1e-5)
+
+
+@pytest.mark.parametrize("name", PEAKS)
+def test_the_largest_velocity_and_acceleration_are_those_of_the_textbooks(name):
+    found = MOTIONS[name](np.linspace(0, 1, 48_001))
+    peaks = abs(found.rate).max(), abs(found.bend).max()
+    assert peaks == pytest.approx(PEAKS[name], rel=1e-6)
+    assert set(PEAKS) == set(MOTIONS)
+
+
+@pytest.mark.parametrize("tip", ["roller", "knife", "flat"])
+@pytest.mark.parametrize("motion", MOTIONS)
+def test_both_routes_and_the_law_agree_all_the_way_round(tip, motion):
+    """At 24 positions: v = s'ω and a = s"ω² + s'ε, by the equivalent linkage and by the loops."""
+    rng = np.random.default_rng([len(tip), len(motion), list(MOTIONS).index(motion)])
+    scene, data = drawn(rng, tip, motion)
+    for at in np.linspace(-180, 180, 24, endpoint=False) + 3.3:
+        here = replace(scene, values={**scene.values, "at": Fraction(float(at))})
+        mechanism = Mechanism(here)
+        solution = mechanism.solve()
+        slide = solution.slides["follower"]
+        rate, bend = by_hand(data, at)
+        pushed = data["rise"] / 1000 * data["speed"] ** 2
+        assert slide.speed == pytest.approx(rate * data["speed"], abs=1e-9 * pushed / 1e-3)
+        expected = bend * data["speed"] ** 2 + rate * data["push"]
+        assert slide.acceleration == pytest.approx(expected, rel=1e-8, abs=1e-9 * pushed)
+        assert mechanism.witness(solution).agrees
+
+
+@pytest.mark.parametrize("face", ["lift", "lift_rate", "lift_bend"])
+def test_a_wrong_law_in_the_construction_does_not_pass_the_witness(face, monkeypatch):
+    right = getattr(cam_centre, face)
+    wrong = replace(right, value=lambda *args: right.value(*args) * 1.001)
+    monkeypatch.setattr(cam_centre, face, wrong)
+    mechanism = load(SCENES / "cam-roller.toml")
+    assert not mechanism.witness(mechanism.solve()).agrees
+
+
+@pytest.mark.parametrize("angle", [0, 40, 95, 200, 300])
+def test_an_eccentric_disc_by_its_law_is_the_disc(angle):
+    """A flat face on a harmonic cam moves as on a disc, whose centre is that of curvature."""
+    law = load(SCENES / "cam-flat.toml", angle=angle).solve()
+    disc = load(SCENES / "mobility-cam.toml", angle=angle).solve()
+    for ours, other in (("F", "F"), ("K", "E")):
+        assert law.points[ours].position == pytest.approx(disc.points[other].position, abs=1e-12)
+    assert law.points["F"].velocity == pytest.approx(disc.points["F"].velocity, abs=1e-12)
+    assert law.points["F"].acceleration == pytest.approx(disc.points["F"].acceleration, abs=1e-11)
+
+
+@pytest.mark.parametrize("name", ["cam-roller", "cam-knife", "cam-flat"])
+def test_the_profile_is_the_envelope_of_the_follower(name):
+    """Seen from the cam the tip always touches the outline, and never cuts into it."""
+    mechanism = load(SCENES / f"{name}.toml")
+    profile = CamProfile(mechanism.scene, "2", 3600)
+    along, _ = profile.guide
+    for number in range(0, 3600, 150):
+        turn = np.exp(1j * profile.angles[number])
+        outline = profile.outline * turn
+        place = profile.pitch[0][number]
+        if profile.cam.is_flat:
+            gap = profile.height[number] - (outline * np.conj(along)).real.max()
+        else:
+            gap = abs(outline - place).min() - profile.roller
+        assert gap == pytest.approx(0, abs=1e-6)
+
+
+def test_a_dwell_has_its_centre_of_curvature_at_the_pivot():
+    mechanism = load(SCENES / "cam-roller.toml", angle=150)
+    solution = mechanism.solve()
+    assert mechanism.witness(solution).agrees
+    assert solution.points["K"].position == pytest.approx(0, abs=1e-15)
+    assert solution.points["B"].velocity == pytest.approx(0, abs=1e-14)
+
+
+def test_a_cam_with_too_small_a_base_circle_is_undercut():
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    small = text.replace("base = 40", "base = 12").replace("to = 120", "to = 40")
+    for written, sharp in ((text, False), (small, True)):
+        profile = CamProfile(read_text(written, "cam"), "2")
+        assert (profile.sharpest[0] <= 0) is sharp
+
+
+def test_a_follower_that_passes_beside_its_cam_is_refused():
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    with pytest.raises(StructureError, match=r"60 mm beside O; expected less than .* 50 mm"):
+        Mechanism(read_text(text.replace("offset = -10", "offset = -60"), "cam")).solve()
+
+
+@pytest.mark.parametrize("angle", [0, 20, 90, 120, 150, 180, 230, 270, 300])
+def test_balls_decide_on_which_piece_a_cam_stands(angle):
+    """Nothing fails in them, not even at the borders of the pieces."""
+    mechanism = load(SCENES / "cam-roller.toml", angle=angle)
+    balls = Certifier.of(mechanism).run(120, narrowed=False)
+    assert not balls.blame
+    assert float(balls.trace.value("slide", "2").rad()) < 1e-30
+
+
+def test_the_pressure_angle_is_that_of_the_closed_form():
+    """tan α = |s' - e| / (s + sqrt(r² - e²)), the offset e to the right of a guide upwards."""
+    mechanism = load(SCENES / "cam-roller.toml")
+    profile = CamProfile(mechanism.scene, "2")
+    reach = np.sqrt(0.05**2 - 0.01**2) + profile.rise.at
+    expected = np.degrees(np.arctan(abs(profile.rise.rate - 0.01) / reach))
+    assert profile.pressure == pytest.approx(expected, abs=1e-9)
+
+
+def test_every_mistake_of_a_cam_is_told_at_its_place():
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    for old, new in (
+        ('tip = "roller"', 'tip = "rolle"'),
+        ("base = 40", "base = -40"),
+        ('motion = "cycloidal"', 'motion = "cycloid"'),
+        ("{ to = 180 }", "{ to = 100 }"),
+        ("rise = -20", "ris = -20"),
+    ):
+        text = text.replace(old, new)
+    with pytest.raises(SceneError) as error:
+        read_text(text, "cam")
+    places = {problem.place for problem in error.value.problems}
+    cam = "links.2.cam"
+    assert {f"{cam}.tip", f"{cam}.base", f"{cam}.law[0].motion"} <= places
+    assert {f"{cam}.law[2].ris", f"{cam}.law[2].rise"} <= places
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place"),
+    [
+        ("{ to = 180 }", "{ to = 100 }", "links.2.cam.law[1].to"),
+        ("{ to = 360 }", "{ to = 350 }", "links.2.cam.law"),
+        ("rise = -20", "rise = -19", "links.2.cam.law"),
+        ("rise = 20", "rise = -20", "links.2.cam.law[0].rise"),
+        ("on = 1\n", "on = 7\n", "links.2.cam.on"),
+        ("roller = 10\n", "", "links.2.cam.roller"),
+        ("slides = { on = 0,", "slides = { on = 1,", "links.2.cam"),
+        ("turn = 1\n", 'turn = 1\nof = "A-O"\n', "links.2.cam.on"),
+    ],
+)
+def test_one_mistake_is_one_error(old, new, place):
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    assert old in text
+    with pytest.raises(SceneError) as error:
+        read_text(text.replace(old, new), "cam")
+    assert place in {problem.place for problem in error.value.problems}
