@@ -9,7 +9,7 @@ from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import WORDS, Fault
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
-from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.lab.rules import Settings, exact_text
 from graphkin.text.plain_table import labelled, listed, table
 
 SHOWN = 6
@@ -29,7 +29,7 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     yield from labelled("fair", [f"{good} of {count} variants"])
     faults = [fairness.faults(i) for i in range(count)]
     named = list(zip(trial.names, faults, strict=True))
-    who = "number" if isinstance(lab.rule, Formula) else "id"
+    who = "number" if lab.rule.counts else "id"
     yield from labelled("unfair", list(broken_lines(named, who)))
     if isinstance(lab.rule, Ranges):
         yield from labelled("again", [again_words(lab.rule, trial.unfair / count)])
@@ -58,10 +58,16 @@ def again_words(rule: Ranges, unfair: float) -> str:
 def rule_words(lab: Lab) -> str:
     """The rule in words."""
     rule = lab.rule
+    formulas = ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
     if isinstance(rule, Formula):
-        return ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
-    draws = (f"{name} {draw_words(values)}" for name, values in rule.draws.items())
-    return f"{', '.join(draws)}, drawn for {rule.course}"
+        return formulas
+    draws = ", ".join(f"{name} {draw_words(values)}" for name, values in rule.draws.items())
+    return f"{f'{formulas}; ' if formulas else ''}{draws}, drawn for {rule.course}"
+
+
+def data_words(settings: Settings) -> str:
+    """The data of a variant: phi = 44, n = 1/3."""
+    return ", ".join(f"{name} = {exact_text(value)}" for name, value in settings.items())
 
 
 def pencil_lines(neighbours: Neighbours | None) -> list[str]:
@@ -84,7 +90,7 @@ def draw_words(values: Range | ValueList) -> str:
 
 def tried_words(trial: LabTrial) -> str:
     """On whom a lab was tried."""
-    if isinstance(trial.lab.rule, Formula):
+    if trial.lab.rule.counts:
         return f"numbers 1 to {trial.names[-1]}"
     return f"{len(trial.names)} drawn variants"
 

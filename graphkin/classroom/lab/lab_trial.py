@@ -9,7 +9,7 @@ from msgspec import Struct
 from graphkin.classroom.grading.neighbours import Neighbours, compare
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.items import asked_fields, items
-from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
+from graphkin.classroom.lab.lab_model import Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.mechanism import Mechanism
@@ -64,8 +64,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     Raises SceneError where the formula suits no number.
     """
     mechanism = Mechanism(read_scene(lab.scene))
-    rule = lab.rule
-    if isinstance(rule, Formula):
+    if lab.rule.counts:
         found = list(by_numbers(lab, mechanism, count))
     else:
         ids = [f"{i:04d}" for i in range(1, count + 1)]

@@ -70,8 +70,10 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     Raises RosterError for numbers with which a formula leaves what the scene allows.
     """
     mechanism = Mechanism(read_scene(lab.scene))
+    if lab.rule.counts:
+        refuse_misfits(lab, students, mechanism, roster)
     if isinstance(lab.rule, Formula):
-        many = by_formula(lab, students, mechanism, roster)
+        many = [settings(lab, student) for student in students]
         found = judged(mechanism, lab, many)
         every = [one(student, many[i], 0, found, i) for i, student in enumerate(students)]
         return spaced(lab, mechanism, every) if lab.fair.needs_keys else every
@@ -146,10 +148,10 @@ def neighbours_of(lab: Lab, every: Sequence[Assigned]) -> Neighbours | None:
     return compare(lab, Mechanism(read_scene(lab.scene)), asked)
 
 
-def by_formula(
+def refuse_misfits(
     lab: Lab, students: Sequence[Student], mechanism: Mechanism, roster: str
-) -> list[Settings]:
-    """The data that a formula gives; RosterError with the row of each number it does not suit."""
+) -> None:
+    """RosterError with the row of each number to which a formula gives what no scene allows."""
     problems = [
         Problem(f"{roster}, row {student.row}", p.found, p.expected, p.hint)
         for student in students
@@ -157,12 +159,11 @@ def by_formula(
     ]
     if problems:
         raise RosterError(problems)
-    return [settings(lab, student) for student in students]
 
 
 def check_of(lab: Lab) -> Check | None:
     """What finds students whose number gives no data that the scene allows; none for ranges."""
-    if not isinstance(lab.rule, Formula):
+    if not lab.rule.counts:
         return None
     return partial(misfits, lab, Mechanism(read_scene(lab.scene)))
 
