@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from graphkin.classroom.grading.neighbours import Neighbours
-from graphkin.classroom.lab.fairness import WORDS, Fault
+from graphkin.classroom.lab.fairness import WORDS, Fairness, Fault
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.rules import Settings, exact_text
+from graphkin.drawing.scale import ratio
 from graphkin.text.plain_table import labelled, listed, table
 
 SHOWN = 6
@@ -40,8 +41,8 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
         fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
     )
     yield from labelled("spread", spread)
-    shown = [trial.names[i] for i in trial.compared]
-    yield from labelled("apart", apart_lines(trial.neighbours, shown, who))
+    yield from labelled("scales", scale_lines(fairness, trial.names, who))
+    yield from labelled("apart", apart_lines(trial.neighbours, trial.compared, who))
     yield from labelled("pencil", pencil_lines(trial.neighbours))
     yield from labelled("marks", list(mark_lines(trial)))
 
@@ -107,6 +108,27 @@ def limit_words(fair: Fair) -> str:
         f"crossings at least {fair.crossing:g}°, segments at least {fair.segment:g} mm, "
         f"right triangles v/l from {low:g} to {high:g}{more}"
     )
+
+
+def scale_lines(fairness: Fairness, names: Sequence[str], who: str) -> list[str]:
+    """At which scales the sheets are drawn, and how many students have which, the most first."""
+    found: dict[tuple[float, float, float], list[str]] = {}
+    columns = (fairness.kL, fairness.larger, fairness.larger_still)
+    for i in (fairness.closes & fairness.fits).nonzero()[0]:
+        own = float(columns[0][i]), float(columns[1][i]), float(columns[2][i])
+        found.setdefault(own, []).append(names[i])
+    if len(found) == 1:
+        (each,) = found
+        return [f"all: {' '.join(scale_words(each))}"]
+    many = sorted(found.items(), key=lambda each: -len(each[1]))
+    rows = [(*scale_words(each), str(len(own)), f"{who} {some(own)}") for each, own in many]
+    return table(("mechanism", "velocities", "accelerations", "times", "whose"), rows)
+
+
+def scale_words(scales: tuple[float, float, float]) -> tuple[str, str, str]:
+    """The scale of the mechanism, and the enlargements of both plans."""
+    kL, m, again = scales
+    return ratio(kL), f"m = {m:.4g}", f"m′ = {again:.4g}"
 
 
 def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:

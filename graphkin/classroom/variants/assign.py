@@ -27,8 +27,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
 
-VAIN = 10
-"""Rounds that find room for nobody, after which nobody is drawn again."""
+VAIN = 300
+"""Draws on end that find room for nobody, after which nobody is drawn again."""
 
 
 class Assigned(Struct, frozen=True):
@@ -87,7 +87,7 @@ def spaced(
     """The same, where a pencil draws everything as exactly as it should, and nobody's right values
     earn too much on the sheet of one before in the list.
 
-    By ranges what is not so is drawn again, until some rounds find room for nobody; what is left
+    By ranges what is not so is drawn again, until many draws find room for nobody; what is left
     has its fault.
     """
     kept: list[tuple[Assigned, Standard]] = []
@@ -99,8 +99,8 @@ def spaced(
         room = with_room(lab, kept, list(zip(tried, held, strict=True)))
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
         again = [i for i in near if rule is not None and found[i].attempt + 1 < rule.tries]
-        vain = vain + 1 if len(near) == len(waiting) else 0
-        if rule is None or not again or vain == VAIN:
+        vain = vain + len(waiting) if len(near) == len(waiting) else 0
+        if rule is None or not again or vain >= VAIN:
             for i, fault in near.items():
                 found[i] = replace(found[i], faults=(fault,))
             break
