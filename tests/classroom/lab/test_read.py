@@ -44,7 +44,7 @@ def test_the_shipped_labs_are_read():
         lab = read_lab(name)
         assert lab.name == name
         assert lab.scene.is_file()
-        assert isinstance(lab.rule, Formula)
+        assert isinstance(lab.rule, Formula | Ranges)
 
 
 def test_a_lab_has_its_defaults(mine):
