@@ -85,7 +85,6 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
     Example:
       graphkin variants pump class.csv -o pump-2026
     """
-    from graphkin.classroom.lab.lab_model import Formula
     from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.classroom.roster.read_roster import read_roster
     from graphkin.classroom.variants.assign import assigned, check_of
@@ -93,8 +92,7 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
     from graphkin.classroom.variants.class_words import class_lines
 
     lab = read_lab(name)
-    by_number = isinstance(lab.rule, Formula)
-    students = read_roster(roster, numbered=by_number, check=check_of(lab), tell=complain)
+    students = read_roster(roster, numbered=lab.rule.counts, check=check_of(lab), tell=complain)
     found = assigned(lab, students, roster.name)
     written = write_class(folder, lab, found, roster, force=force)
     tell(class_lines(lab, found))

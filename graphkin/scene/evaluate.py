@@ -58,6 +58,8 @@ def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
         return power(left, right, kind)
     if isinstance(left, Fraction) and isinstance(right, Fraction):
         return bounded(exactly(sign, left, right))
+    if sign == "mod":
+        raise EvaluationError("the rest of a number that is not rational")
     left, right = inexact(left, kind), inexact(right, kind)
     if sign == "+":
         return left + right
@@ -69,13 +71,15 @@ def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
 
 
 def exactly(sign: str, left: Fraction, right: Fraction) -> Fraction:
-    """Sum, difference, product or quotient of two exact numbers."""
+    """Sum, difference, product, quotient or rest of two exact numbers."""
     if sign == "+":
         return left + right
     if sign == "-":
         return left - right
     if sign == "*":
         return left * right
+    if sign == "mod":
+        return left - right * (Fraction(quotient(left, right)) // 1)
     return Fraction(quotient(left, right))
 
 

@@ -46,7 +46,9 @@ JUXTAPOSED = re.compile(
     r"(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]", re.ASCII
 )
 DECIMAL = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**", ast.Mod: "mod"}
+REST = re.compile(r"\bmod\b")
+"""The sign of a rest: ``number mod 30``."""
 
 
 class UnreadableError(ValueError):
@@ -77,7 +79,7 @@ class Minus(NamedTuple):
 
 
 class Pair(NamedTuple):
-    """Two parts joined by one of + - * / **."""
+    """Two parts joined by one of + - * / ** or mod, the rest of a division."""
 
     sign: str
     left: Tree
@@ -94,17 +96,22 @@ class Call(NamedTuple):
 Tree = Number | Name | Minus | Pair | Call
 
 
-def parse(text: str) -> Tree:
-    """The tree of an expression; UnreadableError says what could not be read."""
+def parse(text: str, *, counting: bool = False) -> Tree:
+    """The tree of an expression; UnreadableError says what could not be read.
+
+    ``counting`` lets rests in (``number mod 30``), which only exact numbers have.
+    """
     if len(text) > LONGEST:
         raise UnreadableError(f"an expression of {len(text)} characters", f"at most {LONGEST}")
-    refuse_foreign(text)
-    flat = " ".join(text.split())
+    if not counting and REST.search(text):
+        raise UnreadableError('"mod" in an expression', "only formulas of a lab.toml have it")
+    refuse_foreign(REST.sub("*", text))
+    flat = REST.sub("%", " ".join(text.split()))
     try:
         with ONE_AT_A_TIME:
             body = ast.parse(flat, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise UnreadableError(f"{shown(flat)} is not an expression") from None
+        raise UnreadableError(f"{shown(' '.join(text.split()))} is not an expression") from None
     return convert(body, flat, 0)
 
 
@@ -162,7 +169,7 @@ def convert(node: ast.expr, text: str, depth: int) -> Tree:
 
 def refuse(node: ast.expr, text: str) -> NoReturn:
     """Say which part of an expression is not allowed."""
-    part = visible(text[node.col_offset : node.end_col_offset])
+    part = visible(text[node.col_offset : node.end_col_offset]).replace("%", "mod")
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         raise UnreadableError(
             f'"{part}" in an expression', f"functions of one number are {', '.join(FUNCTIONS)}"

@@ -155,9 +155,12 @@ def exact(value: int | Fraction, unit: str = "", place: str = "") -> Quantity:
     return Quantity(shortest(number), Number(number), unit, place)
 
 
-def expression(text: str, unit: str = "", place: str = "") -> Quantity:
-    """A quantity from an expression as written; UnreadableError when it is none."""
-    return Quantity(text, parse(text), unit, place)
+def expression(text: str, unit: str = "", place: str = "", *, counting: bool = False) -> Quantity:
+    """A quantity from an expression as written; UnreadableError when it is none.
+
+    ``counting`` lets rests in: ``number mod 30``.
+    """
+    return Quantity(text, parse(text, counting=counting), unit, place)
 
 
 def shortest(value: Real) -> str:

@@ -16,11 +16,12 @@ from markupsafe import Markup
 from graphkin.classroom.form_page import Identity, form_fragment, script, style
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.cli.main import app
 from graphkin.text import words
 from graphkin.web.offline_page import offline_page
 from tests.browser.opening import Opened
-from tests.classroom.grading.students import marker_of
+from tests.classroom.grading.students import book_of
 from tests.cli.conftest import Run, run  # noqa: F401
 
 ROSTER = 'Nr.;Matricol;Nume;Grupa\n7;0042;Ștefănescu Ana;A\n9;0043;"O\'Neil, Jr. Pat";A\n'
@@ -59,8 +60,9 @@ def page_of(folder: Path, who: str = "0042") -> Path:
 
 
 def key_of(folder: Path) -> Mapping[str, float]:
-    """The right values of student number 7, by field."""
-    return marker_of(folder.name, 7).standard.key
+    """The right values of the first student, by field."""
+    data = read_edition(folder).variants[0].settings
+    return book_of(folder.name).marker(data).standard.key
 
 
 def written(value: float) -> str:

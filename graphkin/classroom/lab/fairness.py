@@ -77,7 +77,8 @@ class Fairness(Struct, dict=True):
 
     ``form`` names the fields; ``crossings`` are in degrees by the letter of the point, ``lengths``
     in mm and ``rays`` in degrees by the field, ``triangles`` as v/l by the relative velocity,
-    ``on_page`` for fields of places; ``kL`` is the sheets' own scale, NaN where nothing fits.
+    ``on_page`` for fields of places; ``kL`` is the sheets' own scale, NaN where nothing fits, and
+    ``larger`` and ``larger_still`` how many times as large the plans are drawn.
     """
 
     limits: Fair
@@ -85,6 +86,8 @@ class Fairness(Struct, dict=True):
     closes: Array
     fits: Array
     kL: Array  # noqa: N815
+    larger: Array
+    larger_still: Array
     crossings: dict[str, Array] = field(default_factory=dict)
     lengths: dict[str, Array] = field(default_factory=dict)
     triangles: dict[str, Array] = field(default_factory=dict)
@@ -199,7 +202,15 @@ def judged_block(
     closes = closing(mechanism, values, count)
     scales = scaling(mechanism, values, count, load, closes)
     names = tuple(item.field for item in form)
-    found = Fairness(limits, names, closes, np.isfinite(scales.kL), scales.kL)
+    found = Fairness(
+        limits,
+        names,
+        closes,
+        np.isfinite(scales.kL),
+        scales.kL,
+        scales.larger,
+        scales.larger_still,
+    )
     for triangles in (True, False):
         which = np.flatnonzero(closes & found.fits & (scales.triangles == triangles))
         if len(which):
@@ -286,7 +297,7 @@ def joined(parts: Sequence[Fairness]) -> Fairness:
     import numpy as np
 
     whole: dict[str, Any] = {"limits": parts[0].limits, "form": parts[0].form}
-    for name in ("closes", "fits", "kL"):
+    for name in ("closes", "fits", "kL", "larger", "larger_still"):
         whole[name] = np.concatenate([getattr(part, name) for part in parts])
     for name in ("crossings", "lengths", "triangles", "rays", "on_page"):
         keys = dict.fromkeys(key for part in parts for key in getattr(part, name))

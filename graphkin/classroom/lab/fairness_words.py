@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from graphkin.classroom.grading.neighbours import Neighbours
-from graphkin.classroom.lab.fairness import WORDS, Fault
+from graphkin.classroom.lab.fairness import WORDS, Fairness, Fault
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
-from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.lab.rules import Settings, exact_text
+from graphkin.drawing.scale import ratio
 from graphkin.text.plain_table import labelled, listed, table
 
 SHOWN = 6
@@ -29,7 +30,7 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     yield from labelled("fair", [f"{good} of {count} variants"])
     faults = [fairness.faults(i) for i in range(count)]
     named = list(zip(trial.names, faults, strict=True))
-    who = "number" if isinstance(lab.rule, Formula) else "id"
+    who = "number" if lab.rule.counts else "id"
     yield from labelled("unfair", list(broken_lines(named, who)))
     if isinstance(lab.rule, Ranges):
         yield from labelled("again", [again_words(lab.rule, trial.unfair / count)])
@@ -40,8 +41,8 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
         fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
     )
     yield from labelled("spread", spread)
-    shown = [trial.names[i] for i in trial.compared]
-    yield from labelled("apart", apart_lines(trial.neighbours, shown, who))
+    yield from labelled("scales", scale_lines(fairness, trial.names, who))
+    yield from labelled("apart", apart_lines(trial.neighbours, trial.compared, who))
     yield from labelled("pencil", pencil_lines(trial.neighbours))
     yield from labelled("marks", list(mark_lines(trial)))
 
@@ -58,10 +59,16 @@ def again_words(rule: Ranges, unfair: float) -> str:
 def rule_words(lab: Lab) -> str:
     """The rule in words."""
     rule = lab.rule
+    formulas = ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
     if isinstance(rule, Formula):
-        return ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
-    draws = (f"{name} {draw_words(values)}" for name, values in rule.draws.items())
-    return f"{', '.join(draws)}, drawn for {rule.course}"
+        return formulas
+    draws = ", ".join(f"{name} {draw_words(values)}" for name, values in rule.draws.items())
+    return f"{f'{formulas}; ' if formulas else ''}{draws}, drawn for {rule.course}"
+
+
+def data_words(settings: Settings) -> str:
+    """The data of a variant: phi = 44, n = 1/3."""
+    return ", ".join(f"{name} = {exact_text(value)}" for name, value in settings.items())
 
 
 def pencil_lines(neighbours: Neighbours | None) -> list[str]:
@@ -84,7 +91,7 @@ def draw_words(values: Range | ValueList) -> str:
 
 def tried_words(trial: LabTrial) -> str:
     """On whom a lab was tried."""
-    if isinstance(trial.lab.rule, Formula):
+    if trial.lab.rule.counts:
         return f"numbers 1 to {trial.names[-1]}"
     return f"{len(trial.names)} drawn variants"
 
@@ -101,6 +108,27 @@ def limit_words(fair: Fair) -> str:
         f"crossings at least {fair.crossing:g}°, segments at least {fair.segment:g} mm, "
         f"right triangles v/l from {low:g} to {high:g}{more}"
     )
+
+
+def scale_lines(fairness: Fairness, names: Sequence[str], who: str) -> list[str]:
+    """At which scales the sheets are drawn, and how many students have which, the most first."""
+    found: dict[tuple[float, float, float], list[str]] = {}
+    columns = (fairness.kL, fairness.larger, fairness.larger_still)
+    for i in (fairness.closes & fairness.fits).nonzero()[0]:
+        own = float(columns[0][i]), float(columns[1][i]), float(columns[2][i])
+        found.setdefault(own, []).append(names[i])
+    if len(found) == 1:
+        (each,) = found
+        return [f"all: {' '.join(scale_words(each))}"]
+    many = sorted(found.items(), key=lambda each: -len(each[1]))
+    rows = [(*scale_words(each), str(len(own)), f"{who} {some(own)}") for each, own in many]
+    return table(("mechanism", "velocities", "accelerations", "times", "whose"), rows)
+
+
+def scale_words(scales: tuple[float, float, float]) -> tuple[str, str, str]:
+    """The scale of the mechanism, and the enlargements of both plans."""
+    kL, m, again = scales
+    return ratio(kL), f"m = {m:.4g}", f"m′ = {again:.4g}"
 
 
 def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:

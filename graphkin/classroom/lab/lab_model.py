@@ -24,6 +24,11 @@ class Formula(Struct, frozen=True):
 
     settings: Mapping[str, Quantity]
 
+    @property
+    def counts(self) -> bool:
+        """Whether each student needs a number."""
+        return True
+
 
 class Range(Struct, frozen=True):
     """From a least to a most, in steps counted from the least."""
@@ -62,12 +67,19 @@ class ValueList(Struct, frozen=True):
 class Ranges(Struct, frozen=True):
     """A rule that draws each parameter from a range, by a hash of course, lab and student.
 
-    What is unfair is drawn again, at most ``tries`` times.
+    What is unfair is drawn again, at most ``tries`` times. ``settings`` gives the parameters that
+    are not drawn as expressions in ``number``.
     """
 
     course: str
     draws: Mapping[str, Range | ValueList]
     tries: int = 100
+    settings: Mapping[str, Quantity] = field(default_factory=dict)
+
+    @property
+    def counts(self) -> bool:
+        """Whether each student needs a number."""
+        return any(NUMBER in formula.uses() for formula in self.settings.values())
 
 
 class Fair(Struct, frozen=True):

@@ -6,12 +6,13 @@ from collections.abc import Iterable, Sequence
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.neighbours import Neighbours, compare
+from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.items import asked_fields, items
-from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
+from graphkin.classroom.lab.lab_model import Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import assigned, neighbours_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
@@ -28,8 +29,9 @@ class LabTrial(Struct, frozen=True):
     """A lab with the variants on which it was tried: who they are, their data, how fair they are.
 
     ``names`` are numbers of students, or ids. ``unasked`` are fields of the rubric that no sheet
-    draws, ``unmarked`` fields that are asked and earn nothing. ``compared`` are the places of the
-    variants of one class, as far as they can be drawn, and ``neighbours`` what they have in common.
+    draws, ``unmarked`` fields that are asked and earn nothing. ``compared`` are those of one class,
+    as far as they can be drawn, with the data that such a class would get, ``neighbours`` what they
+    have in common; ``too_near`` of them break a limit that only their keys tell.
     """
 
     lab: Lab
@@ -38,8 +40,9 @@ class LabTrial(Struct, frozen=True):
     fairness: Fairness
     unasked: tuple[str, ...] = ()
     unmarked: tuple[str, ...] = ()
-    compared: tuple[int, ...] = ()
+    compared: tuple[str, ...] = ()
     neighbours: Neighbours | None = None
+    too_near: int = 0
 
     @property
     def unfair(self) -> int:
@@ -64,8 +67,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     Raises SceneError where the formula suits no number.
     """
     mechanism = Mechanism(read_scene(lab.scene))
-    rule = lab.rule
-    if isinstance(rule, Formula):
+    if lab.rule.counts:
         found = list(by_numbers(lab, mechanism, count))
     else:
         ids = [f"{i:04d}" for i in range(1, count + 1)]
@@ -77,8 +79,11 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     unasked = [item.field for item in form if item.what == "segment" and item.field not in drawn]
     unmarked = [name for name in asked_fields(mechanism) if name not in lab.rubric.points]
     sound = bool(fairness.fits.any())
-    compared = [i for i in range(min(len(many), CLASS)) if fairness.closes[i] and fairness.fits[i]]
-    asked = [(many[i], fairness.computed(i)) for i in compared]
+    students = [
+        Student(i, name, i if lab.rule.counts else None) for i, name in enumerate(names[:CLASS], 1)
+    ]
+    every = assigned(lab, students)
+    drawn_at_all = [each for each in every if each.flattest is not None]
     return LabTrial(
         lab,
         names,
@@ -86,8 +91,9 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         fairness,
         tuple(unasked if sound else ()),
         tuple(unmarked),
-        tuple(compared),
-        compare(lab, mechanism, asked),
+        tuple(each.student.id for each in drawn_at_all),
+        neighbours_of(lab, drawn_at_all),
+        sum(fault.limit in ("apart", "pencil") for each in every for fault in each.faults),
     )
 
 

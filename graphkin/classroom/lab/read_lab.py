@@ -25,10 +25,10 @@ from graphkin.scene import scene_files
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
-from graphkin.scene.measures import quantity
+from graphkin.scene.measures import FloatText, quantity
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
-from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.quantity import Quantity, expression, shortest
 from graphkin.scene.read_scene import check_version, read_scene
 from graphkin.text.errors import Problem, SceneError
 
@@ -111,11 +111,9 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
 
 def read_rule(table: Table, scene: Scene) -> Formula | Ranges | None:
     """The rule that gives each student other data; None, with a problem noted, where it is none."""
-    both = "set = { … } with formulas of the number, or course = … and draw = { … } with ranges"
-    if "set" in table and "draw" in table:
-        table.findings.add(table.place, "set and draw", f"one of them: {both}")
-    elif "set" not in table and "draw" not in table:
-        table.findings.add(table.place, "no rule", both)
+    both = "set = { … } with formulas of the number, course = … and draw = { … } with ranges"
+    if "set" not in table and "draw" not in table:
+        table.findings.add(table.place, "no rule", f"{both}, or both")
     of_number = "draw" not in table
     rule = read_formula(table, scene) if of_number else read_ranges(table, scene)
     for key in ("course", "tries") if of_number else ():
@@ -130,11 +128,7 @@ def read_rule(table: Table, scene: Scene) -> Formula | Ranges | None:
 def read_formula(table: Table, scene: Scene) -> Formula:
     """Each parameter as an expression in the student's number."""
     inner = table.table("set")
-    settings: dict[str, Quantity] = {}
-    for name in known_parameters(inner, scene):
-        read = formula(inner.at(name), inner.raw[name], inner.findings)
-        if read is not None:
-            settings[name] = read
+    settings = read_settings(inner, scene)
     uses = any(NUMBER in read.uses() for read in settings.values())
     if settings and not uses and not inner.findings.inside(inner.place):
         found = f"no formula uses {NUMBER}, so all students get the same"
@@ -142,10 +136,22 @@ def read_formula(table: Table, scene: Scene) -> Formula:
     return Formula(settings)
 
 
+def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
+    """Parameters as numbers or expressions in the student's number, as far as they can be read."""
+    read = {
+        name: formula(table.at(name), table.raw[name], table.findings)
+        for name in known_parameters(table, scene)
+    }
+    return {name: found for name, found in read.items() if found is not None}
+
+
 def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
     """A number or an expression in the student's number; None, with a problem, for another."""
     try:
-        read = quantity(raw, "", place)
+        if isinstance(raw, str) and not isinstance(raw, FloatText):
+            read = expression(raw, "", place, counting=True)
+        else:
+            read = quantity(raw, "", place)
     except UnreadableError as error:
         findings.add(place, error.found, f'an expression in quotes, such as "{NUMBER}"', error.hint)
         return None
@@ -174,7 +180,14 @@ def read_ranges(table: Table, scene: Scene) -> Ranges:
             found = read_range(inner.table(name), parameter)
         if found is not None:
             draws[name] = found
-    return Ranges(course, draws, tries)
+    settings: dict[str, Quantity] = {}
+    if "set" in table:
+        fixed = table.table("set")
+        settings = read_settings(fixed, scene)
+        for name in settings.keys() & inner.raw.keys():
+            place = fixed.at(name)
+            fixed.findings.add(place, f"draw gives {name} as well", "either set or draw")
+    return Ranges(course, draws, tries, settings)
 
 
 def known_parameters(table: Table, scene: Scene) -> list[str]:

@@ -1,11 +1,11 @@
 """The data of each student by the rule of a lab, so that anyone can derive them again.
 
-A formula is reckoned exactly in the student's number. A range is drawn by one hash for each
-parameter, so that another parameter changes none of the others: SHA-256 over the UTF-8 bytes of
-the JSON list [course, lab, id, attempt, parameter], written without blanks and with letters as
-they are; the hash as a whole number, divided by the number of values of the range, leaves the index
-of the value, counted from the least, in a list in its order. Attempt 0 is the first; what is unfair
-is drawn again with 1, 2, … In a shell::
+A formula is reckoned exactly in the student's number; ``number mod 30`` is the rest. A range is
+drawn by one hash for each parameter, so that another parameter changes none of the others: SHA-256
+over the UTF-8 bytes of the JSON list [course, lab, id, attempt, parameter], written without blanks
+and with letters as they are; the hash as a whole number, divided by the number of values of the
+range, leaves the index of the value, counted from the least, in a list in its order. Attempt 0 is
+the first; what is unfair is drawn again with 1, 2, … In a shell::
 
     printf '%s' '["mechanics 2026","pump","0042",0,"n"]' | sha256sum
 """
@@ -33,18 +33,19 @@ def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
 
     Raises SceneError where a formula has no number to reckon with, or gives none.
     """
-    if isinstance(lab.rule, Formula):
-        return by_formula(lab.rule, student)
-    return by_ranges(lab.rule, lab.name, student.id, attempt)
+    found = by_formula(lab.rule, student)
+    if isinstance(lab.rule, Ranges):
+        found |= by_ranges(lab.rule, lab.name, student.id, attempt)
+    return found
 
 
-def by_formula(rule: Formula, student: Student) -> Settings:
+def by_formula(rule: Formula | Ranges, student: Student) -> Settings:
     """The value of each formula at the student's number."""
-    if student.number is None:
+    if rule.counts and student.number is None:
         raise SceneError(Problem("", "has no number, and the lab's formula needs one"))
     found: Settings = {}
     for name, formula in rule.settings.items():
-        value = formula.number({NUMBER: Fraction(student.number)})
+        value = formula.number({NUMBER: Fraction(student.number or 0)})
         if not isinstance(value, Fraction):
             what = f"{formula.text} gives {shortest(value)} for number {student.number}"
             raise SceneError(Problem(f"set.{name}", f"{what}, which is not rational"))

@@ -20,7 +20,7 @@ from msgspec import Struct
 from graphkin.classroom.form_page import KINDS, first_pivot
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.feedback import how
-from graphkin.classroom.lab.lab_model import Formula, Lab
+from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.lab_trial import by_numbers
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.printing.answer_form import advice
@@ -54,7 +54,7 @@ class Question(Struct, frozen=True):
 
 def students_of(lab: Lab, count: int) -> list[Student]:
     """As many students as a rule has variants for: the numbers that the scene allows, or ids."""
-    if isinstance(lab.rule, Formula):
+    if lab.rule.counts:
         numbers = by_numbers(lab, Mechanism(read_scene(lab.scene)), MOST)
         return [Student(int(number), number, int(number)) for number, _ in numbers][:count]
     return [Student(i, f"{i:04d}") for i in range(1, count + 1)]

@@ -27,8 +27,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
 
-VAIN = 10
-"""Rounds that find room for nobody, after which nobody is drawn again."""
+VAIN = 300
+"""Draws on end that find room for nobody, after which nobody is drawn again."""
 
 
 class Assigned(Struct, frozen=True):
@@ -70,8 +70,10 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     Raises RosterError for numbers with which a formula leaves what the scene allows.
     """
     mechanism = Mechanism(read_scene(lab.scene))
+    if lab.rule.counts:
+        refuse_misfits(lab, students, mechanism, roster)
     if isinstance(lab.rule, Formula):
-        many = by_formula(lab, students, mechanism, roster)
+        many = [settings(lab, student) for student in students]
         found = judged(mechanism, lab, many)
         every = [one(student, many[i], 0, found, i) for i, student in enumerate(students)]
         return spaced(lab, mechanism, every) if lab.fair.needs_keys else every
@@ -85,7 +87,7 @@ def spaced(
     """The same, where a pencil draws everything as exactly as it should, and nobody's right values
     earn too much on the sheet of one before in the list.
 
-    By ranges what is not so is drawn again, until some rounds find room for nobody; what is left
+    By ranges what is not so is drawn again, until many draws find room for nobody; what is left
     has its fault.
     """
     kept: list[tuple[Assigned, Standard]] = []
@@ -97,8 +99,8 @@ def spaced(
         room = with_room(lab, kept, list(zip(tried, held, strict=True)))
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
         again = [i for i in near if rule is not None and found[i].attempt + 1 < rule.tries]
-        vain = vain + 1 if len(near) == len(waiting) else 0
-        if rule is None or not again or vain == VAIN:
+        vain = vain + len(waiting) if len(near) == len(waiting) else 0
+        if rule is None or not again or vain >= VAIN:
             for i, fault in near.items():
                 found[i] = replace(found[i], faults=(fault,))
             break
@@ -146,10 +148,10 @@ def neighbours_of(lab: Lab, every: Sequence[Assigned]) -> Neighbours | None:
     return compare(lab, Mechanism(read_scene(lab.scene)), asked)
 
 
-def by_formula(
+def refuse_misfits(
     lab: Lab, students: Sequence[Student], mechanism: Mechanism, roster: str
-) -> list[Settings]:
-    """The data that a formula gives; RosterError with the row of each number it does not suit."""
+) -> None:
+    """RosterError with the row of each number to which a formula gives what no scene allows."""
     problems = [
         Problem(f"{roster}, row {student.row}", p.found, p.expected, p.hint)
         for student in students
@@ -157,12 +159,11 @@ def by_formula(
     ]
     if problems:
         raise RosterError(problems)
-    return [settings(lab, student) for student in students]
 
 
 def check_of(lab: Lab) -> Check | None:
     """What finds students whose number gives no data that the scene allows; none for ranges."""
-    if not isinstance(lab.rule, Formula):
+    if not lab.rule.counts:
         return None
     return partial(misfits, lab, Mechanism(read_scene(lab.scene)))
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from graphkin.classroom.lab.fairness_words import (
     apart_lines,
+    data_words,
     limit_words,
     pencil_lines,
     rule_words,
@@ -46,9 +47,12 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
 
 
 def unfair_lines(unfair: Sequence[Assigned]) -> list[str]:
-    """Each student with unfair data: row, number, id and name, and the limits that are broken."""
-    rows = [(*who(each.student), "; ".join(map(str, each.faults))) for each in unfair]
-    return listed(("row", "number", "id", "name", "limits"), rows)
+    """Each student with unfair data: row, number, id and name, data, limits broken."""
+    rows = [
+        (*who(each.student), data_words(each.settings), "; ".join(map(str, each.faults)))
+        for each in unfair
+    ]
+    return listed(("row", "number", "id", "name", "data", "limits"), rows)
 
 
 def again_lines(again: Sequence[Assigned]) -> list[str]:

@@ -88,10 +88,11 @@ def code(salt: str, student: str) -> str:
 
 def written_rule(rule: Formula | Ranges) -> dict[str, Any]:
     """A rule as lab.toml writes it, numbers as exact texts."""
+    formulas = {"set": {name: formula.text for name, formula in rule.settings.items()}}
     if isinstance(rule, Formula):
-        return {"set": {name: formula.text for name, formula in rule.settings.items()}}
+        return formulas
     draws = {name: written_draw(values) for name, values in rule.draws.items()}
-    return {"draw": draws, "tries": rule.tries}
+    return {**(formulas if rule.settings else {}), "draw": draws, "tries": rule.tries}
 
 
 def written_draw(values: Range | ValueList) -> Any:
@@ -118,10 +119,12 @@ def read_rule(raw: Mapping[str, Any]) -> Formula | Ranges:
     """The rule of a manifest. Raises SceneError where there is none."""
     try:
         rule = raw["rule"]
-        if "set" in rule:
-            return Formula({name: expression(text) for name, text in rule["set"].items()})
+        formulas = rule.get("set", {}).items()
+        settings = {name: expression(text, counting=True) for name, text in formulas}
+        if "draw" not in rule:
+            return Formula(settings)
         draws = {name: read_draw(values) for name, values in rule["draw"].items()}
-        return Ranges(raw["course"], draws, int(rule["tries"]))
+        return Ranges(raw["course"], draws, int(rule["tries"]), settings)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         found = "the rule cannot be read"
         raise SceneError(Problem(MANIFEST, found, '{"set": …} or {"draw": …}')) from error

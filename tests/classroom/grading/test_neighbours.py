@@ -18,7 +18,7 @@ from graphkin.classroom.grading.neighbours import (
     standards_of,
     worst_drawn,
 )
-from graphkin.classroom.lab.lab_model import Fair, Formula, Range, Ranges
+from graphkin.classroom.lab.lab_model import Formula, Range, Ranges
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
@@ -106,9 +106,9 @@ def test_where_there_is_no_room_the_last_fair_data_stay_and_the_fault_is_told():
 
 
 def test_a_formula_draws_nothing_again_and_says_who_is_near():
-    lab = lab_of("slotted-lever")
+    lab = lab_of("pump")
     assert isinstance(lab.rule, Formula)
-    lab = replace(lab, fair=Fair(*(15, 5, (0.05, 4)), apart=0.5))
+    lab = replace(lab, fair=replace(lab.fair, apart=0.5))
     found = assigned(lab, STUDENTS)
     assert [each.settings["n"] for each in found] == list(range(1, 9))
     near = [each for each in found if not each.fair]

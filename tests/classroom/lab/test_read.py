@@ -44,7 +44,7 @@ def test_the_shipped_labs_are_read():
         lab = read_lab(name)
         assert lab.name == name
         assert lab.scene.is_file()
-        assert isinstance(lab.rule, Formula)
+        assert isinstance(lab.rule, Formula | Ranges)
 
 
 def test_a_lab_has_its_defaults(mine):
@@ -102,7 +102,9 @@ draw = { n = [3, 77] }
     "graphkin = 2\n" + RULE[13:]: "written for a newer graphkin",
     RULE[13:]: "the version of the format is missing",
     "graphkin = 1\nvariants = 3": "variants: 3; expected a table",
-    RULE + "draw = {}\n": "variants: set and draw; expected one of them",
+    RULE + 'course = "M"\ndraw = { n = [3, 7] }\n': "variants.set.n: draw gives n as well",
+    RULE.replace('"number"', '"number mod 0"') + "draw = {}\n": "variants.course: is missing",
+    RULE.replace('"number"', '"number mod"'): 'variants.set.n: "number mod" is not an expression',
     RULE + "tries = 3\n": "variants.tries: belongs to ranges",
     RULE.replace(" n ", " m "): "variants.set.m: is no parameter; expected n",
     RULE.replace("number", "numbr"): "did you mean number?",

@@ -15,6 +15,7 @@ from graphkin.classroom.lab import rules
 from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges
 from graphkin.classroom.lab.rules import drawn, exact_text, picked, settings
 from graphkin.classroom.roster.student import Student
+from graphkin.scene.expression import UnreadableError
 from graphkin.scene.quantity import expression
 from graphkin.text.errors import SceneError
 
@@ -88,6 +89,40 @@ def test_a_formula_is_exact():
         "n": Fraction(7, 3) + Fraction(1, 10),
         "m": Fraction(30),
     }
+
+
+def test_a_rest_goes_round_from_nought_and_binds_as_a_product():
+    rule = Formula({"n": expression("2 + 7*number mod 30", counting=True)})
+    found = [settings(lab(rule), Student(2, "x", k))["n"] for k in (1, 4, 5, 34)]
+    assert found == [9, 30, 7, 30]
+    assert expression("-7 mod 3", counting=True).number({}) == 2
+    assert expression("5/2 mod 1", counting=True).number({}) == Fraction(1, 2)
+
+
+@pytest.mark.parametrize("text", ["number mod 0", "sqrt(number) mod 3"])
+def test_a_rest_that_does_not_exist_is_told(text):
+    rule = Formula({"n": expression(text, counting=True)})
+    with pytest.raises(SceneError, match=r"division by zero|not rational"):
+        settings(lab(rule), Student(2, "x", 2))
+
+
+def test_a_scene_has_no_rests():
+    with pytest.raises(UnreadableError, match="mod"):
+        expression("n mod 5")
+
+
+def test_formulas_and_ranges_give_each_their_own_parameters():
+    mixed = Ranges("M", {"phi": PHI}, settings={"n": expression("3*number mod 5", counting=True)})
+    alone = Ranges("M", {"phi": PHI})
+    one, two = Student(2, "x", 2), Student(3, "y", 9)
+    assert mixed.counts
+    assert not alone.counts
+    for student, n in ((one, 1), (two, 2)):
+        assert settings(lab(mixed), student) == {"n": n, **settings(lab(alone), student)}
+    with pytest.raises(SceneError, match="has no number"):
+        settings(lab(mixed), Student(2, "x"))
+    constant = Ranges("M", {"phi": PHI}, settings={"n": expression("4")})
+    assert settings(lab(constant), Student(2, "x"))["n"] == 4
 
 
 def test_a_formula_without_a_number_or_without_a_rational_value_is_told():

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import shutil
 
+import numpy as np
 import pytest
 
 from graphkin.classroom.lab.fairness_words import trial_lines
 from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import new_lab
 from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.classroom.lab.rules import settings
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants.assign import assigned
 from graphkin.text.errors import PageError, SceneError
-from tests.classroom.lab.singles import LABS, ROOT
+from tests.classroom.lab.singles import ROOT, mechanism_of, sheets_of
 
 RANGES = (
     'graphkin = 1\n[variants]\ncourse = "c"\ndraw = {{ n = {{ min = {}, max = {}, step = 1 }} }}\n'
@@ -30,7 +34,49 @@ def mine(tmp_path):
     return written
 
 
-@pytest.mark.parametrize("name", LABS)
+NUMBERED = ("pump", "pump-collinear", "offset-slider-crank")
+
+
+@pytest.mark.parametrize("name", ("offset-slider-crank", "pump-collinear", "slotted-lever"))
+def test_shipped_labs_keep_a_class_of_thirty_apart(name):
+    """A neighbour's right values earn at most half, and everybody's data are fair."""
+    lab = read_lab(name)
+    assert lab.fair.apart == 0.5
+    trial = tried(lab)
+    assert len(trial.compared) == 30
+    assert trial.too_near == 0
+    assert np.nanmax(trial.neighbours.exact) <= 0.5
+    students = [Student(i, str(i), i) for i in range(1, 31)]
+    assert all(each.fair for each in assigned(lab, students))
+
+
+def test_scales_are_told_with_how_many_students_have_them(mine):
+    """The pump states one scale for everybody; the slider-crank's sheets choose their own."""
+    lab = read_lab("offset-slider-crank")
+    given = [settings(lab, Student(i, str(i), i)) for i in range(1, 31)]
+    alone = [mechanism_of("offset-slider-crank", each) for each in given[:4]]
+    own = [sheets_of(each)[0].scales for each in alone]
+    trial = tried(lab)
+    for i, scales in enumerate(own):
+        found = trial.fairness
+        assert found.kL[i] == pytest.approx(scales.kL)
+        assert found.larger[i] == pytest.approx(scales.larger)
+        assert found.larger_still[i] == pytest.approx(scales.larger_still)
+    lines = "\n".join(trial_lines(trial))
+    assert "mechanism  velocities  accelerations  times" in lines
+    told = [int(row.split("number")[0].split()[-1]) for row in scale_rows(lines)]
+    assert sum(told) == 30
+    assert told == sorted(told, reverse=True)
+    assert "scales     all: 1:5 m = 2.5 m′ = 2" in "\n".join(trial_lines(tried(read_lab("pump"))))
+
+
+def scale_rows(lines):
+    """The rows of the table of scales."""
+    part = lines[lines.index("\nscales") : lines.index("\napart")]
+    return part.strip().splitlines()[1:]
+
+
+@pytest.mark.parametrize("name", NUMBERED)
 def test_a_formula_is_tried_on_every_number_that_the_scene_allows(name):
     trial = tried(read_lab(name))
     assert trial.names == tuple(map(str, range(1, 31)))

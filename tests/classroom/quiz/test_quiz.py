@@ -118,7 +118,9 @@ def test_the_bank_has_a_category_with_a_whole_question_for_each_variant(language
     assert data == bank("a/b", questions(order, fair, 1))
     found = moodle.imported(data)
     assert len(found) == len(fair) == 3 - len(unfair)
-    assert [each.category for each in found] == [f"$course$/top/a//b/n = {n}" for n in (1, 2, 3)]
+    assert [each.category for each in found] == [
+        f"$course$/top/a//b/n = {n}, r = {r}" for n, r in ((1, 52), (2, 58), (3, 64))
+    ]
     assert len({each.name for each in found}) == len(found)
     said = words(language)
     for each in found:

@@ -255,7 +255,9 @@ def test_the_command_writes_tells_and_leaves_with_1_for_unfair_data(tmp_path, ro
     result = run("variants", "pump", roster, "-o", tmp_path / "out")
     assert result.exit_code == 1
     assert "29 of 30 students" in result.stdout
-    assert "30      0030  Student 30  triangle v_DC v/l 0.0441, at least 0.05" in result.stdout
+    assert (
+        "30      0030  Student 30  n = 30  triangle v_DC v/l 0.0441, at least 0.05" in result.stdout
+    )
     assert "computed instead of measured" in result.stdout
     assert "flattest crossing, °" in result.stdout
     assert "1 student has unfair data" in result.stderr
@@ -327,3 +329,22 @@ def test_of_unfair_data_the_least_unfair_are_kept():
     faults = [[len(each.faults) for each in found] for found in (one_try, many)]
     assert all(after <= before for before, after in zip(*faults, strict=True))
     assert sum(faults[1]) < sum(faults[0])
+
+
+@pytest.mark.parametrize("name", ["pump-collinear", "offset-slider-crank"])
+def test_formulas_beside_ranges_and_rests_are_derived_again(tmp_path, roster, name):
+    """The number gives n in both labs; the crank is drawn, or goes by a rest."""
+    lab, students = read_lab(name), read_roster(roster)
+    found = assigned(lab, students)
+    assert [each.settings["n"] for each in found] == [each.number for each in students]
+    write_class(tmp_path / "class", lab, found, roster, force=False)
+    raw = json.loads((tmp_path / "class" / "manifest.json").read_text(encoding="utf-8"))
+    assert read_rule(raw) == lab.rule
+    assert rederived(raw) == [entry["parameters"] for entry in raw["students"]]
+    assert len({each.settings["r"] for each in found}) > 4
+
+
+def test_numbers_that_a_formula_beside_ranges_does_not_suit_are_refused():
+    lab = read_lab("pump-collinear")
+    with pytest.raises(RosterError, match="31"):
+        assigned(lab, [*STUDENTS[:2], Student(4, "0031", 31, "Student 31", "A")])
