@@ -56,6 +56,7 @@ SPOKEN = (
     "studio.write",
     "studio.reset",
     "studio.larger",
+    "studio.take",
     "studio.on_mechanism",
     "studio.on_velocity",
     "studio.on_acceleration",

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 
@@ -156,6 +157,29 @@ def test_the_drawn_vector_is_as_long_as_the_number_says(studio):
         " l.y2.baseVal.value - l.y1.baseVal.value))"
     )
     assert any(abs(length - millimetres) < 0.01 for length in drawn), (drawn, millimetres)
+
+
+@pytest.mark.parametrize("name", ["mechanism", "velocity", "acceleration"])
+def test_a_drawing_is_saved_as_a_file_that_looks_the_same_alone(studio, tmp_path, name):
+    page = studio()
+    with page.expect_download(timeout=LONG) as taken:
+        page.click(f"#{name} .take")
+    assert taken.value.suggested_filename == f"{name}.svg"
+    file = tmp_path / f"{name}.svg"
+    taken.value.save_as(file)
+    svg = ElementTree.parse(file).getroot()
+    width, height = svg.get("viewBox").split()[2:]
+    assert (svg.get("width"), svg.get("height")) == (f"{width}mm", f"{height}mm")
+    strokes = (
+        "(svg) => [...svg.querySelectorAll('path, line, circle, text')].map((each) => {"
+        " const { stroke, strokeWidth, fill, fontSize, fontFamily } = getComputedStyle(each);"
+        " return [stroke, strokeWidth, fill, fontSize, fontFamily]; })"
+    )
+    here = page.eval_on_selector(f"#{name} .drawing svg", strokes)
+    other = page.context.browser.new_page()
+    other.goto(file.as_uri())
+    assert other.eval_on_selector("svg", strokes) == here
+    other.close()
 
 
 def test_many_quick_moves_end_at_the_last(studio, served):

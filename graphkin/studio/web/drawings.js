@@ -96,13 +96,47 @@ for (const name of names) {
   button.addEventListener("click", () => enlarge(figure, !figure.classList.contains("large")));
 }
 
+/** A drawing as a file of its own: its rules within it, in the millimetres of the sheet. */
+function alone(svg) {
+  const copy = svg.cloneNode(true);
+  const { width, height } = svg.viewBox.baseVal;
+  copy.removeAttribute("style");
+  copy.setAttribute("width", `${width}mm`);
+  copy.setAttribute("height", `${height}mm`);
+  const style = document.createElementNS(copy.namespaceURI, "style");
+  style.textContent = rules;
+  copy.prepend(style);
+  return new XMLSerializer().serializeToString(copy);
+}
+
+/** Hand a drawing to the browser to be saved. */
+function take(name) {
+  const file = new Blob([alone(find(name).querySelector(".drawing svg"))], { type: "image/svg+xml" });
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(file);
+  link.download = `${name}.svg`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+for (const name of names) {
+  find(name)
+    .querySelector(".take")
+    .addEventListener("click", () => take(name));
+}
+
 /** Name the buttons. */
 function nameButtons() {
   for (const each of names) {
-    const button = find(each).querySelector(".enlarge");
     const what = each === "mechanism" ? "studio.in_mechanism" : `sheet.${each}`;
-    button.title = say("studio.larger", { name: say(what) });
-    button.setAttribute("aria-label", button.title);
+    for (const [look, words] of [
+      [".enlarge", "studio.larger"],
+      [".take", "studio.take"],
+    ]) {
+      const button = find(each).querySelector(look);
+      button.title = say(words, { name: say(what) });
+      button.setAttribute("aria-label", button.title);
+    }
   }
 }
 
