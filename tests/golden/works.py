@@ -22,6 +22,8 @@ from tempfile import TemporaryDirectory
 from unittest.mock import patch
 from zlib import crc32
 
+import tomlkit
+
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = {path.parent.name: path.parent.name for path in sorted(ROOT.glob("sheets/*/scene.toml"))}
 CLASSES = {f"class-{lab}": ROOT / "sheets" / lab for lab in SCENES}
@@ -134,13 +136,9 @@ def ran(scene: str, work: str, folder: Path) -> tuple[str, Files]:
 def made_up(lab: Path, folder: Path, count: int) -> str:
     """A class whose codes are always the same, and no two of whom have the same data."""
     shutil.copytree(lab, folder / "lab")
-    for name, old, new in (
-        ("scene.toml", ", step = 1 ", " "),
-        ("lab.toml", '"number"', f'"1 + 29*(number - 1)/{GRADED - 1}"'),
-    ):
+    for name, change in {"scene.toml": without_step, "lab.toml": by_formula}.items():
         text = (folder / "lab" / name).read_text(encoding="utf-8")
-        assert old in text
-        (folder / "lab" / name).write_text(text.replace(old, new), encoding="utf-8")
+        (folder / "lab" / name).write_text(change(text), encoding="utf-8")
     numbers = range(1, GRADED + 1, GRADED // count)[:count]
     rows = [[str(n), f"s{n:03}", f"Ștefan {n}", LANGUAGES[n % 3]] for n in numbers]
     write_csv(folder / "class.csv", [["number", "id", "name", "language"], *rows])
@@ -149,6 +147,20 @@ def made_up(lab: Path, folder: Path, count: int) -> str:
     return graphkin(
         "variants", folder / "lab", folder / "class.csv", "-o", folder / "class", "--force"
     )
+
+
+def without_step(scene: str) -> str:
+    """A scene whose *n* may be any number of its range."""
+    assert ", step = 1 }" in scene
+    return scene.replace(", step = 1 ", " ", 1)
+
+
+def by_formula(lab: str) -> str:
+    """A lab that sets *n*, spread over its range, and draws nothing."""
+    file = tomlkit.parse(lab)
+    file["variants"] = {"set": {"n": f"1 + 29*(number - 1)/{GRADED - 1}"}}
+    file["fair"].pop("apart", None)
+    return tomlkit.dumps(file)
 
 
 def graded(subject: str, folder: Path) -> tuple[str, Files]:
