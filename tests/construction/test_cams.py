@@ -1,5 +1,7 @@
 """Cams by their law: v = s'ω and a = s"ω² + s'ε, by two routes; the profile is the envelope."""
 
+import csv
+import io
 from fractions import Fraction
 from pathlib import Path
 
@@ -8,9 +10,11 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Certifier
+from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.construction.cams import cam_centre
 from graphkin.construction.core.cam_profiles import CamProfile
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.cycle import cycle
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError, StructureError
@@ -336,6 +340,19 @@ def test_the_pressure_angle_is_that_of_the_closed_form():
     reach = np.sqrt(0.05**2 - 0.01**2) + profile.rise.at
     expected = np.degrees(np.arctan(abs(profile.rise.rate - 0.01) / reach))
     assert profile.pressure == pytest.approx(expected, abs=1e-9)
+
+
+def test_the_table_of_a_cycle_has_the_pressure_angle_and_the_radius_of_curvature():
+    """tan α of the row's angle; the mean radius of a disc about its own centre is its radius."""
+    rows = list(csv.DictReader(io.StringIO(cycle_table(cycle(load(SCENES / "cam-roller.toml"))))))
+    assert len(rows) > 300
+    for row in rows[::20]:
+        solved = load(SCENES / "cam-roller.toml", angle=Fraction(row["phi [deg]"])).solve()
+        normal = solved.points["B"].position - solved.points["K"].position
+        slope = abs(np.degrees(np.arctan2(normal.real, normal.imag)))
+        assert float(row["pressure_2 [deg]"]) == pytest.approx(slope, abs=1e-9)
+        rho = abs(normal) - 0.01
+        assert float(row["radius_2 [m]"]) == pytest.approx(rho, rel=1e-9)
 
 
 def test_every_mistake_of_a_cam_is_told_at_its_place():

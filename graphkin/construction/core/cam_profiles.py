@@ -34,11 +34,12 @@ EXAMINED = 3600
 
 
 class CamProfile(Struct, frozen=True, dict=True):
-    """The cam of a follower, at ``count`` angles evenly over a turn."""
+    """The cam of a follower, at ``count`` angles evenly over a turn, or at those that are given."""
 
     scene: Scene
     follower: str
     count: int = EXAMINED
+    given: Any = None
 
     @property
     def cam(self) -> Cam:
@@ -48,6 +49,8 @@ class CamProfile(Struct, frozen=True, dict=True):
     @cached_property
     def angles(self) -> Any:
         """The angles of the cam's axis, in radians."""
+        if self.given is not None:
+            return np.asarray(self.given)
         return np.arange(self.count) * (2 * np.pi / self.count)
 
     @property
@@ -162,7 +165,7 @@ class CamProfile(Struct, frozen=True, dict=True):
         lever = self.cam.lever
         if self.cam.is_flat:
             if lever is None:
-                return np.zeros(self.count)
+                return np.zeros(len(self.angles))
             arm = self.flat.contact - self.bar[0]
             return abs(np.degrees(np.angle(self.flat.normal / (-1j * lever.side * arm))))
         along = -1j * lever.side * self.way if lever else self.guide[0]
@@ -180,16 +183,27 @@ class CamProfile(Struct, frozen=True, dict=True):
         return -(way.conj() * self.tip.turn).imag / abs(way) ** 3
 
     @property
+    def radius(self) -> Any:
+        """The radius of curvature of the profile at each angle (m), positive where it is convex."""
+        with np.errstate(divide="ignore"):
+            return self.bend if self.cam.is_flat else 1 / self.bend - self.roller
+
+    @property
     def sharpest(self) -> tuple[float, float]:
         """The least radius of curvature of the profile where it is convex (m), and at which law's
         angle; nought or less where it is undercut."""
         bend = self.bend
         number = int(bend.argmin() if self.cam.is_flat else bend.argmax())
-        radius = float(bend[number] if self.cam.is_flat else 1 / bend[number] - self.roller)
-        return radius, float(self.law_angles[number])
+        return float(self.radius[number]), float(self.law_angles[number])
 
     @property
     def steepest(self) -> tuple[float, float]:
         """The largest pressure angle, and at which angle of the law, in degrees."""
         number = int(self.pressure.argmax())
         return float(self.pressure[number]), float(self.law_angles[number])
+
+
+def profiles_along(scene: Scene, turned: str, angles: Any) -> dict[str, CamProfile]:
+    """The cams on a link by their followers, at the angles of its x axis (radians)."""
+    on = (follower for follower, cam in scene.cams.items() if cam.on == turned)
+    return {follower: CamProfile(scene, follower, given=angles) for follower in on}
