@@ -106,7 +106,8 @@ for (const name of names) {
   button.addEventListener("click", () => enlarge(figure, !figure.classList.contains("large")));
 }
 
-/** A drawing as a file of its own: its rules within it, in the millimetres of the sheet. */
+/** A drawing as a file of its own: its rules, the page's colours and its lettering within it, in the
+ * millimetres of the sheet. */
 function alone(svg) {
   const copy = svg.cloneNode(true);
   const { width, height } = svg.viewBox.baseVal;
@@ -114,7 +115,10 @@ function alone(svg) {
   copy.setAttribute("width", `${width}mm`);
   copy.setAttribute("height", `${height}mm`);
   const style = document.createElementNS(copy.namespaceURI, "style");
-  style.textContent = rules;
+  const here = getComputedStyle(svg);
+  const root = `svg{font-family:${here.fontFamily};font-size:${here.fontSize}}\n`;
+  const said = "svg text{font-family:\"Graphkin Sans\",\"DejaVu Sans\",sans-serif;font-kerning:none;white-space:pre}\n";
+  style.textContent = root + said + rules.replace(/var\((--[\w-]+)\)/g, (_, name) => here.getPropertyValue(name).trim());
   copy.prepend(style);
   return new XMLSerializer().serializeToString(copy);
 }
