@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from cmath import phase, rect
 from collections.abc import Callable, Iterator, Mapping
 from itertools import count, product
@@ -12,6 +13,7 @@ from typing import Any
 import tomlkit
 from msgspec import Struct
 from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import SingleKey
 
 from graphkin.construction.core.branches import block_of, choosing
 from graphkin.mechanism import Mechanism
@@ -275,12 +277,19 @@ def move(work: Builder, act: Act) -> None:
     """A point goes elsewhere: the numbers that say where it lies follow."""
     point = act.of[0]
     work.place(point)
+    if not moved(work, point, act.at):
+        found = "its place follows from expressions or from the rest"
+        raise SceneError(Problem(point, found, "a point whose lengths are numbers"))
+
+
+def moved(work: Builder, point: str, at: complex) -> bool:
+    """Let the numbers that place a point follow it; whether there are any."""
     frame, changed = table_of(work.document, "frame"), False
-    work.places[point] = act.at
+    work.places[point] = at
     if point in frame:
         if not is_place(frame[point]):
             raise SceneError(Problem(f"frame.{point}", "is written as an expression", "numbers"))
-        frame[point] = work.pair(act.at)
+        frame[point] = work.pair(at)
         work.places[point] = complex(*frame[point])
         changed = True
     for name, table in links_of(work.document).items():
@@ -291,9 +300,109 @@ def move(work: Builder, act: Act) -> None:
                 table[key] = work.length(abs(other - one))
                 changed = True
         changed |= turned_driver(work, name, point)
-    if not changed:
-        found = "its place follows from expressions or from the rest"
-        raise SceneError(Problem(point, found, "a point whose lengths are numbers"))
+    return changed
+
+
+def join(work: Builder, act: Act) -> None:
+    """A pin is laid on another and is one with it: a fixed one keeps its name, else the other."""
+    first, second = act.of[0], act.of[-1]
+    goal = work.place(second)
+    work.place(first)
+    refuse_join(work, first, second)
+    moved(work, first, goal)
+    gone, kept = (second, first) if first in work.fixed else (first, second)
+    branches = table_of(work.document, "branches")
+    for key in (gone, kept):
+        branches.pop(key, None)
+    for table in links_of(work.document).values():
+        renamed(table, gone, kept)
+    for driver in work.document.get("drivers", ()):
+        renamed(driver, gone, kept)
+    for key in list(branches):
+        if {gone, kept} & {*str(branches[key]).replace("-", " ").split()}:
+            branches.pop(key)
+    named_anew(table_of(work.document, "ask"), gone, kept)
+    work.places.pop(gone)
+    work.document = tomlkit.parse(tomlkit.dumps(work.document))
+
+
+def refuse_join(work: Builder, first: str, second: str) -> None:
+    """Raise SceneError where two pins cannot be one."""
+    both = f"{first} and {second}"
+    if first == second:
+        raise SceneError(Problem(first, "is one pin already", "another pin"))
+    bodies = {FRAME: work.fixed, **work.links}
+    for name, points in bodies.items():
+        if first in points and second in points:
+            whole = "the frame" if name == FRAME else f"link {name}"
+            raise SceneError(Problem(both, f"belong both to {whole}", "pins of two links"))
+    tables = links_of(work.document)
+    ones = [name for name, points in bodies.items() if first in points]
+    others = [name for name, points in bodies.items() if second in points]
+    for one, other in product(ones, others):
+        names = " and ".join(
+            "the frame" if each == FRAME else f"link {each}" for each in (one, other)
+        )
+        if {*bodies[one]} & {*bodies[other]}:
+            found = f"{names} would share two pins and be one body"
+            raise SceneError(Problem(both, found, "links that share one pin"))
+        for block, guide in ((one, other), (other, one)):
+            slides = raw(tables.get(block, {}).get("slides"))
+            if isinstance(slides, Mapping) and str(slides.get("on")) == guide:
+                found = f"the block {block} would be pinned to its own guide"
+                raise SceneError(Problem(both, found, "a pin of another link"))
+
+
+PLACED = ("slides", "rolls", "wheel", "wheels")
+"""Keys of a link whose tables name points."""
+NAMING = ("through", "along", "centre", "from", "of")
+"""Keys under which one point or a line of two is named."""
+PHRASES = ("left", "right", "on", "beyond")
+"""How a text begins that says where a point lies."""
+
+
+def renamed(table: Any, gone: str, kept: str) -> None:
+    """Give a point another name, in the keys of a link or driver and in what they say."""
+    for key in list(table):
+        value = table[key]
+        if key in NAMING or (
+            isinstance(raw(value), str)
+            and str(value).split()[:1] != []
+            and str(value).split()[0] in PHRASES
+        ):
+            table[key] = in_words(str(value), gone, kept)
+        elif isinstance(raw(value), list) and key in PLACED:
+            for each in value:
+                renamed(each, gone, kept)
+        elif isinstance(raw(value), dict):
+            renamed(value, gone, kept)
+    body = table.value.body if hasattr(table.value, "body") else []
+    for n, (key, value) in enumerate(body):
+        if key is None or key.key in KEYWORDS or gone not in key.key.split("-"):
+            continue
+        shown = key.as_string()
+        sep = shown[len(shown.rstrip()) :] + key.sep
+        own = SingleKey(in_words(key.key, gone, kept), sep=sep)
+        body[n] = (own, value)
+
+
+def in_words(words: str, gone: str, kept: str) -> str:
+    """A line or phrase with another name for one of its points."""
+    return re.sub(rf"\b{re.escape(gone)}\b", kept, words)
+
+
+def named_anew(ask: Any, gone: str, kept: str) -> None:
+    """Ask of a point under its other name, and once."""
+    for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
+        said = {str(each) for each in ask[key]}
+        for n in reversed(range(len(ask[key]))):
+            point, at, link = str(ask[key][n]).partition("@")
+            if point != gone:
+                continue
+            if f"{kept}{at}{link}" in said:
+                del ask[key][n]
+            else:
+                ask[key][n] = f"{kept}{at}{link}"
 
 
 def turned_driver(work: Builder, link: str, point: str) -> bool:
@@ -367,7 +476,7 @@ def close(work: Builder, act: Act) -> None:
 
 
 KINDS: Mapping[str, Callable[[Builder, Act], None]] = {
-    each.__name__: each for each in (pivot, bar, plate, block, driver, move, delete, close)
+    each.__name__: each for each in (pivot, bar, plate, block, driver, move, join, delete, close)
 }
 
 

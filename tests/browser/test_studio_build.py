@@ -195,6 +195,27 @@ def test_a_four_bar_is_built_changed_and_taken_back(hand):
     assert hand.text.count("[") == 0
 
 
+def test_a_pin_dragged_onto_another_is_joined_with_it_or_told_why_not(hand):
+    hand.pivot(0)
+    hand.pivot(220)
+    hand.bar("O1", 40 + 70j)
+    hand.bar("O2", 250 + 150j)
+    hand.bar("A", 150 + 200j)
+    hand.driver(0.5 * hand.place("A"), 57)
+    assert hand.page.inner_text("#count") != "No mistakes."
+    hand.settled(lambda: hand.drag("move", hand.place("C"), hand.place("B")))
+    assert hand.page.inner_text("#count") == "No mistakes."
+    joined_links = read_text(hand.text, "own", None, {}).links
+    assert set(joined_links["3"].points) == {"A", "B"}
+    joined = hand.text
+    hand.drag("move", hand.place("A"), hand.place("O2"))
+    hand.page.wait_for_selector("#told:not([hidden])")
+    assert "would share two pins" in hand.page.inner_text("#told")
+    assert hand.text == joined
+    hand.settled(lambda: hand.page.click("#undo"))
+    assert "A-C" in hand.text
+
+
 def test_what_is_impossible_is_told_at_the_pointer(hand):
     hand.pivot(0)
     hand.pivot(200)

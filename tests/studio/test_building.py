@@ -74,6 +74,79 @@ def test_a_pin_on_the_line_of_a_bar_is_written_so():
     assert abs(places_of(after)["E"] - at) < 1e-9
 
 
+LOOSE = """graphkin = 1
+title = "Loose"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+
+[frame]
+O1 = [0, 0] # left
+O2 = [220, 0]
+
+[links.1]
+O1-A = 80 # crank
+
+[links.2]
+A-B = 220
+
+[links.3] # rocker, not joined yet
+O2-C = 150
+C-D = 40
+O2-D = 160
+D = "left of O2-C"
+
+[[drivers]]
+turn = 1
+angle = 60
+speed = 57
+
+[ask]
+velocity = ["B", "C", "D"]
+"""
+"""A four-bar whose coupler B ends beside the rocker's pin C."""
+PUT = {"A": 40 + 69.3j, "B": 255 + 120j, "C": 250 + 147j, "D": 215 + 160j}
+
+
+def test_pins_that_are_joined_are_one_and_the_mechanism_closes():
+    places = {**PUT, "O1": 0j, "O2": 220 + 0j}
+    for one, other in (("B", "C"), ("C", "B")):
+        after = built(LOOSE, Act("join", (one, other), 0j, places)).text
+        scene = read_text(after, "own", None, {})
+        assert set(scene.links["2"].points) == {"A", other}
+        assert set(scene.links["3"].points) == {"O2", other, "D"}
+        assert scene.ask.velocity == (other, "D") or set(scene.ask.velocity) == {other, "D"}
+        assert other in scene.branches
+        assert "# rocker, not joined yet" in after
+        assert places_of(after)[other]
+
+
+def test_a_pin_laid_on_a_fixed_one_or_a_fixed_one_on_it_is_fixed():
+    text = PUMP.replace("[links.1]", "O3 = [20, -25]\n\n[links.1]", 1)
+    for of in (("D", "O3"), ("O3", "D")):
+        free = text.split("[links.5]")[0] + "[[drivers]]" + text.split("[[drivers]]")[1]
+        places = {**places_of(PUMP), "O3": 20 - 25j}
+        after = built(free, Act("join", of, 0j, places)).text
+        assert "C-O3 = " in after
+        assert "O3 = [" in after
+        assert "C-D" not in after
+
+
+@pytest.mark.parametrize(
+    ("of", "words"),
+    [
+        (("O1", "O2"), "belong both to the frame"),
+        (("A", "C"), "belong both to link 3"),
+        (("A", "O2"), "would share two pins"),
+        (("B", "A"), "belong both to link 3"),
+        (("D", "O1"), "pinned to its own guide"),
+        (("A", "A"), "is one pin already"),
+        (("A", "Q"), "is at no known place"),
+    ],
+)
+def test_pins_that_cannot_be_one_are_told(of, words):
+    with pytest.raises(SceneError, match=words):
+        done(PUMP, "join", *of)
+
+
 @pytest.mark.parametrize(
     ("kind", "of", "words"),
     [

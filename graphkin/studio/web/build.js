@@ -169,7 +169,11 @@ function nearest(things, distance) {
   return all.sort(([one], [other]) => one - other)[0]?.[1];
 }
 
-const pointAt = (at) => nearest(Object.keys(sketch.points), (name) => away(at, sketch.points[name]));
+/** The pin at a place, but for one. */
+const pointAt = (at, but = "") => {
+  const others = Object.keys(sketch.points).filter((name) => name !== but);
+  return nearest(others, (name) => away(at, sketch.points[name]));
+};
 const ghostAt = (at) => nearest(sketch.ghosts, (ghost) => away(at, ghost.at));
 
 /** The bar at a place, but for those of a point. */
@@ -180,6 +184,12 @@ function linkAt(at, but = "") {
     const sides = held.map((point, i) => beside(at, held[i - 1] ?? held.at(-1), point));
     return held.length > 1 ? Math.min(...sides) : Infinity;
   });
+}
+
+/** A ring around a pin that is aimed at. */
+function ringed(name) {
+  const [x, y] = sketch.points[name];
+  return element("circle", "aim", { cx: x, cy: -y, r: 2 * PIN * pixel() });
 }
 
 /** Say something beside the pointer until the next act. */
@@ -226,7 +236,10 @@ svg.addEventListener("pointerdown", (event) => {
 svg.addEventListener("pointermove", (event) => {
   if (!press) return;
   const at = spot(event);
-  if (press.tool === "move" && press.point) draw({ [press.point]: at });
+  if (press.tool === "move" && press.point) {
+    const goal = pointAt(at, press.point);
+    draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
+  }
   if (!["bar", "plate", "block"].includes(press.tool)) return;
   const from = sketch.points[press.point] ?? press.at;
   const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
@@ -247,7 +260,11 @@ svg.addEventListener("pointerup", (event) => {
   const end = pointAt(at);
   draw();
   if (from.tool === "pivot") act(event, "pivot", [], at);
-  else if (from.tool === "move" && from.point && dragged) act(event, "move", [from.point], at);
+  else if (from.tool === "move" && from.point && dragged) {
+    const goal = pointAt(at, from.point);
+    if (goal) act(event, "join", [from.point, goal], at);
+    else act(event, "move", [from.point], at);
+  }
   else if (from.tool === "move" && from.ghost && !from.point) {
     act(event, "close", [from.ghost.key], at, { words: from.ghost.words });
   } else if (from.tool === "bar" && from.point && dragged) {
