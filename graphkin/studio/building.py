@@ -25,6 +25,7 @@ from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Dyad, Group, Stretched
 from graphkin.structure.pairs import Pin
 from graphkin.studio.sketch import (
+    DrawnWheel,
     Places,
     frame_places,
     grid_of,
@@ -35,6 +36,7 @@ from graphkin.studio.sketch import (
     solved,
     table_of,
     unit_of,
+    wheels_of,
 )
 from graphkin.text.errors import GraphkinError, Problem, SceneError
 
@@ -200,6 +202,9 @@ def plate(work: Builder, act: Act) -> None:
     """One more pin of a link: by its distances to the first two, or on their line."""
     table = work.known_link(act.of[0])
     points = work.links[act.of[0]]
+    if len(points) == 1 and "wheel" in table:
+        spoke(work, table, points[0], act.at)
+        return
     if len(points) < 2:
         expected = "a link with two pins at least"
         raise SceneError(Problem(f"link {act.of[0]}", "has one pin alone", expected))
@@ -219,6 +224,55 @@ def plate(work: Builder, act: Act) -> None:
         table[f"{second}-{name}"] = work.length(abs(act.at - end))
         table[name] = f"{'left' if aside > 0 else 'right'} of {first}-{second}"
         work.places[name] = act.at
+
+
+def spoke(work: Builder, table: Any, centre: str, at: complex) -> None:
+    """A pin of a wheel that had its centre alone."""
+    way, name = at - work.place(centre), work.point_name()
+    table.pop(centre)
+    length = table[f"{centre}-{name}"] = work.length(abs(way))
+    work.places[name] = work.place(centre) + rect(length, radians(turned(way)))
+    turned_driver(work, next(link for link, held in work.links.items() if name in held), name)
+
+
+def wheel(work: Builder, act: Act) -> None:
+    """A wheel about a pin: it turns about a fixed one, or rolls on a wheel or on a straight track.
+
+    The pin of a moving link alone lets it roll on the frame, on the line that it touches there.
+    """
+    centre, *rest = act.of
+    at, table = work.place(centre), tomlkit.inline_table()
+    if rest:
+        other = meeting(work, rest[0], at)
+        way = abs(at - work.place(other.centre))
+        outside = way > other.radius
+        table.update({"centre": centre, "radius": number(abs(way - other.radius))})
+        if not outside and not other.inside:
+            found = f"{centre} lies inside the wheel of link {other.link}"
+            raise SceneError(Problem("wheel", found, "a centre outside it"))
+        rolls: dict[str, Any] = {"on": key_of(other.link)}
+    else:
+        radius = work.length(abs(act.at - at))
+        table.update({"centre": centre, "radius": radius})
+        angle = turned((at - act.at) / 1j, 5.0)
+        through = work.pair(at - rect(1.0, radians(angle)) * 1j * radius)
+        rolls = {"on": 0, "through": through, "angle": number(angle)}
+    _, link = work.new_link()
+    link[centre] = work.pair(0j)
+    link["wheel"] = table
+    if rest or centre not in work.fixed:
+        link["rolls"] = tomlkit.inline_table()
+        link["rolls"].update(rolls)
+
+
+def meeting(work: Builder, link: str, at: complex) -> DrawnWheel:
+    """The wheel of a link whose rim lies nearest to a place. Raises SceneError for none."""
+    all_wheels = [each for each in wheels_of(work.document.unwrap()) if each.link == link]
+    placed = [each for each in all_wheels if each.centre in work.places]
+    if not placed or any(abs(at - work.place(each.centre)) < work.grid for each in placed):
+        found = f"cannot roll on link {link} from here"
+        raise SceneError(Problem("wheel", found, "a wheel about another centre"))
+    return min(placed, key=lambda each: abs(abs(at - work.place(each.centre)) - each.radius))
 
 
 def block(work: Builder, act: Act) -> None:
@@ -257,7 +311,8 @@ def driver(work: Builder, act: Act) -> None:
     name = act.of[0]
     work.known_link(name)
     points = work.links[name]
-    if not set(points) & set(work.fixed) or len(points) < 2:
+    lone = len(points) < 2
+    if not set(points) & set(work.fixed) or (lone and "wheel" not in work.document["links"][name]):
         hint = "a bar that turns about a fixed pin can be driven"
         raise SceneError(Problem(f"link {name}", "is at no fixed pin", "a crank", hint))
     if "drivers" not in work.document:
@@ -268,7 +323,7 @@ def driver(work: Builder, act: Act) -> None:
         raise SceneError(Problem(f"link {name}", "is driven already", "another link"))
     table = tomlkit.table()
     table["turn"] = key_of(name)
-    table["angle"] = number(turned(work.place(points[1]) - work.place(points[0])))
+    table["angle"] = 0 if lone else number(turned(work.place(points[1]) - work.place(points[0])))
     table["speed"] = number(act.speed)
     drivers.append(table)
 
@@ -428,8 +483,14 @@ def delete(work: Builder, act: Act) -> None:
             for key in [key for key in table if says(name, key, table[key])]:
                 table.pop(key)
     for link, points in work.links.items():
-        if "slides" not in links[link] and len(points) < 2:
+        held = links[link]
+        if not {"slides", "wheel", "wheels"} & set(held) and len(points) < 2:
             links.pop(link)
+        elif isinstance(held.get("rolls"), dict) and str(held["rolls"].get("on")) not in {
+            FRAME,
+            *work.links,
+        }:
+            held.pop("rolls")
     for link, points in work.links.items():
         others = {point for name, held in work.links.items() if name != link for point in held}
         if "slides" in links[link] and not others & set(points):
@@ -442,6 +503,8 @@ def delete(work: Builder, act: Act) -> None:
 
 def says(point: str, key: str, value: object) -> bool:
     """Whether a key of a link, or what it says, names a point."""
+    if key in ("wheel", "rolls") and isinstance(value, Mapping):
+        return point in (str(value.get("centre")), str(value.get("through")))
     if key == "slides" and isinstance(value, Mapping):
         named = (str(value.get("along", "")), str(value.get("through", "")))
         return any(point in each.split("-") for each in named)
@@ -476,7 +539,8 @@ def close(work: Builder, act: Act) -> None:
 
 
 KINDS: Mapping[str, Callable[[Builder, Act], None]] = {
-    each.__name__: each for each in (pivot, bar, plate, block, driver, move, join, delete, close)
+    each.__name__: each
+    for each in (pivot, bar, plate, block, wheel, driver, move, join, delete, close)
 }
 
 

@@ -154,6 +154,22 @@ def test_a_slotted_lever_is_built_from_an_empty_field(hand):
     same(hand.text, "slotted-lever", "ABC")
 
 
+def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
+    hand.pivot(0)
+    hand.settled(lambda: hand.drag("wheel", 0, 60))
+    hand.bar("O1", 100j)
+    hand.settled(lambda: hand.drag("wheel", hand.place("A"), 60j))
+    hand.settled(lambda: hand.drag("plate", hand.place("A") + 40, hand.place("A") + 25))
+    hand.driver(30j, 100)
+    hand.driver(60 * (-1) ** 0.25, -50)
+    assert hand.page.inner_text("#count") == "No mistakes."
+    links = Mechanism(read_text(hand.text, "own", None, {})).solve().links
+    turned = [links[name].omega / links["2"].omega for name in ("1", "3")]
+    assert turned == pytest.approx([-0.5, 1 + 1.5 * 1.5])
+    assert hand.page.locator("#canvas circle.wheel").count() == 2
+    assert not barred(hand.page)
+
+
 def four_bar(hand: Hand) -> None:
     """Build the four-bar of a Watt chain with a coupler point."""
     hand.pivot(0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.sketch import sketch
@@ -175,3 +176,66 @@ def test_no_act_ends_in_a_fault(kind, name):
             built(text, Act(kind, (name,), 1 + 1j, {"A": 0j, "O1": 1j}))
         except SceneError as error:
             assert error.problems
+
+
+GEARS = """graphkin = 1
+title = "Gears"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+
+[frame]
+O1 = [0, 0]
+O2 = [150, 0]
+"""
+
+
+def test_two_wheels_about_fixed_pins_drive_one_another():
+    text = done(GEARS, "wheel", "O1", at=50 + 0j)
+    assert "rolls" not in text
+    text = done(text, "wheel", "O2", "1", at=50 + 0j)
+    text = done(text, "driver", "1", at=50j, speed=60)
+    solved = Mechanism(read_text(text, "own", None, {})).solve()
+    assert solved.links["2"].omega == pytest.approx(-solved.links["1"].omega / 2)
+    assert [wheel.radius for wheel in sketch(text, "own", {}).wheels] == [50, 100]
+
+
+def test_a_wheel_on_an_arm_rolls_on_the_sun():
+    text = done(GEARS, "wheel", "O1", at=60 + 0j)
+    text = done(text, "bar", "O1", at=90j)
+    text = built(text, Act("wheel", ("A", "1"), 60j, {"O1": 0j, "A": 90j})).text
+    text = built(text, Act("driver", ("2",), 45j, {"O1": 0j, "A": 90j}, speed=100)).text
+    text = built(text, Act("driver", ("1",), 60j, {"O1": 0j, "A": 90j}, speed=0)).text
+    solved = Mechanism(read_text(text, "own", None, {})).solve()
+    assert solved.links["3"].omega == pytest.approx(3 * solved.links["2"].omega)
+    after = built(text, Act("plate", ("3",), 110j, {"O1": 0j, "A": 90j})).text
+    assert "A-B = 20" in after
+    assert "B" in Mechanism(read_text(after, "own", None, {})).solve().points
+
+
+def test_a_wheel_on_a_moving_pin_rolls_on_the_line_that_it_touches():
+    text = done(GEARS, "bar", "O1", at=30 + 40j)
+    places = {"O1": 0j, "O2": 150 + 0j, "A": 30 + 40j}
+    text = built(text, Act("bar", ("A",), 230 + 5j, places)).text
+    places["B"] = 230 + 5j
+    text = built(text, Act("wheel", ("B",), 230 - 25j, places)).text
+    text = built(text, Act("driver", ("1",), 15 + 20j, places, speed=60)).text
+    solved = Mechanism(read_text(text, "own", None, {})).solve()
+    speed = solved.points["B"].velocity
+    assert abs(speed.imag) < 1e-9
+    assert abs(solved.links["3"].omega) == pytest.approx(abs(speed) / 0.03)
+    assert places_of(text)["B"].real > 150
+    gone = done(text, "delete", "3", words="link")
+    assert "wheel" not in gone
+
+
+@pytest.mark.parametrize(
+    ("of", "at", "words"),
+    [
+        (("O1", "9"), 0j, "cannot roll on link 9"),
+        (("O1", "1"), 0j, "a wheel about another centre"),
+        (("O3", "1"), 0j, "lies inside the wheel"),
+    ],
+)
+def test_wheels_that_cannot_meet_are_told(of, at, words):
+    text = done(GEARS + "O3 = [20, 0]\n", "wheel", "O1", at=50 + 0j)
+    with pytest.raises(SceneError, match=words):
+        done(text, "wheel", *of, at=at)

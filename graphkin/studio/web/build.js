@@ -96,6 +96,11 @@ function marksOf(sketch, points, one, named = true) {
     const box = { x: x - width / 2, y: -y - height / 2, width, height, transform: turn };
     marks.push(element("rect", "slider", { ...box, "vector-effect": "non-scaling-stroke" }));
   }
+  for (const { link, centre, radius } of sketch.wheels) {
+    const [x, y] = points[centre];
+    const look = `wheel${sketch.driven.includes(link) ? " driven" : ""}`;
+    marks.push(element("circle", look, { cx: x, cy: -y, r: radius, "data-wheel": link }));
+  }
   for (const [name, held] of Object.entries(sketch.links)) {
     const at = held.filter((point) => points[point]).map((point) => points[point]);
     const look = `bar${sketch.driven.includes(name) ? " driven" : ""}`;
@@ -176,13 +181,24 @@ const pointAt = (at, but = "") => {
 };
 const ghostAt = (at) => nearest(sketch.ghosts, (ghost) => away(at, ghost.at));
 
-/** The bar at a place, but for those of a point. */
+const fromRim = (at, { centre, radius }) => Math.abs(away(at, sketch.points[centre]) - radius);
+
+/** The wheel whose rim is at a place, but for those about a point. */
+const rimAt = (at, but) =>
+  nearest(
+    sketch.wheels.filter((wheel) => wheel.centre !== but),
+    (wheel) => fromRim(at, wheel),
+  );
+
+/** The bar or wheel at a place, but for those of a point. */
 function linkAt(at, but = "") {
   const free = Object.keys(sketch.links).filter((name) => !sketch.links[name].includes(but));
   return nearest(free, (name) => {
+    const rims = sketch.wheels.filter((wheel) => wheel.link === name);
+    const rim = Math.min(Infinity, ...rims.map((wheel) => fromRim(at, wheel)));
     const held = sketch.links[name].map((point) => sketch.points[point]).filter(Boolean);
     const sides = held.map((point, i) => beside(at, held[i - 1] ?? held.at(-1), point));
-    return held.length > 1 ? Math.min(...sides) : Infinity;
+    return held.length > 1 ? Math.min(rim, ...sides) : rim;
   });
 }
 
@@ -240,7 +256,7 @@ svg.addEventListener("pointermove", (event) => {
     const goal = pointAt(at, press.point);
     draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
   }
-  if (!["bar", "plate", "block"].includes(press.tool)) return;
+  if (!["bar", "plate", "block", "wheel"].includes(press.tool)) return;
   const from = sketch.points[press.point] ?? press.at;
   const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
   const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
@@ -248,7 +264,11 @@ svg.addEventListener("pointermove", (event) => {
   const words = `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
   const one = pixel();
   const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
-  draw({}, [line("drawn", from, at), element("text", "letter", letter, words)]);
+  const drawn = [line("drawn", from, at), element("text", "letter", letter, words)];
+  if (press.tool === "wheel") {
+    drawn.push(element("circle", "drawn", { cx: from[0], cy: -from[1], r: Math.hypot(dx, dy) }));
+  }
+  draw({}, drawn);
 });
 
 svg.addEventListener("pointerup", (event) => {
@@ -273,6 +293,9 @@ svg.addEventListener("pointerup", (event) => {
   else if (from.tool === "block" && from.point && dragged) {
     const slot = linkAt(at, from.point);
     act(event, "block", slot ? [from.point, slot] : [from.point], at);
+  } else if (from.tool === "wheel" && from.point && dragged) {
+    const rim = rimAt(at, from.point);
+    act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at);
   } else if (from.tool === "driver" && from.link) {
     act(event, "driver", [from.link], at, { speed: [Number(find("speed").value) || 0, 0] });
   } else if (from.tool === "delete" && (from.point || from.link)) {
