@@ -106,19 +106,17 @@ for (const name of names) {
   button.addEventListener("click", () => enlarge(figure, !figure.classList.contains("large")));
 }
 
-/** A drawing as a file of its own: its rules, the page's colours and its lettering within it, in the
- * millimetres of the sheet. */
+/** A drawing as a file of its own: its rules within it, in the millimetres of the sheet. */
 function alone(svg) {
   const copy = svg.cloneNode(true);
   const { width, height } = svg.viewBox.baseVal;
   copy.removeAttribute("style");
   copy.setAttribute("width", `${width}mm`);
   copy.setAttribute("height", `${height}mm`);
-  const style = document.createElementNS(copy.namespaceURI, "style");
   const here = getComputedStyle(svg);
-  const root = `svg{font-family:${here.fontFamily};font-size:${here.fontSize}}\n`;
-  const said = "svg text{font-family:\"Graphkin Sans\",\"DejaVu Sans\",sans-serif;font-kerning:none;white-space:pre}\n";
-  style.textContent = root + said + rules.replace(/var\((--[\w-]+)\)/g, (_, name) => here.getPropertyValue(name).trim());
+  const value = (_, variable) => here.getPropertyValue(variable).trim();
+  const style = document.createElementNS(copy.namespaceURI, "style");
+  style.textContent = `svg { font: ${here.font}; }\n${rules.replace(/var\((--[\w-]+)\)/g, value)}`;
   copy.prepend(style);
   return new XMLSerializer().serializeToString(copy);
 }
