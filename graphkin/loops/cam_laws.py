@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.rigid_bodies import Numbers, bodies_of, guide_line
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real, phase, turn_by
-from graphkin.numbers.cam_motions import Rise, displaced
+from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.expression import Number
 from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.scene.quantity import Quantity
@@ -45,14 +45,8 @@ class ByLaw(Quantity):
         cam = self.cam
         driver = turning_driver(self.scene, cam)
         assert driver is not None
-        turn = driver.position.direction(values, kind) / cam.start.direction(values, kind)
-        found = displaced(
-            turn if cam.sense > 0 else turn.conjugate(),
-            [piece.to.si(values, kind) for piece in cam.law],
-            [piece.rise.si(values, kind) for piece in cam.law],
-            [piece.motion for piece in cam.law],
-        )
-        return found, driver
+        turn = driver.position.direction(values, kind)
+        return cam.displacement(turn, values, kind), driver
 
     def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
         """By the law; of a lever the angle of its bar in the frame."""
@@ -62,10 +56,10 @@ class ByLaw(Quantity):
                 return phase(self.direction(values, kind))
             return rise.at + self.least(values)
         away = -self.cam.lever.side if self.cam.lever else 1
-        omega = self.cam.sense * driver.speed.si(values, kind)
+        omega = driver.speed.si(values, kind)
         if self.order == 1:
             return away * rise.rate * omega
-        push = self.cam.sense * driver.acceleration.si(values, kind)
+        push = driver.acceleration.si(values, kind)
         return away * (rise.bend * omega**2 + rise.rate * push)
 
     def direction(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Point:

@@ -6,7 +6,7 @@ Manufacturing Handbook): modified trapezoid and modified sine are made of pieces
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from graphkin.numbers.arithmetic import Point, Real, at, below, phase, pick, turn_by
@@ -151,23 +151,42 @@ def turned(turn: Point) -> Real:
     return pick(below(turn.real, abs(ahead) * 0 + HALVED), behind + half, ahead)
 
 
-def displaced(turn: Point, ends: list[Real], rises: list[Real], motions: list[str]) -> Rise:
+def splined(u: Real, rise: Real, begin: Real, finish: Real) -> Rise:
+    """A cubic from 0 to ``rise`` over u from 0 to 1 with given derivatives by u at both ends."""
+    v, ahead, back = 1 - u, begin - rise, rise - finish
+    mixed = ahead * v + back * u
+    rate = rise + (v - u) * mixed + u * v * (back - ahead)
+    return Rise(rise * u + u * v * mixed, rate, 2 * (back - 2 * ahead + 3 * (ahead - back) * u))
+
+
+def displaced(
+    turn: Point,
+    ends: Sequence[Real],
+    rises: Sequence[Real],
+    motions: Sequence[str],
+    slopes: Sequence[tuple[Real, Real]] = (),
+) -> Rise:
     """The displacement of a follower where the cam has turned by ``turn`` (a unit vector).
 
     The pieces end at angles ``ends`` (radians, the last a whole turn) and add up ``rises``; at a
-    border the piece that begins there holds.
+    border the piece that begins there holds. Where ``slopes`` are given, all pieces are cubics that
+    begin and finish with these, each times the angle of its piece.
     """
     angle = turned(turn)
     found = None
     low, start = angle * 0, angle * 0
     pieces = []
-    for end, rise, motion in zip(ends, rises, motions, strict=True):
-        pieces.append((low, end, start, rise, motion))
+    for number, (end, rise) in enumerate(zip(ends, rises, strict=True)):
+        pieces.append((low, end, start, rise, number))
         low, start = end, start + rise
-    for low, end, start, rise, motion in reversed(pieces):
+    for low, end, start, rise, number in reversed(pieces):
         span = end - low
-        f = MOTIONS[motion]((angle - low) / span)
-        own = Rise(start + rise * f.at, rise * f.rate / span, rise * f.bend / (span * span))
+        u = (angle - low) / span
+        if slopes:
+            f = splined(u, rise, *slopes[number])
+        else:
+            f = Rise(*(rise * each for each in MOTIONS[motions[number]](u)))
+        own = Rise(start + f.at, f.rate / span, f.bend / (span * span))
         found = own if found is None else chosen(below(angle, end - BORDER), own, found)
     assert found is not None
     return found

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from msgspec import Struct, field
 
-from graphkin.numbers.arithmetic import FLOAT, Kind
+from graphkin.numbers.arithmetic import FLOAT, Kind, Point
+from graphkin.numbers.cam_motions import Rise, displaced
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 
@@ -191,11 +192,16 @@ class Profile(NamedTuple):
 
 
 class CamPiece(NamedTuple):
-    """A piece of a cam's law: up to the angle ``to`` it lifts by ``rise``, nought in a dwell."""
+    """A piece of a cam's law: up to the angle ``to`` it lifts by ``rise``, nought in a dwell.
+
+    A piece of a table is a cubic between two of its points; ``slopes`` are its derivatives at both
+    ends times its angle.
+    """
 
     to: Quantity
     rise: Quantity
     motion: str
+    slopes: tuple[Quantity, Quantity] | None = None
 
 
 class CamLever(NamedTuple):
@@ -236,6 +242,24 @@ class Cam(NamedTuple):
     def is_flat(self) -> bool:
         """Whether a face touches the cam."""
         return self.tip == "flat"
+
+    @property
+    def slopes(self) -> tuple[tuple[Quantity, Quantity], ...]:
+        """Those of the cubics of a table; none of a law of motions."""
+        return tuple(piece.slopes for piece in self.law if piece.slopes is not None)
+
+    def displacement(self, turn: Point, values: Mapping[str, Any], kind: Kind = FLOAT) -> Rise:
+        """How far the follower is lifted at the cam's axis ``turn``, with the derivatives by its
+        angle."""
+        from_start = turn * self.start.direction(values, kind).conjugate()
+        found = displaced(
+            from_start if self.sense > 0 else from_start.conjugate(),
+            [piece.to.si(values, kind) for piece in self.law],
+            [piece.rise.si(values, kind) for piece in self.law],
+            [piece.motion for piece in self.law],
+            [(one.si(values, kind), other.si(values, kind)) for one, other in self.slopes],
+        )
+        return Rise(found.at, self.sense * found.rate, found.bend)
 
     def called(self, names: Mapping[str, str]) -> Cam:
         """The same with links by other names."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from graphkin.numbers.cam_motions import MOTIONS
+from graphkin.scene.cam_tables import is_table, read_table
 from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, shown
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Driver, Link, Scene, Slide
@@ -190,6 +191,8 @@ def pivot_of(
 def read_law(table: Table, measures: Measures, *, swings: bool) -> tuple[CamPiece, ...]:
     """The pieces of a law: they follow one another to a whole turn and come back to nought."""
     findings, raw, place = measures.findings, table.take("law"), table.at("law")
+    if isinstance(raw, list) and is_table(raw):
+        return read_table(place, raw, measures, swings=swings)
     if not isinstance(raw, list) or not 0 < len(raw) <= MOST_PIECES:
         found = "is missing" if raw is None else shown(raw)
         expected = f"at most {MOST_PIECES} pieces: [ {{ to = 120, rise = 20, motion = … }}, … ]"

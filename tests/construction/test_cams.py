@@ -19,6 +19,7 @@ from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError, StructureError
 
+CAMS = [f"cam-{name}" for name in ("roller", "knife", "flat", "rocker", "lever", "table")]
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 PEAKS = {
     "uniform": (1, 0),
@@ -286,7 +287,7 @@ def test_an_eccentric_disc_by_its_law_is_the_disc(angle):
     assert law.points["F"].acceleration == pytest.approx(disc.points["F"].acceleration, abs=1e-11)
 
 
-@pytest.mark.parametrize("name", ["cam-roller", "cam-knife", "cam-flat", "cam-rocker", "cam-lever"])
+@pytest.mark.parametrize("name", CAMS)
 def test_the_profile_is_the_envelope_of_the_follower(name):
     """Seen from the cam the tip always touches the outline, and never cuts into it."""
     mechanism = load(SCENES / f"{name}.toml")
@@ -353,6 +354,81 @@ def test_the_table_of_a_cycle_has_the_pressure_angle_and_the_radius_of_curvature
         assert float(row["pressure_2 [deg]"]) == pytest.approx(slope, abs=1e-9)
         rho = abs(normal) - 0.01
         assert float(row["radius_2 [m]"]) == pytest.approx(rho, rel=1e-9)
+
+
+def turned_tables(text, table):
+    """The scene of a cam with its law by another table."""
+    begin, end = text.index("law = ["), text.index("[[drivers]]")
+    return text[:begin] + f"law = {table}\n\n" + text[end:]
+
+
+def by_second_derivatives(x, y):
+    """The periodic spline through points as a function: its value and both derivatives.
+
+    Its second derivatives at the points are the unknowns of a full system (Press, Numerical
+    Recipes, section 3.3).
+    """
+    count, h = len(x) - 1, np.diff(x)
+    system, right = np.zeros((count, count)), np.zeros(count)
+    for i in range(count):
+        system[i, i - 1] += h[i - 1] / 6
+        system[i, i] += (h[i - 1] + h[i]) / 3
+        system[i, (i + 1) % count] += h[i] / 6
+        right[i] = (y[i + 1] - y[i]) / h[i] - (y[i] - y[i - 1 if i else count - 1]) / h[i - 1]
+    bends = np.linalg.solve(system, right)
+    bends = np.append(bends, bends[0])
+
+    def spline(at):
+        i = min(int(np.searchsorted(x, at, side="right")) - 1, count - 1)
+        a, b = (x[i + 1] - at) / h[i], (at - x[i]) / h[i]
+        cubes = (a**3 - a) * bends[i] + (b**3 - b) * bends[i + 1]
+        squares = (3 * b * b - 1) * bends[i + 1] - (3 * a * a - 1) * bends[i]
+        value = a * y[i] + b * y[i + 1] + cubes * h[i] ** 2 / 6
+        rate = (y[i + 1] - y[i]) / h[i] + squares * h[i] / 6
+        return value, rate, a * bends[i] + b * bends[i + 1]
+
+    return spline
+
+
+def test_a_table_moves_the_follower_by_the_periodic_spline_through_it():
+    """The spline by its second derivatives, at 40 positions, between the points and at them."""
+    rng = np.random.default_rng(24)
+    text = (SCENES / "cam-table.toml").read_text(encoding="utf-8")
+    angles = [0, *sorted(rng.choice(np.arange(12, 350), 11, replace=False).tolist())]
+    lifts = [0, *rng.uniform(0, 25, 11).round(2).tolist()]
+    table = [[angle, lift] for angle, lift in zip(angles, lifts, strict=True)]
+    scene = read_text(turned_tables(text, table).replace("base = 40", "base = 400"), "cam")
+    radians = np.radians([*angles, 360])
+    spline = by_second_derivatives(radians, np.array([*lifts, 0]) / 1000)
+    omega = 200 * np.pi / 30
+    for at in [*rng.uniform(0, 360, 28), *angles]:
+        here = replace(scene, values={**scene.values, "angle": Fraction(float(at))})
+        mechanism = Mechanism(here)
+        solution = mechanism.solve()
+        lift, rate, bend = spline(np.radians(at) % (2 * np.pi))
+        slide = solution.slides["2"]
+        assert slide.position - 0.408 == pytest.approx(lift, abs=1e-12)
+        assert slide.speed == pytest.approx(rate * omega, abs=1e-10)
+        assert slide.acceleration == pytest.approx(bend * omega**2, abs=1e-8)
+        assert mechanism.witness(solution).agrees
+
+
+@pytest.mark.parametrize(
+    ("table", "place"),
+    [
+        ([[0, 0], [90, 5], [180, 9]], ".law"),
+        ([[0, 0], [90, 5], [80, 9], [270, 5]], ".law[2]"),
+        ([[0, 0], [90, 5], [180, -9], [270, 5]], ".law[2]"),
+        ([[0, 0], [90, 5], [180, 9], [360, 0]], ".law[3]"),
+        ([[10, 0], [90, 5], [180, 9], [270, 5]], ".law[0]"),
+        ([[0, 0], [90], [180, 9], [270, 5]], ".law[1]"),
+    ],
+)
+def test_a_mistake_of_a_table_is_one_error(table, place):
+    text = (SCENES / "cam-table.toml").read_text(encoding="utf-8")
+    with pytest.raises(SceneError) as error:
+        read_text(turned_tables(text, table), "cam")
+    assert [problem.place for problem in error.value.problems] == [f"links.2.cam{place}"]
 
 
 def test_every_mistake_of_a_cam_is_told_at_its_place():

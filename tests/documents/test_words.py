@@ -199,6 +199,7 @@ def test_every_sentence_is_used():
         "cam-flat",
         "cam-knife",
         "cam-lever",
+        "cam-table",
         "gears-ravigneaux",
         "stephenson-2-binary",
         "two-loops",

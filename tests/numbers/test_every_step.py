@@ -43,6 +43,10 @@ EXTRA = {"way": 1, "side": -1, "sense": -1, "place": 1, "size": 1.0}
 MANY = {"higher.reach": ("rrpp", (2,))} | {
     f"cam_centre.{name}": ("rrrr", (-1.0, 3.0, 4.0)) for name in ("lift", "lift_rate", "lift_bend")
 }
+MANY |= {
+    f"cam_centre.{name}": ("rrrrrrrr", (-1.0,))
+    for name in ("table_lift", "table_rate", "table_bend")
+}
 """What steps take any number of, and what these are told; two points where nothing is said."""
 
 

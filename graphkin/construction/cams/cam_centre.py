@@ -41,10 +41,20 @@ NAMES = tuple(MOTIONS)
 def law(axis: Point, start: Point, *rest: Real) -> Rise:
     """The displacement at the cam's axis; ``rest`` are ends, rises, the sense and the motions."""
     count = (len(rest) - 1) // 3
-    ends, rises = list(rest[:count]), list(rest[count : 2 * count])
+    ends, rises = rest[:count], rest[count : 2 * count]
     sense, motions = rest[2 * count], [NAMES[int(code)] for code in rest[2 * count + 1 :]]
     turn = axis * start.conjugate()
     found = displaced(turn if sense > 0 else turn.conjugate(), ends, rises, motions)
+    return Rise(found.at, sense * found.rate, found.bend)
+
+
+def table(axis: Point, start: Point, *rest: Real) -> Rise:
+    """The same by a table; ``rest`` are ends, rises, slopes at begins and ends, the sense."""
+    count = (len(rest) - 1) // 4
+    ends, rises, begins, finishes = (rest[k * count : (k + 1) * count] for k in range(4))
+    sense, turn = rest[-1], axis * start.conjugate()
+    slopes = list(zip(begins, finishes, strict=True))
+    found = displaced(turn if sense > 0 else turn.conjugate(), ends, rises, (), slopes)
     return Rise(found.at, sense * found.rate, found.bend)
 
 
@@ -64,6 +74,24 @@ def lift_rate(axis: Point, start: Point, *rest: Real) -> Real:
 def lift_bend(axis: Point, start: Point, *rest: Real) -> Real:
     """Its second derivative."""
     return law(axis, start, *rest).bend
+
+
+@action("cam-lift")
+def table_lift(axis: Point, start: Point, *rest: Real) -> Real:
+    """The displacement of the follower by a table."""
+    return table(axis, start, *rest).at
+
+
+@action("cam-lift")
+def table_rate(axis: Point, start: Point, *rest: Real) -> Real:
+    """Its derivative by the cam's angle, counter-clockwise."""
+    return table(axis, start, *rest).rate
+
+
+@action("cam-lift")
+def table_bend(axis: Point, start: Point, *rest: Real) -> Real:
+    """Its second derivative."""
+    return table(axis, start, *rest).bend
 
 
 @action("cam-height")
@@ -213,6 +241,10 @@ def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], 
         ends = [pen.given("number", piece.to) for piece in cam.law]
         form = "number" if cam.lever else "length"
         rises = [pen.given(form, piece.rise) for piece in cam.law]
+        slopes = [pen.given(form, each) for pair in zip(*cam.slopes, strict=True) for each in pair]
+    if slopes:
+        steps = axis(pen, shapes, cam.on), start, *ends, *rises, *slopes
+        return steps, (float(cam.sense),)
     codes = [float(NAMES.index(piece.motion)) for piece in cam.law]
     steps = axis(pen, shapes, cam.on), start, *ends, *rises
     return steps, (float(cam.sense), *codes)
@@ -234,7 +266,8 @@ def lifted(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int]:
         if cam.tip == "roller":
             roller = pen.given("length", cam.roller)
             prime = once(pen, ("cam prime", follower), widened, prime, roller)
-        return prime, once(pen, ("cam lift", follower), lift, *steps, extra=extra)
+        found = table_lift if cam.slopes else lift
+        return prime, once(pen, ("cam lift", follower), found, *steps, extra=extra)
 
 
 def height(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
@@ -300,8 +333,8 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int
         where = pivot, path, above
         kind = centre_under_face if cam.is_flat else centre_under_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        rate = pen.draw(lift_rate, *steps, extra=extra)
-        bend = pen.draw(lift_bend, *steps, extra=extra)
+        rate = pen.draw(table_rate if cam.slopes else lift_rate, *steps, extra=extra)
+        bend = pen.draw(table_bend if cam.slopes else lift_bend, *steps, extra=extra)
     displaced_by = pen.shared["cam lift", follower]
     with pen.on(Part.POSITION, Plane.MECHANISM):
         point = pen.draw(kind, *where, rate, bend, extra=extra_side, name=name)

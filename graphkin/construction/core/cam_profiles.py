@@ -23,7 +23,7 @@ from graphkin.numbers.cam_followers import (
     swung_face,
     swung_tip,
 )
-from graphkin.numbers.cam_motions import Rise, displaced
+from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.model import FRAME, Cam, Scene
 from graphkin.structure.link_axes import body, guide_line, metres
 
@@ -62,15 +62,7 @@ class CamProfile(Struct, frozen=True, dict=True):
     @cached_property
     def rise(self) -> Rise:
         """The displacement of the follower and its derivatives by the cam's angle."""
-        cam, values = self.cam, self.scene.values
-        turn = np.exp(1j * self.angles) / complex(cam.start.direction(values))
-        found = displaced(
-            turn if cam.sense > 0 else turn.conj(),
-            [float(piece.to.si(values)) for piece in cam.law],
-            [float(piece.rise.si(values)) for piece in cam.law],
-            [piece.motion for piece in cam.law],
-        )
-        return Rise(found.at, cam.sense * found.rate, found.bend)
+        return self.cam.displacement(np.exp(1j * self.angles), self.scene.values)
 
     @cached_property
     def guide(self) -> tuple[complex, float]:

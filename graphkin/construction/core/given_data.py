@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 
 from msgspec import Struct
 
@@ -32,7 +33,7 @@ from graphkin.scene.model import (
     Side,
     Triangle,
 )
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import Quantity, exact
 from graphkin.text import MINUS, Words
 
 
@@ -121,6 +122,10 @@ def cams(drawing: Drawing) -> Iterator[str]:
             yield words("page.cam_lever", base=base, line=line, **fields)
         else:
             yield words("page.cam", base=base, **fields)
+        if cam.slopes:
+            points = cam_points(scene, words, cam)
+            yield words("page.cam_table", sense=turned, points=points, **fields)
+            continue
         first, *rest = (cam_piece(scene, words, piece) for piece in cam.law)
         yield words("page.cam_by", sense=turned, piece=first, **fields)
         yield from rest
@@ -133,6 +138,16 @@ def cam_tip(scene: Scene, words: Words, cam: Cam) -> str:
         beside = "" if cam.lever.face.is_zero() else words("page.cam_beside", gap=gap)
         return words("page.cam_face", bar=line) + beside
     return words(f"page.cam_{cam.tip}", radius=written(scene, words, cam.roller))
+
+
+def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
+    """The points of a table, from one end of a cubic to the next."""
+    at, lift, unit = exact(0, cam.law[0].to.unit), Fraction(0), cam.law[0].rise.unit
+    points = []
+    for piece in cam.law:
+        points.append(f"{written(scene, words, at)}: {written(scene, words, exact(lift, unit))}")
+        at, lift = piece.to, lift + piece.rise.number(scene.values)
+    return ", ".join(points)
 
 
 def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:
