@@ -11,7 +11,7 @@ from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
 
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
-KEYWORDS = frozenset(("slides", "rolls", "wheel", "wheels", "touches", "profiles", "cam"))
+KEYWORDS = frozenset(("slides", "rolls", "belt", "wheel", "wheels", "touches", "profiles", "cam"))
 SIDES = {"left": 1, "right": -1}
 WAYS = {"forward": 1, "backward": -1}
 

@@ -195,7 +195,15 @@ def test_every_sentence_is_used():
     spoken = Recording("en")
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
     every = [mechanism_named(lab, 7) for lab in SHIPPED[1:]]
-    more = ("cam-flat", "cam-knife", "gears-ravigneaux", "stephenson-2-binary", "two-loops")
+    more = (
+        "belts-arm",
+        "belts-crossed",
+        "cam-flat",
+        "cam-knife",
+        "gears-ravigneaux",
+        "stephenson-2-binary",
+        "two-loops",
+    )
     every += [mechanism_named(name) for name in (*OTHERS, *CHOSEN, *more)]
     every += [rare(name) for name in RARE]
     for mechanism in every:
