@@ -28,7 +28,7 @@ def reordered(text: str, mechanism: Mechanism, seed: int) -> str:
     random = Random(seed)
     tables = tomllib.loads(text, parse_float=AsWritten)
     links = {name: rekeyed(link, random) for name, link in tables.get("links", {}).items()}
-    links = {name: links[name] for name in shuffled_links(mechanism, random)}
+    links = {name: links[name] for name in shuffled_links(mechanism, random) if name in links}
     tables["frame"] = shuffled(tables["frame"], random)
     for name in ("parameters", "branches", "units"):
         if name in tables:

@@ -21,6 +21,7 @@ from graphkin.construction.core.run import StepFailed, run
 from graphkin.motion.course import Reals
 from graphkin.numbers.arithmetic import is_ball, is_decimal
 from graphkin.numbers.kinds import ball_kind
+from graphkin.scene.model import Scene
 from graphkin.text.errors import GraphkinError, Problem, WitnessError
 
 BITS = 640
@@ -45,16 +46,18 @@ class ComparedTargets(Struct, frozen=True):
         return tuple(target for some in self.targets for target in some)
 
 
-def answers_of(program: Program) -> ComparedTargets:
+def answers_of(scene: Scene, program: Program) -> ComparedTargets:
     """All named points and blocks that have all three quantities.
 
+    Equivalent linkages of cams are left out: other routes know nothing of them.
     A point of one link under another's (A@3) is left out: it is another one at every instant, so
     that its velocity is not the derivative of a position.
     """
     known = program.targets
     found: list[tuple[Target, ...]] = []
     theirs = [SLIDING[kind].target for kind in KINDS]
-    points, blocks = of_all(known, KINDS), of_all(known, theirs)
+    points = [p for p in of_all(known, KINDS) if p not in scene.cam_centres]
+    blocks = [b for b in of_all(known, theirs) if b not in scene.cam_links]
     for mine, other in zip(KINDS, theirs, strict=True):
         found.append((*((mine, p) for p in points), *((other, b) for b in blocks)))
     return ComparedTargets(tuple(found))

@@ -64,7 +64,7 @@ def study(
     watch = Stopwatch(effort, clock, say)
     say("positions and certified reference")
     ground = ground_of(mechanism.scene)
-    answers = answers_of(ground.piece.course.program)
+    answers = answers_of(ground.sweep.scene, ground.piece.course.program)
     reference = reference_of(places_around(ground, effort.places), answers)
     methods = []
     for method in every_method(reference, effort):

@@ -23,7 +23,10 @@ TIGHT = 1e4
 
 def reference(name: str, count: int = POSITIONS):
     ground = ground_of(load(name).scene)
-    return reference_of(places_around(ground, count), answers_of(ground.piece.course.program))
+    return reference_of(
+        places_around(ground, count),
+        answers_of(ground.sweep.scene, ground.piece.course.program),
+    )
 
 
 @pytest.mark.parametrize("name", WHICH, ids=lambda name: Path(name).stem)

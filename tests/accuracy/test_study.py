@@ -138,7 +138,10 @@ def test_a_group_of_class_three_dies_by_the_same_law():
     from graphkin.accuracy.flattening import flattened
 
     ground = ground_of(load(str(SCENES / "rod-and-wheel.toml")).scene)
-    flat = flattened(approach(ground, 10, 2), answers_of(ground.piece.course.program))
+    flat = flattened(
+        approach(ground, 10, 2),
+        answers_of(ground.sweep.scene, ground.piece.course.program),
+    )
     assert flat.falls
     assert flat.slopes("float64") == pytest.approx(LAW, abs=0.4)
 

@@ -173,7 +173,7 @@ def test_a_drawing_is_saved_as_a_file_that_looks_the_same_alone(studio, tmp_path
     strokes = (
         "(svg) => [...svg.querySelectorAll('path, line, circle, text')].map((each) => {"
         " const { stroke, strokeWidth, fill, fontSize, fontFamily } = getComputedStyle(each);"
-        " return [stroke, strokeWidth, fill, fontSize, fontFamily]; })"
+        " return [stroke, strokeWidth, fill, fontSize, fontFamily.split(',')[0]]; })"
     )
     here = page.eval_on_selector(f"#{name} .drawing svg", strokes)
     other = page.context.browser.new_page()

@@ -40,6 +40,10 @@ MADE = {"Line": (Line, 2, "pp"), "Circle": (Circle, 2, "pr"), "Ratio": (Ratio, 3
 PARTS = {Line: 2, Circle: 2, Ratio: 3, Vector: 2}
 EXTRA = {"way": 1, "side": -1, "sense": -1, "place": 1, "size": 1.0}
 """What a step is told beside its arguments."""
+MANY = {"higher.reach": ("rrpp", (2,))} | {
+    f"cam_centre.{name}": ("rrrr", (-1.0, 3.0, 4.0)) for name in ("lift", "lift_rate", "lift_bend")
+}
+"""What steps take any number of, and what these are told; two points where nothing is said."""
 
 
 class Builder:
@@ -76,9 +80,9 @@ def built(name: str) -> tuple[nk.Work, dict[int, str]]:
     extra: list[Any] = []
     for parameter in inspect.signature(action.value).parameters.values():
         if parameter.kind is parameter.VAR_POSITIONAL:
-            many = "rrpp" if name == "higher.reach" else "pp"
+            many, told = MANY.get(name, ("pp", ()))
             args += [builder.leaf(shape) for shape in many]
-            extra += [2] if name == "higher.reach" else []
+            extra += told
         elif parameter.annotation in ("int", "float"):
             extra.append(EXTRA[parameter.name])
         else:

@@ -103,8 +103,10 @@ function alone(svg) {
   copy.removeAttribute("style");
   copy.setAttribute("width", `${width}mm`);
   copy.setAttribute("height", `${height}mm`);
+  const here = getComputedStyle(svg);
+  const value = (_, variable) => here.getPropertyValue(variable).trim();
   const style = document.createElementNS(copy.namespaceURI, "style");
-  style.textContent = rules;
+  style.textContent = `svg { font: ${here.font}; }\n${rules.replace(/var\((--[\w-]+)\)/g, value)}`;
   copy.prepend(style);
   return new XMLSerializer().serializeToString(copy);
 }
