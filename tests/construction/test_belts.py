@@ -181,3 +181,49 @@ def test_a_belt_needs_an_arm():
     text = HEAD + ON_ARM.format(crossed="false").replace("O-P = 150", "O-R = 150")
     with pytest.raises((SceneError, StructureError), match="an arm: a link with O-P"):
         answers(text)
+
+
+@pytest.mark.parametrize(("large", "small"), [(100, 70), (120, 70), (90, 70)])
+def test_the_load_of_a_differential_hoist_moves_at_half_the_difference_of_the_rims(large, small):
+    made = load(FOLDER / "hoist-differential.toml", R=large)
+    found = made.solve()
+    assert made.witness(found).agrees
+    speed = 30 * RPM * (large - small) / 2000
+    assert found.points["P"].velocity == pytest.approx(1j * speed)
+    assert found.links["4"].omega == pytest.approx(30 * RPM)
+    strands = [found.points[point].velocity.imag for point in "BC"]
+    assert strands == pytest.approx([30 * RPM * large / 1000, -30 * RPM * small / 1000])
+
+
+MOVING_PULLEY = """
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 50
+wheel = { centre = "O", radius = 50 }
+rolls = { on = 2, through = "B", angle = 0 }
+[links.2]
+B = [0, 0]
+slides = { on = 0, through = [50, -100], angle = 90 }
+[links.3]
+P = [0, 0]
+wheel = { centre = "P", radius = 80 }
+rolls = [
+  { on = 2, through = [-200, 0], angle = 0, side = "right" },
+  { on = 0, through = [210, -300], angle = 90 },
+]
+[[drivers]]
+turn = 1
+angle = 30
+speed = 4
+acceleration = 6
+"""
+
+
+def test_a_moving_pulley_rises_at_half_the_speed_of_the_rope():
+    found = answers(MOVING_PULLEY)
+    assert found.points["B"].velocity == pytest.approx(0.2j)
+    assert found.points["P"].velocity == pytest.approx(0.1j)
+    assert found.points["P"].acceleration == pytest.approx(0.15j)
+    assert found.links["3"].omega == pytest.approx(-0.1 / 0.08)
