@@ -227,3 +227,77 @@ def test_a_moving_pulley_rises_at_half_the_speed_of_the_rope():
     assert found.points["P"].velocity == pytest.approx(0.1j)
     assert found.points["P"].acceleration == pytest.approx(0.15j)
     assert found.links["3"].omega == pytest.approx(-0.1 / 0.08)
+
+
+IN_SERIES = """
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+wheel = { centre = "O", radius = 20 }
+[links.1]
+O-S = 45
+wheel = { centre = "O", radius = 40 }
+[links.2]
+O-P = 150
+P-R = 140
+O-R = 200
+R = "left of O-P"
+[links.3]
+P-Q = 40
+wheels = [{ centre = "P", radius = 24 }, { centre = "P", radius = 50 }]
+belt = { on = 1 }
+[links.4]
+R-V = 20
+wheels = [{ centre = "R", radius = 24 }, { centre = "R", radius = 30 }]
+belt = [
+  { on = 3, wheels = [1, 2], crossed = true },
+  { on = 0, wheels = [2, 1] },
+]
+[[drivers]]
+turn = 1
+angle = 20
+speed = 149
+acceleration = 4
+"""
+
+
+def test_belts_in_series_on_a_free_arm():
+    """From wheel 1 by 40/24 and -50/24, from the fixed wheel by 20/30: 24 ω2 = 125 (ω1 - ω2)."""
+    links = answers(IN_SERIES).links
+    assert links["2"].omega == pytest.approx(125)
+    assert links["2"].epsilon == pytest.approx(4 * 125 / 149)
+    assert links["3"].omega == pytest.approx(125 + 24 * 40 / 24)
+    assert links["4"].omega == pytest.approx(125 - 125 * 20 / 30)
+
+
+ON_A_COUPLER = """
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O1 = [0, 0]
+O2 = [300, 0]
+[links.1]
+O1-A = 80
+wheel = {{ centre = "A", radius = 30 }}
+[links.2]
+A-B = 280
+[links.3]
+O2-B = 200
+[links.4]
+B-Q = 40
+wheel = {{ centre = "B", radius = 45 }}
+belt = {{ on = 1, crossed = {crossed}, start = {{ 1 = 60, 2 = 20 }} }}
+[[drivers]]
+turn = 1
+angle = 50
+speed = 10
+[branches]
+B = "left of A-O2"
+"""
+
+
+@BOTH
+def test_a_belt_from_a_crank_to_a_wheel_on_its_coupler(crossed):
+    links = answers(ON_A_COUPLER.format(crossed=str(crossed).lower())).links
+    against = links["1"].omega - links["2"].omega
+    ratio = -30 / 45 if crossed else 30 / 45
+    assert links["4"].omega - links["2"].omega == pytest.approx(ratio * against)
