@@ -152,7 +152,8 @@ def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | No
         findings.add(
             place,
             f"{shown_key(key)} is no key of a link",
-            "P, P-Q (a length), P-Q-R (an angle at Q), slides, rolls, belt, wheel, touches, profiles",
+            "P, P-Q (a length), P-Q-R (an angle at Q), slides, rolls, belt, wheel, touches or "
+            "profiles",
         )
         return None
     names = [point_name(place, part, findings) for part in parts]
