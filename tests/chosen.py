@@ -16,6 +16,7 @@ CHOSEN = (
     SCENES
     if EVERY
     else (
+        "cam-rocker",
         "cam-roller",
         "centrodes-roller",
         "crank-slot",

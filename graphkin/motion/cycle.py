@@ -20,10 +20,11 @@ from graphkin.motion.events import Singular, singulars
 from graphkin.motion.pieces import Path, Piece, followed
 from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.numbers.plane import Ratio
-from graphkin.scene.model import Branch, Scene
+from graphkin.scene.model import FRAME, Branch, Scene
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, SceneError
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.cam_profiles import CamProfile
     from graphkin.mechanism import Mechanism
 
 BESIDE = 1e-6
@@ -106,6 +107,18 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         from graphkin.loops.witness import sure_of
 
         return sure_of(self.solution, self.witnessed.unsure)
+
+    @cached_property
+    def profiles(self) -> Mapping[str, CamProfile]:
+        """The cams that the swept driver turns by itself, by their followers, at every position."""
+        if self.sweep.what != "turn" or not self.scene.cams:
+            return {}
+        from graphkin.construction.core.cam_profiles import profiles_along
+
+        driver = self.scene.drivers[(self.sweep.number or 1) - 1]
+        if driver.against != FRAME or driver.of is not None:
+            return {}
+        return profiles_along(self.scene, driver.link, np.radians(self.at))
 
     def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
         """The same cycle at other places u, those that have no motion left out.

@@ -78,7 +78,8 @@ def reach_of(scene: Scene) -> float:
             lengths.append(slide.offset)
             places += [(slide.on, *slide.through)] if isinstance(slide.through, tuple) else []
         if link.cam is not None:
-            lengths += [link.cam.base, link.cam.roller, *(piece.rise for piece in link.cam.law)]
+            lifts = () if link.cam.lever else (piece.rise for piece in link.cam.law)
+            lengths += [link.cam.base, link.cam.roller, *lifts]
         lengths += [wheel.radius for wheel in link.wheels if wheel.radius is not None]
     far = sum(abs(float(length.si(scene.values))) for length in lengths)
     first: dict[str, complex] = {}

@@ -215,10 +215,23 @@ class CamPiece(NamedTuple):
     motion: str
 
 
+class CamLever(NamedTuple):
+    """A follower that a cam swings about the ``pin``: its bar leads from there to the tip.
+
+    ``side`` is +1 where it stands left of the line from the cam's pivot to the pin. A flat face
+    runs beside the bar, ``face`` nearer to the cam.
+    """
+
+    pin: str
+    side: int
+    face: Quantity
+
+
 class Cam(NamedTuple):
     """What lifts a follower, by its law: the disc of link ``on``, which turns about ``pivot``.
 
-    ``tip`` is the follower's: a roller of the radius ``roller``, a knife, a flat face. The law
+    ``tip`` is the follower's: a roller of the radius ``roller``, a knife, a flat face; ``point`` is
+    its centre, its edge, a point of it. A ``lever`` swings, else the follower slides. The law
     counts from the cam's angle ``start``, ``sense`` +1 counter-clockwise. The equivalent linkage
     of an instant joins the centre of curvature ``centre``, a point of the cam, by link ``link``.
     """
@@ -233,6 +246,8 @@ class Cam(NamedTuple):
     sense: int
     centre: str
     link: str
+    point: str
+    lever: CamLever | None = None
 
     @property
     def is_flat(self) -> bool:

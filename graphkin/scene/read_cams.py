@@ -1,7 +1,8 @@
 """Cams by their law: what is written of them, and the equivalent linkage that stands for each.
 
 At an instant a cam moves its follower as the circle of its curvature would: a bar from the centre
-of curvature to the roller's centre, or a block at the centre on the follower's face.
+of curvature to the roller's centre, or a block at the centre on the follower's face. The follower
+slides on a guide of the frame, or swings about a pin of it.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from collections.abc import Mapping
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, shown
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Cam, CamPiece, Driver, Link, Scene, Slide
-from graphkin.scene.phrases import is_link_name, is_name, link_name
+from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Driver, Link, Scene, Slide
+from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
 
 TIPS = ("roller", "knife", "flat")
@@ -49,12 +50,18 @@ def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) ->
     links[follower] = own._replace(cam=cam)
     links[cam.on] = disc._replace(points=(*disc.points, cam.centre))
     if cam.is_flat:
-        unit = measures.units["angle"]
-        face = exact(90, "deg") if unit == "deg" else measures.angle("", "pi/2")
-        guide = Slide(follower, own.points[0], face, None, exact(0, measures.units["length"]))
-        links[cam.link] = Link(cam.link, (cam.centre,), (), (guide,))
+        links[cam.link] = Link(cam.link, (cam.centre,), (), (face_of(follower, cam, measures),))
     else:
-        links[cam.link] = Link(cam.link, (cam.centre, own.points[0]), ())
+        links[cam.link] = Link(cam.link, (cam.centre, cam.point), ())
+
+
+def face_of(follower: str, cam: Cam, measures: Measures) -> Slide:
+    """The guide of the block that stands for a flat face: along a lever, or square to its guide."""
+    if cam.lever:
+        none = exact(0, measures.units["length"])
+        return Slide(follower, None, None, (cam.lever.pin, cam.point), none)
+    square = exact(90, "deg") if measures.units["angle"] == "deg" else measures.angle("", "pi/2")
+    return Slide(follower, cam.point, square, None, exact(0, measures.units["length"]))
 
 
 def read_cam(
@@ -65,9 +72,11 @@ def read_cam(
     measures: Measures,
     letter: str,
 ) -> Cam | None:
-    """One cam, ``{ on, tip, base, roller, law, start, clockwise }``; None where none can be."""
+    """One cam, ``{ on, tip, base, roller, law, start, clockwise, side, face }``; None where none
+    can be."""
     findings = measures.findings
     before = len(findings.problems)
+    swings = not links[follower].slides
     on = link_name(table.at("on"), table.take("on"), findings, CAM)
     tip = choice(table, "tip", TIPS)
     base = measures.length(table.at("base"), table.take("base"), positive=True)
@@ -80,22 +89,37 @@ def read_cam(
         roller = measures.length(table.at("roller"), raw, positive=True)
     else:
         roller = exact(0, measures.units["length"])
-    law = read_law(table, measures)
+    law = read_law(table, measures, swings=swings)
     turned = table.take("start")
     start = measures.angle(table.at("start"), 0 if turned is None else turned)
     sense = -1 if table.flag("clockwise") else 1
     centre = table.text("centre", letter)
-    name = table.text("link", f"n{on}_{follower}")
+    name = table.text("link", next_name(links))
+    found = lever_of(follower, tip, table, frame, links, measures) if swings else None
     table.finish()
-    pivot = pivot_of(follower, on, table, frame, links, measures)
+    if not swings:
+        check_guide(follower, links, table)
+    pivot = pivot_of(follower, on, table, frame, links)
     if not is_name(centre) or any(centre in link.points for link in (frame, *links.values())):
-        found = f"{shown(centre)} for the centre of curvature"
-        findings.add(table.at("centre"), found, "the name of a new point")
+        taken = f"{shown(centre)} for the centre of curvature"
+        findings.add(table.at("centre"), taken, "the name of a new point")
     if not is_link_name(name) or name in links:
         findings.add(table.at("link"), f"{shown(name)}", "the name of a new link")
     if len(findings.problems) > before or on is None:
         return None
-    return Cam(on, pivot, tip, base, roller, law, start, sense, centre, name)
+    point, lever = found or (links[follower].points[0], None)
+    if lever and lever.pin == pivot:
+        findings.add(table.at("on"), f"both links turn about {pivot}", "a cam on another pin")
+        return None
+    return Cam(on, pivot, tip, base, roller, law, start, sense, centre, name, point, lever)
+
+
+def next_name(links: Mapping[str, Link]) -> str:
+    """A name for an equivalent link: the next number after the others', or a letter of its own."""
+    if all(name.isdigit() for name in links):
+        return str(max(map(int, links)) + 1)
+    letters = ("e", *(f"e{number}" for number in range(2, len(links) + 2)))
+    return next(letter for letter in letters if letter not in links)
 
 
 def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:
@@ -109,20 +133,46 @@ def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:
     return choices[0]
 
 
-def pivot_of(
+def lever_of(
     follower: str,
-    on: str | None,
+    tip: str,
     table: Table,
     frame: Link,
     links: Mapping[str, Link],
     measures: Measures,
-) -> str:
-    """The pin of the cam on the frame; the follower is a block on one guide of the frame."""
+) -> tuple[str, CamLever] | None:
+    """The tip of a follower that is pinned to the frame, and how it swings."""
     own, findings = links[follower], measures.findings
+    pins = [point for point in own.points if point in frame.points]
+    tips = [point for point in own.points if point not in frame.points]
+    if len(pins) != 1 or not tips:
+        found = f"link {follower} neither slides on a guide of the frame nor swings about a pin"
+        expected = "slides = { on = 0, … }, or one point of the frame and the tip as the next point"
+        findings.add(table.place, found, expected)
+        table.take("side"), table.take("face")
+        return None
+    side = choice(table, "side", tuple(SIDES))
+    raw = table.take("face")
+    if raw is not None and tip != "flat":
+        findings.add(table.at("face"), f"a face on a {tip} follower", 'tip = "flat"')
+    face = measures.length(table.at("face"), 0 if raw is None else raw)
+    return tips[0], CamLever(pins[0], SIDES[side], face)
+
+
+def check_guide(follower: str, links: Mapping[str, Link], table: Table) -> None:
+    """A follower that slides is a block on one guide of the frame."""
+    own = links[follower]
     if len(own.slides) != 1 or own.slides[0].on != FRAME or not own.points:
         found = f"link {follower} does not slide on a guide of the frame"
         expected = "a follower with slides = { on = 0, … }, its first point the roller's centre"
-        findings.add(table.place, found, expected)
+        table.findings.add(table.place, found, expected)
+
+
+def pivot_of(
+    follower: str, on: str | None, table: Table, frame: Link, links: Mapping[str, Link]
+) -> str:
+    """The pin of the cam on the frame."""
+    findings = table.findings
     if on is None:
         return ""
     if on not in links or on == follower:
@@ -137,7 +187,7 @@ def pivot_of(
     return pivots[0]
 
 
-def read_law(table: Table, measures: Measures) -> tuple[CamPiece, ...]:
+def read_law(table: Table, measures: Measures, *, swings: bool) -> tuple[CamPiece, ...]:
     """The pieces of a law: they follow one another to a whole turn and come back to nought."""
     findings, raw, place = measures.findings, table.take("law"), table.at("law")
     if not isinstance(raw, list) or not 0 < len(raw) <= MOST_PIECES:
@@ -149,7 +199,7 @@ def read_law(table: Table, measures: Measures) -> tuple[CamPiece, ...]:
     for index, each in enumerate(raw):
         where = numbered(place, index, len(raw))
         if isinstance(each, dict):
-            pieces.append(read_piece(Table(where, each, findings), measures))
+            pieces.append(read_piece(Table(where, each, findings), measures, swings=swings))
         else:
             findings.add(where, shown(each), "a table { to = …, rise = …, motion = … }")
     if len(findings.problems) > bad:
@@ -158,11 +208,12 @@ def read_law(table: Table, measures: Measures) -> tuple[CamPiece, ...]:
     return tuple(pieces)
 
 
-def read_piece(table: Table, measures: Measures) -> CamPiece:
-    """One piece, ``{ to, rise, motion }``; without a rise it is a dwell."""
+def read_piece(table: Table, measures: Measures, *, swings: bool) -> CamPiece:
+    """One piece, ``{ to, rise, motion }``; without a rise it is a dwell, a lever's is an angle."""
     to = measures.angle(table.at("to"), table.take("to"))
     raw, motion = table.take("rise"), table.take("motion")
-    rise = measures.length(table.at("rise"), 0 if raw is None else raw)
+    reading = measures.angle if swings else measures.length
+    rise = reading(table.at("rise"), 0 if raw is None else raw)
     table.finish()
     if raw is None and motion is None:
         return CamPiece(to, rise, "uniform")

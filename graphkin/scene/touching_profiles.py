@@ -47,8 +47,8 @@ def normal(
     findings = measures.findings
     on = link_name(table.at("on"), table.take("on"), findings, OTHER)
     centres = line_words(table.at("centres"), table.take("centres"), findings)
-    radii = two_radii(table, measures)
     inside = table.flag("inside")
+    radii = two_radii(table, measures, inside=inside)
     raw = table.take("contact")
     name = table.take("link")
     table.finish()
@@ -71,16 +71,31 @@ def normal(
     return called, between(centres, radii, contact, inside)
 
 
-def two_radii(table: Table, measures: Measures) -> tuple[str, str] | None:
-    """The radii of curvature of both profiles, as expressions."""
+def two_radii(table: Table, measures: Measures, *, inside: bool) -> tuple[str, str] | None:
+    """The radii of curvature of both profiles, as expressions.
+
+    The hollow in which a profile lies has the larger one.
+    """
     raw = table.take("radii")
     place = table.at("radii")
     if not isinstance(raw, list) or len(raw) != 2:
         expected = "two radii of curvature, such as [44, 16]"
         measures.findings.add(place, "is missing" if raw is None else shown(raw), expected)
         return None
-    for index, each in enumerate(raw):
-        measures.length(f"{place}[{index}]", each, positive=True)
+    before = len(measures.findings.problems)
+    read = [
+        measures.length(f"{place}[{index}]", each, positive=True) for index, each in enumerate(raw)
+    ]
+    if inside and len(measures.findings.problems) == before:
+        own, hollow = (radius.number(measures.values) for radius in read)
+        if own >= hollow:
+            found = f"the hollow's {float(hollow):g} is no more than this profile's {float(own):g}"
+            expected = "the profile's radius, then the larger one of the hollow"
+            hint = "touches is written on the link that lies in the hollow"
+            if own == hollow:
+                hint = "both have one centre: write it as a pin"
+            measures.findings.add(place, found, expected, hint)
+            return None
     return str(raw[0]), str(raw[1])
 
 

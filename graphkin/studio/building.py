@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from cmath import phase, rect
 from collections.abc import Callable, Iterator, Mapping
 from itertools import count, product
@@ -12,6 +13,7 @@ from typing import Any
 import tomlkit
 from msgspec import Struct
 from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import SingleKey
 
 from graphkin.construction.core.branches import block_of, choosing
 from graphkin.mechanism import Mechanism
@@ -23,6 +25,7 @@ from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Dyad, Group, Stretched
 from graphkin.structure.pairs import Pin
 from graphkin.studio.sketch import (
+    DrawnWheel,
     Places,
     frame_places,
     grid_of,
@@ -33,6 +36,7 @@ from graphkin.studio.sketch import (
     solved,
     table_of,
     unit_of,
+    wheels_of,
 )
 from graphkin.text.errors import GraphkinError, Problem, SceneError
 
@@ -198,6 +202,9 @@ def plate(work: Builder, act: Act) -> None:
     """One more pin of a link: by its distances to the first two, or on their line."""
     table = work.known_link(act.of[0])
     points = work.links[act.of[0]]
+    if len(points) == 1 and "wheel" in table:
+        spoke(work, table, points[0], act.at)
+        return
     if len(points) < 2:
         expected = "a link with two pins at least"
         raise SceneError(Problem(f"link {act.of[0]}", "has one pin alone", expected))
@@ -217,6 +224,55 @@ def plate(work: Builder, act: Act) -> None:
         table[f"{second}-{name}"] = work.length(abs(act.at - end))
         table[name] = f"{'left' if aside > 0 else 'right'} of {first}-{second}"
         work.places[name] = act.at
+
+
+def spoke(work: Builder, table: Any, centre: str, at: complex) -> None:
+    """A pin of a wheel that had its centre alone."""
+    way, name = at - work.place(centre), work.point_name()
+    table.pop(centre)
+    length = table[f"{centre}-{name}"] = work.length(abs(way))
+    work.places[name] = work.place(centre) + rect(length, radians(turned(way)))
+    turned_driver(work, next(link for link, held in work.links.items() if name in held), name)
+
+
+def wheel(work: Builder, act: Act) -> None:
+    """A wheel about a pin: it turns about a fixed one, or rolls on a wheel or on a straight track.
+
+    The pin of a moving link alone lets it roll on the frame, on the line that it touches there.
+    """
+    centre, *rest = act.of
+    at, table = work.place(centre), tomlkit.inline_table()
+    if rest:
+        other = meeting(work, rest[0], at)
+        way = abs(at - work.place(other.centre))
+        outside = way > other.radius
+        table.update({"centre": centre, "radius": number(abs(way - other.radius))})
+        if not outside and not other.inside:
+            found = f"{centre} lies inside the wheel of link {other.link}"
+            raise SceneError(Problem("wheel", found, "a centre outside it"))
+        rolls: dict[str, Any] = {"on": key_of(other.link)}
+    else:
+        radius = work.length(abs(act.at - at))
+        table.update({"centre": centre, "radius": radius})
+        angle = turned((at - act.at) / 1j, 5.0)
+        through = work.pair(at - rect(1.0, radians(angle)) * 1j * radius)
+        rolls = {"on": 0, "through": through, "angle": number(angle)}
+    _, link = work.new_link()
+    link[centre] = work.pair(0j)
+    link["wheel"] = table
+    if rest or centre not in work.fixed:
+        link["rolls"] = tomlkit.inline_table()
+        link["rolls"].update(rolls)
+
+
+def meeting(work: Builder, link: str, at: complex) -> DrawnWheel:
+    """The wheel of a link whose rim lies nearest to a place. Raises SceneError for none."""
+    all_wheels = [each for each in wheels_of(work.document.unwrap()) if each.link == link]
+    placed = [each for each in all_wheels if each.centre in work.places]
+    if not placed or any(abs(at - work.place(each.centre)) < work.grid for each in placed):
+        found = f"cannot roll on link {link} from here"
+        raise SceneError(Problem("wheel", found, "a wheel about another centre"))
+    return min(placed, key=lambda each: abs(abs(at - work.place(each.centre)) - each.radius))
 
 
 def block(work: Builder, act: Act) -> None:
@@ -255,7 +311,8 @@ def driver(work: Builder, act: Act) -> None:
     name = act.of[0]
     work.known_link(name)
     points = work.links[name]
-    if not set(points) & set(work.fixed) or len(points) < 2:
+    lone = len(points) < 2
+    if not set(points) & set(work.fixed) or (lone and "wheel" not in work.document["links"][name]):
         hint = "a bar that turns about a fixed pin can be driven"
         raise SceneError(Problem(f"link {name}", "is at no fixed pin", "a crank", hint))
     if "drivers" not in work.document:
@@ -266,7 +323,7 @@ def driver(work: Builder, act: Act) -> None:
         raise SceneError(Problem(f"link {name}", "is driven already", "another link"))
     table = tomlkit.table()
     table["turn"] = key_of(name)
-    table["angle"] = number(turned(work.place(points[1]) - work.place(points[0])))
+    table["angle"] = 0 if lone else number(turned(work.place(points[1]) - work.place(points[0])))
     table["speed"] = number(act.speed)
     drivers.append(table)
 
@@ -275,12 +332,19 @@ def move(work: Builder, act: Act) -> None:
     """A point goes elsewhere: the numbers that say where it lies follow."""
     point = act.of[0]
     work.place(point)
+    if not moved(work, point, act.at):
+        found = "its place follows from expressions or from the rest"
+        raise SceneError(Problem(point, found, "a point whose lengths are numbers"))
+
+
+def moved(work: Builder, point: str, at: complex) -> bool:
+    """Let the numbers that place a point follow it; whether there are any."""
     frame, changed = table_of(work.document, "frame"), False
-    work.places[point] = act.at
+    work.places[point] = at
     if point in frame:
         if not is_place(frame[point]):
             raise SceneError(Problem(f"frame.{point}", "is written as an expression", "numbers"))
-        frame[point] = work.pair(act.at)
+        frame[point] = work.pair(at)
         work.places[point] = complex(*frame[point])
         changed = True
     for name, table in links_of(work.document).items():
@@ -291,9 +355,109 @@ def move(work: Builder, act: Act) -> None:
                 table[key] = work.length(abs(other - one))
                 changed = True
         changed |= turned_driver(work, name, point)
-    if not changed:
-        found = "its place follows from expressions or from the rest"
-        raise SceneError(Problem(point, found, "a point whose lengths are numbers"))
+    return changed
+
+
+def join(work: Builder, act: Act) -> None:
+    """A pin is laid on another and is one with it: a fixed one keeps its name, else the other."""
+    first, second = act.of[0], act.of[-1]
+    goal = work.place(second)
+    work.place(first)
+    refuse_join(work, first, second)
+    moved(work, first, goal)
+    gone, kept = (second, first) if first in work.fixed else (first, second)
+    branches = table_of(work.document, "branches")
+    for key in (gone, kept):
+        branches.pop(key, None)
+    for table in links_of(work.document).values():
+        renamed(table, gone, kept)
+    for driver in work.document.get("drivers", ()):
+        renamed(driver, gone, kept)
+    for key in list(branches):
+        if {gone, kept} & {*str(branches[key]).replace("-", " ").split()}:
+            branches.pop(key)
+    named_anew(table_of(work.document, "ask"), gone, kept)
+    work.places.pop(gone)
+    work.document = tomlkit.parse(tomlkit.dumps(work.document))
+
+
+def refuse_join(work: Builder, first: str, second: str) -> None:
+    """Raise SceneError where two pins cannot be one."""
+    both = f"{first} and {second}"
+    if first == second:
+        raise SceneError(Problem(first, "is one pin already", "another pin"))
+    bodies = {FRAME: work.fixed, **work.links}
+    for name, points in bodies.items():
+        if first in points and second in points:
+            whole = "the frame" if name == FRAME else f"link {name}"
+            raise SceneError(Problem(both, f"belong both to {whole}", "pins of two links"))
+    tables = links_of(work.document)
+    ones = [name for name, points in bodies.items() if first in points]
+    others = [name for name, points in bodies.items() if second in points]
+    for one, other in product(ones, others):
+        names = " and ".join(
+            "the frame" if each == FRAME else f"link {each}" for each in (one, other)
+        )
+        if {*bodies[one]} & {*bodies[other]}:
+            found = f"{names} would share two pins and be one body"
+            raise SceneError(Problem(both, found, "links that share one pin"))
+        for block, guide in ((one, other), (other, one)):
+            slides = raw(tables.get(block, {}).get("slides"))
+            if isinstance(slides, Mapping) and str(slides.get("on")) == guide:
+                found = f"the block {block} would be pinned to its own guide"
+                raise SceneError(Problem(both, found, "a pin of another link"))
+
+
+PLACED = ("slides", "rolls", "wheel", "wheels")
+"""Keys of a link whose tables name points."""
+NAMING = ("through", "along", "centre", "from", "of")
+"""Keys under which one point or a line of two is named."""
+PHRASES = ("left", "right", "on", "beyond")
+"""How a text begins that says where a point lies."""
+
+
+def renamed(table: Any, gone: str, kept: str) -> None:
+    """Give a point another name, in the keys of a link or driver and in what they say."""
+    for key in list(table):
+        value = table[key]
+        if key in NAMING or (
+            isinstance(raw(value), str)
+            and str(value).split()[:1] != []
+            and str(value).split()[0] in PHRASES
+        ):
+            table[key] = in_words(str(value), gone, kept)
+        elif isinstance(raw(value), list) and key in PLACED:
+            for each in value:
+                renamed(each, gone, kept)
+        elif isinstance(raw(value), dict):
+            renamed(value, gone, kept)
+    body = table.value.body if hasattr(table.value, "body") else []
+    for n, (key, value) in enumerate(body):
+        if key is None or key.key in KEYWORDS or gone not in key.key.split("-"):
+            continue
+        shown = key.as_string()
+        sep = shown[len(shown.rstrip()) :] + key.sep
+        own = SingleKey(in_words(key.key, gone, kept), sep=sep)
+        body[n] = (own, value)
+
+
+def in_words(words: str, gone: str, kept: str) -> str:
+    """A line or phrase with another name for one of its points."""
+    return re.sub(rf"\b{re.escape(gone)}\b", kept, words)
+
+
+def named_anew(ask: Any, gone: str, kept: str) -> None:
+    """Ask of a point under its other name, and once."""
+    for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
+        said = {str(each) for each in ask[key]}
+        for n in reversed(range(len(ask[key]))):
+            point, at, link = str(ask[key][n]).partition("@")
+            if point != gone:
+                continue
+            if f"{kept}{at}{link}" in said:
+                del ask[key][n]
+            else:
+                ask[key][n] = f"{kept}{at}{link}"
 
 
 def turned_driver(work: Builder, link: str, point: str) -> bool:
@@ -319,8 +483,14 @@ def delete(work: Builder, act: Act) -> None:
             for key in [key for key in table if says(name, key, table[key])]:
                 table.pop(key)
     for link, points in work.links.items():
-        if "slides" not in links[link] and len(points) < 2:
+        held = links[link]
+        if not {"slides", "wheel", "wheels"} & set(held) and len(points) < 2:
             links.pop(link)
+        elif isinstance(held.get("rolls"), dict) and str(held["rolls"].get("on")) not in {
+            FRAME,
+            *work.links,
+        }:
+            held.pop("rolls")
     for link, points in work.links.items():
         others = {point for name, held in work.links.items() if name != link for point in held}
         if "slides" in links[link] and not others & set(points):
@@ -333,6 +503,8 @@ def delete(work: Builder, act: Act) -> None:
 
 def says(point: str, key: str, value: object) -> bool:
     """Whether a key of a link, or what it says, names a point."""
+    if key in ("wheel", "rolls") and isinstance(value, Mapping):
+        return point in (str(value.get("centre")), str(value.get("through")))
     if key == "slides" and isinstance(value, Mapping):
         named = (str(value.get("along", "")), str(value.get("through", "")))
         return any(point in each.split("-") for each in named)
@@ -367,7 +539,8 @@ def close(work: Builder, act: Act) -> None:
 
 
 KINDS: Mapping[str, Callable[[Builder, Act], None]] = {
-    each.__name__: each for each in (pivot, bar, plate, block, driver, move, delete, close)
+    each.__name__: each
+    for each in (pivot, bar, plate, block, wheel, driver, move, join, delete, close)
 }
 
 

@@ -40,6 +40,15 @@ class Block(Struct, frozen=True):
     along: tuple[float, float]
 
 
+class DrawnWheel(Struct, frozen=True):
+    """A wheel: its link, its centre, its radius, whether it is a ring."""
+
+    link: str
+    centre: str
+    radius: float
+    inside: bool = False
+
+
 class Ghost(Struct, frozen=True):
     """A point where it lies in another closure, and the words that choose it."""
 
@@ -51,7 +60,7 @@ class Ghost(Struct, frozen=True):
 
 
 class Sketch(Struct, frozen=True):
-    """Points by name, the points of each link, blocks, driven links, other closures."""
+    """Points by name, the points of each link, blocks, wheels, driven links, other closures."""
 
     unit: str
     grid: float
@@ -59,6 +68,7 @@ class Sketch(Struct, frozen=True):
     fixed: list[str]
     links: dict[str, list[str]]
     blocks: list[Block]
+    wheels: list[DrawnWheel]
     driven: list[str]
     ghosts: list[Ghost]
 
@@ -90,6 +100,7 @@ def sketch(
         fixed,
         links,
         [block for block in blocks_of(tables, found) if block.point in found],
+        [wheel for wheel in wheels_of(tables) if wheel.centre in found],
         [str(each.get("turn")) for each in drivers_of(tables) if "turn" in each],
         ghosts[:GHOSTS],
     )
@@ -158,6 +169,22 @@ def blocks_of(tables: Mapping[str, Any], places: Places) -> Iterator[Block]:
         elif len(along) == 2 and all(point in places for point in along):
             way = places[along[1]] - places[along[0]]
             yield Block(name, points[0], (way.real, way.imag))
+
+
+def wheels_of(tables: Mapping[str, Any]) -> Iterator[DrawnWheel]:
+    """The wheels whose radius the text gives by a number, or by teeth and a module."""
+    for name, table in {FRAME: table_of(tables, "frame"), **links_of(tables)}.items():
+        listed = table.get("wheels")
+        for each in [table.get("wheel"), *(listed if isinstance(listed, list) else [])]:
+            if not isinstance(each, Mapping):
+                continue
+            radius: Any = each.get("radius")
+            teeth: Any = each.get("teeth")
+            module: Any = tables.get("module")
+            if is_number(teeth) and is_number(module):
+                radius = teeth * module / 2
+            if is_number(radius) and isinstance(each.get("centre"), str):
+                yield DrawnWheel(name, each["centre"], float(radius), each.get("inside") is True)
 
 
 def solved(mechanism: Mechanism) -> dict[str, complex]:

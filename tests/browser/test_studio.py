@@ -358,6 +358,24 @@ def test_what_is_not_saved_is_kept_over_a_reload_and_replaces_no_newer_file(stud
     assert page.inner_text("#status") == ""
 
 
+@pytest.mark.parametrize("size", [(1440, 900), (1280, 720), (820, 1180)])
+@pytest.mark.parametrize("lab", ["pump", "slotted-lever"])
+def test_each_field_shows_its_drawing_whole(studio, lab, size):
+    page = studio(f"?lab={lab}", viewport={"width": size[0], "height": size[1]})
+    at_rest(page)
+    fields = page.evaluate(
+        """[...document.querySelectorAll(".drawing")].map((field) => {
+          const [inner, outer] = [field.querySelector("svg"), field].map((each) => {
+            const { x, y, right, bottom } = each.getBoundingClientRect();
+            return [x, y, -right, -bottom];
+          });
+          return inner.map((edge, i) => edge - outer[i]);
+        })"""
+    )
+    assert len(fields) == 3
+    assert min(min(edges) for edges in fields) > -1
+
+
 def test_hostile_titles_are_shown_as_text(studio, place):
     evil = "<img src=x onerror=alert(1)><script>alert(2)</script>"
     text = PUMP.replace('en = "Pump mechanism"', f'en = "{evil}"') + f"# </textarea>{evil}\n"

@@ -154,6 +154,22 @@ def test_a_slotted_lever_is_built_from_an_empty_field(hand):
     same(hand.text, "slotted-lever", "ABC")
 
 
+def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
+    hand.pivot(0)
+    hand.settled(lambda: hand.drag("wheel", 0, 60))
+    hand.bar("O1", 100j)
+    hand.settled(lambda: hand.drag("wheel", hand.place("A"), 60j))
+    hand.settled(lambda: hand.drag("plate", hand.place("A") + 40, hand.place("A") + 25))
+    hand.driver(30j, 100)
+    hand.driver(60 * (-1) ** 0.25, -50)
+    assert hand.page.inner_text("#count") == "No mistakes."
+    links = Mechanism(read_text(hand.text, "own", None, {})).solve().links
+    turned = [links[name].omega / links["2"].omega for name in ("1", "3")]
+    assert turned == pytest.approx([-0.5, 1 + 1.5 * 1.5])
+    assert hand.page.locator("#canvas circle.wheel").count() == 2
+    assert not barred(hand.page)
+
+
 def four_bar(hand: Hand) -> None:
     """Build the four-bar of a Watt chain with a coupler point."""
     hand.pivot(0)
@@ -193,6 +209,27 @@ def test_a_four_bar_is_built_changed_and_taken_back(hand):
             break
         page.click("#undo")
     assert hand.text.count("[") == 0
+
+
+def test_a_pin_dragged_onto_another_is_joined_with_it_or_told_why_not(hand):
+    hand.pivot(0)
+    hand.pivot(220)
+    hand.bar("O1", 40 + 70j)
+    hand.bar("O2", 250 + 150j)
+    hand.bar("A", 150 + 200j)
+    hand.driver(0.5 * hand.place("A"), 57)
+    assert hand.page.inner_text("#count") != "No mistakes."
+    hand.settled(lambda: hand.drag("move", hand.place("C"), hand.place("B")))
+    assert hand.page.inner_text("#count") == "No mistakes."
+    joined_links = read_text(hand.text, "own", None, {}).links
+    assert set(joined_links["3"].points) == {"A", "B"}
+    joined = hand.text
+    hand.drag("move", hand.place("A"), hand.place("O2"))
+    hand.page.wait_for_selector("#told:not([hidden])")
+    assert "would share two pins" in hand.page.inner_text("#told")
+    assert hand.text == joined
+    hand.settled(lambda: hand.page.click("#undo"))
+    assert "A-C" in hand.text
 
 
 def test_what_is_impossible_is_told_at_the_pointer(hand):

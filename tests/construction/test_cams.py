@@ -1,5 +1,7 @@
 """Cams by their law: v = s'ω and a = s"ω² + s'ε, by two routes; the profile is the envelope."""
 
+import csv
+import io
 from fractions import Fraction
 from pathlib import Path
 
@@ -8,9 +10,11 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Certifier
+from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.construction.cams import cam_centre
 from graphkin.construction.core.cam_profiles import CamProfile
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.cycle import cycle
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError, StructureError
@@ -140,12 +144,134 @@ def test_both_routes_and_the_law_agree_all_the_way_round(tip, motion):
         assert mechanism.witness(solution).agrees
 
 
+LEVER = """
+graphkin = 1
+title = "lever"
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[parameters]
+at = {{ value = {at}, min = -720, max = 720 }}
+[frame]
+O = [{x}, {y}]
+Q = ["{x} + {qx}", "{y} + {qy}"]
+[links.cam]
+O-A = {base}
+[links.lever]
+Q-B = {arm}
+[links.lever.cam]
+on = "cam"
+tip = "{tip}"
+side = "{side}"
+base = {base}
+{told}
+start = {start}
+clockwise = {clock}
+law = [
+  {{ to = 110, rise = {rise}, motion = "{motion}" }}, {{ to = 170 }},
+  {{ to = 310, rise = -{rise}, motion = "{back}" }}, {{ to = 360 }},
+]
+[[drivers]]
+turn = "cam"
+angle = "at"
+speed = {speed}
+acceleration = {push}
+"""
+
+
+def drawn_lever(rng, tip, motion):
+    """A lever of random size on either side of its cam, and what it is made of."""
+    size, base, way = 10 ** rng.uniform(-3, 6), rng.uniform(0.5, 0.8), rng.uniform(-np.pi, np.pi)
+    apart = size * rng.uniform(1.8, 2.6)
+    data = {
+        "at": rng.uniform(-180, 180),
+        "x": size * rng.uniform(-3, 3),
+        "y": size * rng.uniform(-3, 3),
+        "qx": apart * np.cos(way),
+        "qy": apart * np.sin(way),
+        "arm": apart * rng.uniform(0.8, 1.1),
+        "side": rng.choice(["left", "right"]),
+        "base": size * base,
+        "start": rng.uniform(-180, 180),
+        "clock": str(bool(rng.integers(2))).lower(),
+        "rise": rng.uniform(5, 25),
+        "speed": 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1]),
+        "motion": motion,
+        "back": rng.choice(list(MOTIONS)),
+    }
+    data["push"] = data["speed"] ** 2 * rng.uniform(-2, 2)
+    told = {"roller": "roller = {:.17g}", "flat": "face = {:.17g}", "knife": ""}[tip]
+    told = told.format(size * rng.uniform(0.1, 0.3))
+    numbers = {k: f"{v:.17g}" if isinstance(v, float) else v for k, v in data.items()}
+    return read_text(LEVER.format(tip=tip, told=told, **numbers), "lever"), data
+
+
+@pytest.mark.parametrize("tip", ["roller", "knife", "flat"])
+@pytest.mark.parametrize("motion", MOTIONS)
+def test_a_lever_swings_by_its_law_all_the_way_round(tip, motion):
+    """At 12 positions: ω = ψ'ω₁ and ε = ψ"ω₁² + ψ'ε₁ away from the cam, by both routes."""
+    rng = np.random.default_rng([7, len(tip), list(MOTIONS).index(motion)])
+    scene, data = drawn_lever(rng, tip, motion)
+    away = -1 if data["side"] == "left" else 1
+    swung = {**data, "rise": np.radians(data["rise"]) * 1000}  # by_hand divides by it
+    for at in np.linspace(-180, 180, 12, endpoint=False) + 3.3:
+        mechanism = Mechanism(replace(scene, values={**scene.values, "at": Fraction(float(at))}))
+        solution = mechanism.solve()
+        lever = solution.links["lever"]
+        rate, bend = by_hand(swung, at)
+        size = abs(data["speed"])
+        assert lever.omega == pytest.approx(away * rate * data["speed"], rel=1e-8, abs=1e-8 * size)
+        expected = away * (bend * data["speed"] ** 2 + rate * data["push"])
+        assert lever.epsilon == pytest.approx(expected, rel=1e-7, abs=1e-8 * size**2)
+        assert mechanism.witness(solution).agrees
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_lever_stands_on_the_side_that_is_written(side):
+    text = (SCENES / "cam-rocker.toml").read_text(encoding="utf-8")
+    scene = read_text(text.replace('side = "left"', f'side = "{side}"'), "cam")
+    places = {name: each.position for name, each in Mechanism(scene).solve().points.items()}
+    pin, tip = places["Q"] - places["O"], places["B"] - places["O"]
+    assert ((pin.conjugate() * tip).imag > 0) is (side == "left")
+
+
+def test_on_the_base_circle_a_lever_rests_at_its_radius():
+    rocker = load(SCENES / "cam-rocker.toml", angle=0).solve().points
+    assert abs(rocker["B"].position) == pytest.approx(0.042, abs=1e-15)
+    lever = load(SCENES / "cam-lever.toml", angle=0).solve().points
+    bar = lever["B"].position - lever["Q"].position
+    beside = (bar.conjugate() * lever["Q"].position).imag / abs(bar)
+    assert abs(beside) == pytest.approx(0.044, abs=1e-15)
+
+
+def test_a_lever_too_short_to_rest_on_its_cam_is_refused():
+    text = (SCENES / "cam-rocker.toml").read_text(encoding="utf-8")
+    short = text.replace("Q-B = 65", "Q-B = 30")
+    with pytest.raises(StructureError, match="Q-B is 30 mm long; expected a triangle"):
+        Mechanism(read_text(short, "cam")).solve()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place"),
+    [
+        ('side = "left"', 'side = "lef"', "links.2.cam.side"),
+        ("roller = 10", "roller = 10\nface = 3", "links.2.cam.face"),
+        ("Q-B = 65", "P-B = 65", "links.2.cam"),
+        ("rise = -24", "rise = -23", "links.2.cam.law"),
+    ],
+)
+def test_one_mistake_of_a_lever_is_one_error(old, new, place):
+    text = (SCENES / "cam-rocker.toml").read_text(encoding="utf-8")
+    with pytest.raises(SceneError) as error:
+        read_text(text.replace(old, new), "cam")
+    assert [problem.place for problem in error.value.problems] == [place]
+
+
+@pytest.mark.parametrize("scene", ["cam-roller", "cam-rocker", "cam-lever"])
 @pytest.mark.parametrize("face", ["lift", "lift_rate", "lift_bend"])
-def test_a_wrong_law_in_the_construction_does_not_pass_the_witness(face, monkeypatch):
+def test_a_wrong_law_in_the_construction_does_not_pass_the_witness(face, scene, monkeypatch):
     right = getattr(cam_centre, face)
     wrong = replace(right, value=lambda *args: right.value(*args) * 1.001)
     monkeypatch.setattr(cam_centre, face, wrong)
-    mechanism = load(SCENES / "cam-roller.toml")
+    mechanism = load(SCENES / f"{scene}.toml")
     assert not mechanism.witness(mechanism.solve()).agrees
 
 
@@ -160,20 +286,19 @@ def test_an_eccentric_disc_by_its_law_is_the_disc(angle):
     assert law.points["F"].acceleration == pytest.approx(disc.points["F"].acceleration, abs=1e-11)
 
 
-@pytest.mark.parametrize("name", ["cam-roller", "cam-knife", "cam-flat"])
+@pytest.mark.parametrize("name", ["cam-roller", "cam-knife", "cam-flat", "cam-rocker", "cam-lever"])
 def test_the_profile_is_the_envelope_of_the_follower(name):
     """Seen from the cam the tip always touches the outline, and never cuts into it."""
     mechanism = load(SCENES / f"{name}.toml")
     profile = CamProfile(mechanism.scene, "2", 3600)
-    along, _ = profile.guide
     for number in range(0, 3600, 150):
         turn = np.exp(1j * profile.angles[number])
         outline = profile.outline * turn
-        place = profile.pitch[0][number]
         if profile.cam.is_flat:
-            gap = profile.height[number] - (outline * np.conj(along)).real.max()
+            normal = profile.flat.normal * np.ones(3600)
+            gap = (profile.flat.gap - (outline * np.conj(normal[number])).real.max())[number]
         else:
-            gap = abs(outline - place).min() - profile.roller
+            gap = abs(outline - profile.tip.place[number]).min() - profile.roller
         assert gap == pytest.approx(0, abs=1e-6)
 
 
@@ -215,6 +340,19 @@ def test_the_pressure_angle_is_that_of_the_closed_form():
     reach = np.sqrt(0.05**2 - 0.01**2) + profile.rise.at
     expected = np.degrees(np.arctan(abs(profile.rise.rate - 0.01) / reach))
     assert profile.pressure == pytest.approx(expected, abs=1e-9)
+
+
+def test_the_table_of_a_cycle_has_the_pressure_angle_and_the_radius_of_curvature():
+    """tan α of the row's angle; the mean radius of a disc about its own centre is its radius."""
+    rows = list(csv.DictReader(io.StringIO(cycle_table(cycle(load(SCENES / "cam-roller.toml"))))))
+    assert len(rows) > 300
+    for row in rows[::20]:
+        solved = load(SCENES / "cam-roller.toml", angle=Fraction(row["phi [deg]"])).solve()
+        normal = solved.points["B"].position - solved.points["K"].position
+        slope = abs(np.degrees(np.arctan2(normal.real, normal.imag)))
+        assert float(row["pressure_2 [deg]"]) == pytest.approx(slope, abs=1e-9)
+        rho = abs(normal) - 0.01
+        assert float(row["radius_2 [m]"]) == pytest.approx(rho, rel=1e-9)
 
 
 def test_every_mistake_of_a_cam_is_told_at_its_place():

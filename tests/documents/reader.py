@@ -583,7 +583,7 @@ class Reader:
         self.put(name, self.at(p) + along * self.length(s, t))
 
     @says(
-        r"by the law s = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm at ⟨angle:number⟩° "
+        r"by the law [sψ] = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm at ⟨angle:number⟩° "
         r"to the x axis: ⟨name⟩, the centre of curvature of cam ⟨g:number⟩"
     )
     def centre_of_curvature(self, p: str, size: str, angle: str, name: str, **_: str) -> None:

@@ -23,6 +23,7 @@ CLOSE = 0.3
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 APART = {
     "cam-flat": "the face of a follower, told by its guide",
+    "cam-lever": "the face of a lever, told by its bar",
     "gears-double-planet": "trials",
     "gears-ravigneaux": "trials",
     "gears-simpson": "trials",

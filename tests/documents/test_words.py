@@ -200,6 +200,7 @@ def test_every_sentence_is_used():
         "belts-crossed",
         "cam-flat",
         "cam-knife",
+        "cam-lever",
         "gears-ravigneaux",
         "stephenson-2-binary",
         "two-loops",

@@ -110,7 +110,11 @@ def test_the_witness_agrees():
         ('touches = { on = 2, centres = "K1-K2", radii = [1, 1], far = 2 }', "far"),
         (
             'touches = { on = 2, centres = "K1-K2", radii = [2, 1], inside = true }',
-            "(1) - (2)",
+            "the hollow's 1 is no more than this profile's 2",
+        ),
+        (
+            'touches = { on = 2, centres = "K1-K2", radii = [2, 2], inside = true }',
+            "one centre: write it as a pin",
         ),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.sketch import sketch
@@ -74,6 +75,79 @@ def test_a_pin_on_the_line_of_a_bar_is_written_so():
     assert abs(places_of(after)["E"] - at) < 1e-9
 
 
+LOOSE = """graphkin = 1
+title = "Loose"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+
+[frame]
+O1 = [0, 0] # left
+O2 = [220, 0]
+
+[links.1]
+O1-A = 80 # crank
+
+[links.2]
+A-B = 220
+
+[links.3] # rocker, not joined yet
+O2-C = 150
+C-D = 40
+O2-D = 160
+D = "left of O2-C"
+
+[[drivers]]
+turn = 1
+angle = 60
+speed = 57
+
+[ask]
+velocity = ["B", "C", "D"]
+"""
+"""A four-bar whose coupler B ends beside the rocker's pin C."""
+PUT = {"A": 40 + 69.3j, "B": 255 + 120j, "C": 250 + 147j, "D": 215 + 160j}
+
+
+def test_pins_that_are_joined_are_one_and_the_mechanism_closes():
+    places = {**PUT, "O1": 0j, "O2": 220 + 0j}
+    for one, other in (("B", "C"), ("C", "B")):
+        after = built(LOOSE, Act("join", (one, other), 0j, places)).text
+        scene = read_text(after, "own", None, {})
+        assert set(scene.links["2"].points) == {"A", other}
+        assert set(scene.links["3"].points) == {"O2", other, "D"}
+        assert scene.ask.velocity == (other, "D") or set(scene.ask.velocity) == {other, "D"}
+        assert other in scene.branches
+        assert "# rocker, not joined yet" in after
+        assert places_of(after)[other]
+
+
+def test_a_pin_laid_on_a_fixed_one_or_a_fixed_one_on_it_is_fixed():
+    text = PUMP.replace("[links.1]", "O3 = [20, -25]\n\n[links.1]", 1)
+    for of in (("D", "O3"), ("O3", "D")):
+        free = text.split("[links.5]")[0] + "[[drivers]]" + text.split("[[drivers]]")[1]
+        places = {**places_of(PUMP), "O3": 20 - 25j}
+        after = built(free, Act("join", of, 0j, places)).text
+        assert "C-O3 = " in after
+        assert "O3 = [" in after
+        assert "C-D" not in after
+
+
+@pytest.mark.parametrize(
+    ("of", "words"),
+    [
+        (("O1", "O2"), "belong both to the frame"),
+        (("A", "C"), "belong both to link 3"),
+        (("A", "O2"), "would share two pins"),
+        (("B", "A"), "belong both to link 3"),
+        (("D", "O1"), "pinned to its own guide"),
+        (("A", "A"), "is one pin already"),
+        (("A", "Q"), "is at no known place"),
+    ],
+)
+def test_pins_that_cannot_be_one_are_told(of, words):
+    with pytest.raises(SceneError, match=words):
+        done(PUMP, "join", *of)
+
+
 @pytest.mark.parametrize(
     ("kind", "of", "words"),
     [
@@ -102,3 +176,66 @@ def test_no_act_ends_in_a_fault(kind, name):
             built(text, Act(kind, (name,), 1 + 1j, {"A": 0j, "O1": 1j}))
         except SceneError as error:
             assert error.problems
+
+
+GEARS = """graphkin = 1
+title = "Gears"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+
+[frame]
+O1 = [0, 0]
+O2 = [150, 0]
+"""
+
+
+def test_two_wheels_about_fixed_pins_drive_one_another():
+    text = done(GEARS, "wheel", "O1", at=50 + 0j)
+    assert "rolls" not in text
+    text = done(text, "wheel", "O2", "1", at=50 + 0j)
+    text = done(text, "driver", "1", at=50j, speed=60)
+    solved = Mechanism(read_text(text, "own", None, {})).solve()
+    assert solved.links["2"].omega == pytest.approx(-solved.links["1"].omega / 2)
+    assert [wheel.radius for wheel in sketch(text, "own", {}).wheels] == [50, 100]
+
+
+def test_a_wheel_on_an_arm_rolls_on_the_sun():
+    text = done(GEARS, "wheel", "O1", at=60 + 0j)
+    text = done(text, "bar", "O1", at=90j)
+    text = built(text, Act("wheel", ("A", "1"), 60j, {"O1": 0j, "A": 90j})).text
+    text = built(text, Act("driver", ("2",), 45j, {"O1": 0j, "A": 90j}, speed=100)).text
+    text = built(text, Act("driver", ("1",), 60j, {"O1": 0j, "A": 90j}, speed=0)).text
+    solved = Mechanism(read_text(text, "own", None, {})).solve()
+    assert solved.links["3"].omega == pytest.approx(3 * solved.links["2"].omega)
+    after = built(text, Act("plate", ("3",), 110j, {"O1": 0j, "A": 90j})).text
+    assert "A-B = 20" in after
+    assert "B" in Mechanism(read_text(after, "own", None, {})).solve().points
+
+
+def test_a_wheel_on_a_moving_pin_rolls_on_the_line_that_it_touches():
+    text = done(GEARS, "bar", "O1", at=30 + 40j)
+    places = {"O1": 0j, "O2": 150 + 0j, "A": 30 + 40j}
+    text = built(text, Act("bar", ("A",), 230 + 5j, places)).text
+    places["B"] = 230 + 5j
+    text = built(text, Act("wheel", ("B",), 230 - 25j, places)).text
+    text = built(text, Act("driver", ("1",), 15 + 20j, places, speed=60)).text
+    solved = Mechanism(read_text(text, "own", None, {})).solve()
+    speed = solved.points["B"].velocity
+    assert abs(speed.imag) < 1e-9
+    assert abs(solved.links["3"].omega) == pytest.approx(abs(speed) / 0.03)
+    assert places_of(text)["B"].real > 150
+    gone = done(text, "delete", "3", words="link")
+    assert "wheel" not in gone
+
+
+@pytest.mark.parametrize(
+    ("of", "at", "words"),
+    [
+        (("O1", "9"), 0j, "cannot roll on link 9"),
+        (("O1", "1"), 0j, "a wheel about another centre"),
+        (("O3", "1"), 0j, "lies inside the wheel"),
+    ],
+)
+def test_wheels_that_cannot_meet_are_told(of, at, words):
+    text = done(GEARS + "O3 = [20, 0]\n", "wheel", "O1", at=50 + 0j)
+    with pytest.raises(SceneError, match=words):
+        done(text, "wheel", *of, at=at)

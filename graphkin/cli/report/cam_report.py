@@ -10,6 +10,8 @@ from graphkin.scene.model import Scene
 
 STEEP = 30.0
 """Pressure angle of a sliding follower that textbooks advise not to exceed, in degrees."""
+STEEP_LEVER = 45.0
+"""The same of one that swings."""
 
 
 def cam_lines(scene: Scene) -> Iterator[str]:
@@ -17,10 +19,12 @@ def cam_lines(scene: Scene) -> Iterator[str]:
     unit = scene.units["length"]
     for follower, cam in scene.cams.items():
         profile = CamProfile(scene, follower)
-        yield f"link {cam.on} lifts link {follower} by a {cam.tip} follower"
-        if not cam.is_flat:
+        moves = "swings" if cam.lever else "lifts"
+        yield f"link {cam.on} {moves} link {follower} by a {cam.tip} follower"
+        if cam.lever or not cam.is_flat:
             angle, at = profile.steepest
-            over = f", above the usual {STEEP:g}°" if angle > STEEP else ""
+            steep = STEEP_LEVER if cam.lever else STEEP
+            over = f", above the usual {steep:g}°" if angle > steep else ""
             yield f"  pressure angle at most {angle:.2f}° (at {at:.1f}° of the law){over}"
         radius, at = profile.sharpest
         size = f"{radius / METRES[unit]:.4g} {unit}"

@@ -59,6 +59,7 @@ def columns_of(cycle: Cycle) -> Iterator[Column]:
     yield from of_points(cycle)
     yield from of_links(cycle)
     yield from of_slides(cycle)
+    yield from of_cams(cycle)
     for pin, margin in cycle.margins.items():
         yield f"margin_{pin}", margin
     if not cycle.witnessed.refused:
@@ -101,6 +102,13 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
                 place = centre.start + centre.shift / centre.size
             yield f"Ix_{name} [m]", place.real
             yield f"Iy_{name} [m]", place.imag
+
+
+def of_cams(cycle: Cycle) -> Iterator[Column]:
+    """The pressure angle and the radius of curvature of every cam that the driver turns."""
+    for follower, profile in cycle.profiles.items():
+        yield f"pressure_{follower} [deg]", profile.pressure
+        yield f"radius_{follower} [m]", profile.radius
 
 
 def of_slides(cycle: Cycle) -> Iterator[Column]:

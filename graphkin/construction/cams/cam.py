@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.construction.cams.cam_centre import coordinate, height
+from graphkin.construction.cams.cam_centre import coordinate, height, set_lever
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import turned_with
@@ -13,9 +13,15 @@ from graphkin.structure.pairs import Pin, Sliding
 
 
 def place(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
-    """The follower at the coordinate that the law of its cam gives."""
+    """The follower at the coordinate, or turned to the angle, that the law of its cam gives."""
     dyad = group.dyad
-    follower = dyad.links[1]
+    follower = next(link for link in dyad.links if link in pen.scene.cams)
+    lever = pen.scene.cams[follower].lever
+    if lever:
+        set_lever(pen, shapes, follower, lever)
+        if isinstance(dyad.inner, Sliding):
+            block_on(pen, shapes, dyad.inner, follower)
+        return
     line = height(pen, shapes, follower)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         where = pen.draw(coordinate, *line)
@@ -23,3 +29,10 @@ def place(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
     led_by(dyad.right).set_at(pen, shapes, follower, where)
     if isinstance(dyad.inner, Sliding):
         turned_with(pen, shapes, dyad.inner, follower)
+
+
+def block_on(pen: Pen, shapes: LinkShapes, pair: Sliding, lever: str) -> None:
+    """The block that stands for the contact, on the face of a lever that is set already."""
+    turned_with(pen, shapes, pair, lever)
+    under, block = pen.bases[lever].end, pen.bases[pair.block].start
+    pen.want("position", under or "", pen.the("position", block))

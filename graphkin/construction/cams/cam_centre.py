@@ -1,32 +1,36 @@
-"""The centre of curvature by which a cam moves its follower at an instant, and the law behind it.
-
-With the follower's point at w from the cam's pivot, and its displacement s(θ) along the unit vector
-u of the guide, the pitch curve runs in the cam's axes along t = s'u - iw and bends by
-m = s"u - 2is'u - w: its centre of curvature lies at w + it|t|²/(t×m). Under a flat face the
-distance h of the face is the support of the profile, whose centre lies at -s"u - s'iu.
-"""
+"""The follower of a cam where its law sets it, and the centre of curvature that moves it there."""
 
 from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Mapping
 from math import degrees
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import action
+from graphkin.construction.core.vocabulary import Action, action
+from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.guides.guides import axis, path_of
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
+from graphkin.numbers.cam_followers import (
+    guided_face,
+    guided_tip,
+    lever_way,
+    start_on_face,
+    start_on_tip,
+    swung_face,
+    swung_tip,
+)
 from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced
 from graphkin.numbers.plane import Line, cross, dot
-from graphkin.scene.model import Cam
+from graphkin.scene.model import Cam, CamLever
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -81,21 +85,76 @@ def coordinate(path: Line, pivot: Point, height: Real) -> Real:
     return dot(path.along, pivot - path.point) / abs(path.along) + height
 
 
+@action("cam-swing")
+def swing_on_tip(pivot: Point, pin: Point, arm: Real, prime: Real, lift: Real, side: int) -> Point:
+    """The direction of a lever whose roller or knife a cam lifts."""
+    return lever_way(pin - pivot, start_on_tip(pin - pivot, arm, prime), side, lift)
+
+
+@action("cam-swing")
+def swing_on_face(pivot: Point, pin: Point, face: Real, base: Real, lift: Real, side: int) -> Point:
+    """The direction of a lever whose flat face a cam lifts."""
+    return lever_way(pin - pivot, start_on_face(pin - pivot, base + face), side, lift)
+
+
 @action("cam-centre")
 def centre_under_tip(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> Point:
     """The centre of curvature of the pitch curve of a roller or a knife."""
     along = path.along / abs(path.along)
-    place = height * along + 1j * along * cross(along, path.point - pivot)
-    way = rate * along - 1j * place
-    turn = bend * along - rate * (2j * along) - place
-    return pivot + place + 1j * way * (dot(way, way) / cross(way, turn))
+    return pivot + guided_tip(along, cross(along, path.point - pivot), height, rate, bend).centre
 
 
 @action("cam-centre")
 def centre_under_face(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> Point:
     """The centre of curvature of the profile under a flat face."""
-    along = path.along / abs(path.along)
-    return pivot - along * bend - 1j * along * rate
+    return pivot + guided_face(path.along / abs(path.along), height, rate, bend).centre
+
+
+@action("cam-centre")
+def centre_under_lever(
+    pivot: Point, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
+) -> Point:
+    """The same under the tip of a lever."""
+    return pivot + swung_tip(pin - pivot, way * arm, side, rate, bend).centre
+
+
+@action("cam-centre")
+def centre_under_swung_face(
+    pivot: Point, pin: Point, way: Point, face: Real, rate: Real, bend: Real, side: int
+) -> Point:
+    """The same under the flat face of a lever."""
+    return pivot + swung_face(pin - pivot, way, face, side, rate, bend).centre
+
+
+@action("cam-lever")
+def lever_end(pin: Point, way: Point, arm: Real) -> Point:
+    """The end of a lever of known direction."""
+    return pin + way * arm
+
+
+class SwungLever(Construction, frozen=True, kw_only=True):
+    """The ``tip``, called ``name``, of a lever ``link`` that a cam has swung about its ``pin``."""
+
+    gives: ClassVar[tuple[str, ...]] = ("tip",)
+    reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
+    laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+
+    link: str
+    pin: str
+    name: str
+    tip: int
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The pin and the tip."""
+        return self.pin, self.name
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the angle of its bar in the plane."""
+        words, spot = drawing.words, drawing.standing.spot
+        angle = words.fixed(degrees(phase(spot(self.name) - spot(self.pin))), 1)
+        fields = {"p": symbol(self.pin), "name": symbol(self.name), "angle": angle}
+        return words("step.cam-lever", bar=bar(self.pin, self.name), **fields)
 
 
 class CurvatureCentre(Construction, frozen=True, kw_only=True):
@@ -139,6 +198,10 @@ class CurvatureCentre(Construction, frozen=True, kw_only=True):
         """The displacement of the follower and its derivatives, by numbers."""
         unit, values = drawing.scene.units["length"], drawing.trace.values
         numbers = (values[self.lift], values[self.rate], values[self.bend])
+        if drawing.scene.cams[self.follower].lever:
+            angle, rate, bend = degrees(numbers[0]), *numbers[1:]
+            s, rate, bend = (drawing.words.fixed(each, 3) for each in (angle, rate, bend))
+            return drawing.words("page.cam_swing", s=s, rate=rate, bend=bend)
         s, rate, bend = (drawing.words.fixed(drawing.length(each), 3) for each in numbers)
         return drawing.words("page.cam_law", s=s, rate=rate, bend=bend, unit=unit)
 
@@ -148,28 +211,72 @@ def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], 
     with pen.on(Part.POSITION, Plane.NUMBERS):
         start = pen.given("direction", cam.start)
         ends = [pen.given("number", piece.to) for piece in cam.law]
-        rises = [pen.given("length", piece.rise) for piece in cam.law]
+        form = "number" if cam.lever else "length"
+        rises = [pen.given(form, piece.rise) for piece in cam.law]
     codes = [float(NAMES.index(piece.motion)) for piece in cam.law]
     steps = axis(pen, shapes, cam.on), start, *ends, *rises
     return steps, (float(cam.sense), *codes)
 
 
+def once(pen: Pen, key: tuple[str, str], action: Action, *args: int, extra: Any = ()) -> int:
+    """A step that is drawn when first asked for under a key."""
+    if key not in pen.shared:
+        pen.draw_shared(key, action, *args, extra=extra)
+    return pen.shared[key]
+
+
+def lifted(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int]:
+    """The radius on which the tip begins, and the displacement of a follower."""
+    cam = pen.scene.cams[follower]
+    steps, extra = law_steps(pen, shapes, cam)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        prime = pen.given("length", cam.base)
+        if cam.tip == "roller":
+            roller = pen.given("length", cam.roller)
+            prime = once(pen, ("cam prime", follower), widened, prime, roller)
+        return prime, once(pen, ("cam lift", follower), lift, *steps, extra=extra)
+
+
 def height(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
     """The path of a follower's point, the cam's pivot, and how high above this it stands."""
-    key = ("cam height", follower)
-    cam, point = pen.scene.cams[follower], pen.scene.link(follower).points[0]
-    path = path_of(pen, shapes, pen.first_slide(follower), follower, point)
-    pivot = pen.the("position", cam.pivot)
-    if key not in pen.shared:
-        steps, extra = law_steps(pen, shapes, cam)
+    cam = pen.scene.cams[follower]
+    path = path_of(pen, shapes, pen.first_slide(follower), follower, cam.point)
+    pivot, begun = pen.the("position", cam.pivot), lifted(pen, shapes, follower)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        kind = height_of_face if cam.is_flat else height_of_tip
+        return path, pivot, once(pen, ("cam height", follower), kind, path, pivot, *begun)
+
+
+def swing(
+    pen: Pen, shapes: LinkShapes, follower: str, lever: CamLever
+) -> tuple[int, int, int, int]:
+    """The cam's pivot, the pin of a lever, its direction, and its length or how its face lies."""
+    cam = pen.scene.cams[follower]
+    ends = pen.the("position", cam.pivot), pen.the("position", lever.pin)
+    if cam.is_flat:
         with pen.on(Part.POSITION, Plane.NUMBERS):
-            prime = pen.given("length", cam.base)
-            if cam.tip == "roller":
-                prime = pen.draw(widened, prime, pen.given("length", cam.roller))
-            lifted = pen.draw_shared(("cam lift", follower), lift, *steps, extra=extra)
-            kind = height_of_face if cam.is_flat else height_of_tip
-            pen.shared[key] = pen.draw(kind, path, pivot, prime, lifted)
-    return path, pivot, pen.shared[key]
+            size = pen.given("length", lever.face)
+    else:
+        size = shapes.length(follower, lever.pin, cam.point)
+    begun, kind = lifted(pen, shapes, follower), swing_on_face if cam.is_flat else swing_on_tip
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        steps = *ends, size, *begun
+        way = once(pen, ("cam swing", follower), kind, *steps, extra=(lever.side,))
+    return *ends, way, size
+
+
+def set_lever(pen: Pen, shapes: LinkShapes, follower: str, lever: CamLever) -> None:
+    """A lever as its cam's law swings it."""
+    name = pen.scene.cams[follower].point
+    _, pin, way, _ = swing(pen, shapes, follower, lever)
+    locals_ = [shapes.local(follower, each) for each in (lever.pin, name)]
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        pen.want("axis", follower, pen.draw(axis_by_guide, way, *locals_))
+    arm = shapes.length(follower, lever.pin, name)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        tip = pen.draw(lever_end, pin, way, arm, name=name)
+        pen.make(SwungLever(link=follower, pin=lever.pin, name=name, tip=tip))
+    pen.want("position", name, tip)
 
 
 @action("cam-prime")
@@ -182,16 +289,23 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int
     """The centre of curvature of a cam under its follower, in the plane."""
     follower = pen.scene.cam_centres[name]
     cam = pen.scene.cams[follower]
-    path, pivot, above = height(pen, shapes, follower)
     steps, extra = law_steps(pen, shapes, cam)
+    extra_side: tuple[int, ...] = ()
+    if cam.lever:
+        where: tuple[int, ...] = swing(pen, shapes, follower, cam.lever)
+        kind = centre_under_swung_face if cam.is_flat else centre_under_lever
+        extra_side = (cam.lever.side,)
+    else:
+        path, pivot, above = height(pen, shapes, follower)
+        where = pivot, path, above
+        kind = centre_under_face if cam.is_flat else centre_under_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):
         rate = pen.draw(lift_rate, *steps, extra=extra)
         bend = pen.draw(lift_bend, *steps, extra=extra)
-    lifted = pen.shared["cam lift", follower]
-    kind = centre_under_face if cam.is_flat else centre_under_tip
+    displaced_by = pen.shared["cam lift", follower]
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        point = pen.draw(kind, pivot, path, above, rate, bend, name=name)
+        point = pen.draw(kind, *where, rate, bend, extra=extra_side, name=name)
         roles = {"link": cam.on, "follower": follower, "start": cam.pivot, "name": name}
-        made = CurvatureCentre(**roles, lift=lifted, rate=rate, bend=bend, point=point)
+        made = CurvatureCentre(**roles, lift=displaced_by, rate=rate, bend=bend, point=point)
         pen.make(made)
     return point

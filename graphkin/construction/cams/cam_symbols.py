@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, polygon
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.cam_profiles import CamProfile
 
 BEYOND = 1.15
 """How far a flat face is drawn, in parts of what touches the cam in a turn."""
@@ -17,7 +22,7 @@ def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
     scene, places = drawing.scene, drawing.positions
     for follower, cam in scene.cams.items():
-        tip = scene.link(follower).points[0]
+        tip = cam.point
         axis = drawing.standing.axis(cam.on)
         if cam.pivot not in places or tip not in places or axis is None:
             continue
@@ -29,8 +34,18 @@ def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
             radius = profile.roller * field.mm
             board.marks.append(CircleMark(*field(places[tip]), radius, "profile", follower))
         elif cam.is_flat:
-            along, aside = profile.guide
-            foot = places[tip] - 1j * along * aside
-            ends = (foot + 1j * along * side * BEYOND * profile.face for side in (-1, 1))
-            (x1, y1), (x2, y2) = (field(end) for end in ends)
+            pin = places[cam.lever.pin] if cam.lever else None
+            (x1, y1), (x2, y2) = map(field, face_ends(profile, pin, places[tip]))
             board.marks.append(LineMark(x1, y1, x2, y2, "profile", follower))
+
+
+def face_ends(profile: CamProfile, pin: complex | None, tip: complex) -> tuple[complex, complex]:
+    """The ends of a flat face whose point, or whose lever's, stands at ``tip``."""
+    lever, far = profile.cam.lever, BEYOND * profile.face
+    if lever is None or pin is None:
+        along, aside = profile.guide
+        foot = tip - 1j * along * aside
+        return foot - 1j * along * far, foot + 1j * along * far
+    way = (tip - pin) / abs(tip - pin)
+    start = pin + 1j * way * lever.side * float(lever.face.si(profile.scene.values))
+    return start, start + far * way

@@ -1,7 +1,7 @@
 """Profiles of cams over a whole turn: the envelope of the follower, and how well it lifts.
 
 The angle θ of the cam runs over a turn; places are counted from the cam's pivot, in the cam's own
-axes (m). At θ the follower's point stands at w in the frame's axes, the pitch curve at w·exp(-iθ).
+axes (m), unless the axes of the frame are named.
 """
 
 from __future__ import annotations
@@ -12,9 +12,20 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from graphkin.numbers.cam_followers import (
+    FaceMotion,
+    TipMotion,
+    guided_face,
+    guided_tip,
+    lever_way,
+    start_on_face,
+    start_on_tip,
+    swung_face,
+    swung_tip,
+)
 from graphkin.numbers.cam_motions import Rise, displaced
-from graphkin.scene.model import Cam, Scene
-from graphkin.structure.link_axes import body, guide_line
+from graphkin.scene.model import FRAME, Cam, Scene
+from graphkin.structure.link_axes import body, guide_line, metres
 
 DRAWN = 180
 """Corners of a profile as it is drawn."""
@@ -23,11 +34,12 @@ EXAMINED = 3600
 
 
 class CamProfile(Struct, frozen=True, dict=True):
-    """The cam of a follower, at ``count`` angles evenly over a turn."""
+    """The cam of a follower, at ``count`` angles evenly over a turn, or at those that are given."""
 
     scene: Scene
     follower: str
     count: int = EXAMINED
+    given: Any = None
 
     @property
     def cam(self) -> Cam:
@@ -37,6 +49,8 @@ class CamProfile(Struct, frozen=True, dict=True):
     @cached_property
     def angles(self) -> Any:
         """The angles of the cam's axis, in radians."""
+        if self.given is not None:
+            return np.asarray(self.given)
         return np.arange(self.count) * (2 * np.pi / self.count)
 
     @property
@@ -68,6 +82,25 @@ class CamProfile(Struct, frozen=True, dict=True):
         aside = ((line.point - pivot) * line.along.conjugate()).imag
         return complex(line.along), aside + float(slide.offset.si(scene.values))
 
+    @cached_property
+    def bar(self) -> tuple[complex, float]:
+        """The pin of a lever from the cam's pivot, and its length from there to the tip."""
+        lever, fixed = self.cam.lever, body(self.scene, FRAME)
+        assert lever is not None
+        own = body(self.scene, self.follower)
+        return fixed[lever.pin] - fixed[self.cam.pivot], abs(own[self.cam.point] - own[lever.pin])
+
+    @cached_property
+    def way(self) -> Any:
+        """The unit vectors of a lever in the axes of the frame."""
+        lever, (pin, arm) = self.cam.lever, self.bar
+        assert lever is not None
+        if self.cam.is_flat:
+            start = start_on_face(pin, self.base + metres(self.scene, lever.face))
+        else:
+            start = start_on_tip(pin, arm, self.base + self.roller)
+        return lever_way(pin, start, lever.side, self.rise.at)
+
     @property
     def roller(self) -> float:
         """The radius of the roller."""
@@ -80,28 +113,38 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def height(self) -> Any:
-        """How far the follower's point stands along the guide from the foot of the pivot."""
+        """How far a sliding follower's point stands along the guide from the foot of the pivot."""
         if self.cam.is_flat:
             return self.base + self.rise.at
         return np.sqrt((self.base + self.roller) ** 2 - self.guide[1] ** 2) + self.rise.at
 
     @cached_property
-    def pitch(self) -> tuple[Any, Any, Any]:
-        """The follower's point in the frame's axes, and by the angle in the cam's: way and bend."""
+    def tip(self) -> TipMotion:
+        """The roller's centre, or the knife's edge, in the axes of the frame."""
+        rates, lever = (self.rise.rate, self.rise.bend), self.cam.lever
+        if lever:
+            pin, arm = self.bar
+            return swung_tip(pin, arm * self.way, lever.side, *rates)
         along, aside = self.guide
-        place = (self.height + 1j * aside) * along
-        way = self.rise.rate * along - 1j * place
-        return place, way, self.rise.bend * along - 2j * self.rise.rate * along - place
+        return guided_tip(along, aside, self.height, *rates)
+
+    @cached_property
+    def flat(self) -> FaceMotion:
+        """The flat face, in the axes of the frame."""
+        rates, lever = (self.rise.rate, self.rise.bend), self.cam.lever
+        if lever:
+            face = metres(self.scene, lever.face)
+            return swung_face(self.bar[0], self.way, face, lever.side, *rates)
+        return guided_face(self.guide[0], self.height, *rates)
 
     @cached_property
     def outline(self) -> Any:
         """The places of the profile in the cam's axes."""
-        along, _ = self.guide
         if self.cam.is_flat:
-            place = (self.height - 1j * self.rise.rate) * along
+            place = self.flat.contact
         else:
-            place, way, _ = self.pitch
-            place = place - 1j * way * (self.roller / abs(way))
+            way = self.tip.way
+            place = self.tip.place - 1j * way * (self.roller / abs(way))
         return place * np.exp(-1j * self.angles)
 
     @property
@@ -111,17 +154,22 @@ class CamProfile(Struct, frozen=True, dict=True):
 
     @property
     def face(self) -> float:
-        """How far a flat face must reach on either side of the pivot's perpendicular."""
-        return float(abs(self.rise.rate).max())
+        """How far a flat face must reach: both ways from the foot of the pivot, or from the pin."""
+        if self.cam.lever is None:
+            return float(abs(self.flat.slope).max())
+        return float(((self.flat.contact - self.bar[0]) * self.way.conj()).real.max())
 
     @property
     def pressure(self) -> Any:
-        """The pressure angle at each angle, in degrees: of the common normal with the guide."""
+        """The pressure angle at each angle, in degrees: of the common normal with the tip's way."""
+        lever = self.cam.lever
         if self.cam.is_flat:
-            return np.zeros(self.count)
-        along, _ = self.guide
-        _, way, _ = self.pitch
-        return abs(np.degrees(np.angle(1j * way / along)))
+            if lever is None:
+                return np.zeros(len(self.angles))
+            arm = self.flat.contact - self.bar[0]
+            return abs(np.degrees(np.angle(self.flat.normal / (-1j * lever.side * arm))))
+        along = -1j * lever.side * self.way if lever else self.guide[0]
+        return abs(np.degrees(np.angle(1j * self.tip.way / along)))
 
     @property
     def bend(self) -> Any:
@@ -130,9 +178,15 @@ class CamProfile(Struct, frozen=True, dict=True):
         A curvature is positive where the curve is convex.
         """
         if self.cam.is_flat:
-            return self.height + self.rise.bend
-        _, way, turn = self.pitch
-        return -(way.conj() * turn).imag / abs(way) ** 3
+            return self.flat.radius
+        way = self.tip.way
+        return -(way.conj() * self.tip.turn).imag / abs(way) ** 3
+
+    @property
+    def radius(self) -> Any:
+        """The radius of curvature of the profile at each angle (m), positive where it is convex."""
+        with np.errstate(divide="ignore"):
+            return self.bend if self.cam.is_flat else 1 / self.bend - self.roller
 
     @property
     def sharpest(self) -> tuple[float, float]:
@@ -140,11 +194,16 @@ class CamProfile(Struct, frozen=True, dict=True):
         angle; nought or less where it is undercut."""
         bend = self.bend
         number = int(bend.argmin() if self.cam.is_flat else bend.argmax())
-        radius = float(bend[number] if self.cam.is_flat else 1 / bend[number] - self.roller)
-        return radius, float(self.law_angles[number])
+        return float(self.radius[number]), float(self.law_angles[number])
 
     @property
     def steepest(self) -> tuple[float, float]:
         """The largest pressure angle, and at which angle of the law, in degrees."""
         number = int(self.pressure.argmax())
         return float(self.pressure[number]), float(self.law_angles[number])
+
+
+def profiles_along(scene: Scene, turned: str, angles: Any) -> dict[str, CamProfile]:
+    """The cams on a link by their followers, at the angles of its x axis (radians)."""
+    on = (follower for follower, cam in scene.cams.items() if cam.on == turned)
+    return {follower: CamProfile(scene, follower, given=angles) for follower in on}

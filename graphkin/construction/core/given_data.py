@@ -23,6 +23,7 @@ from graphkin.scene.model import (
     FRAME,
     Angled,
     At,
+    Cam,
     CamPiece,
     Driver,
     OnLine,
@@ -109,15 +110,29 @@ def cams(drawing: Drawing) -> Iterator[str]:
     scene, words = drawing.scene, drawing.words
     for follower, cam in scene.cams.items():
         fields = {"g": escape(cam.on), "k": escape(follower)}
-        fields["tip"] = words(f"page.cam_{cam.tip}", radius=written(scene, words, cam.roller))
+        fields["tip"] = cam_tip(scene, words, cam)
         base = written(scene, words, cam.base)
         sense = words("page.cam_clockwise" if cam.sense < 0 else "page.cam_counter")
         start = words("page.cam_start", angle=written(scene, words, cam.start))
         turned = sense + ("" if cam.start.is_zero() else start)
-        yield words("page.cam", base=base, **fields)
+        if cam.lever:
+            line = bar(cam.pivot, cam.lever.pin)
+            fields["side"] = words("page.cam_left" if cam.lever.side > 0 else "page.cam_right")
+            yield words("page.cam_lever", base=base, line=line, **fields)
+        else:
+            yield words("page.cam", base=base, **fields)
         first, *rest = (cam_piece(scene, words, piece) for piece in cam.law)
         yield words("page.cam_by", sense=turned, piece=first, **fields)
         yield from rest
+
+
+def cam_tip(scene: Scene, words: Words, cam: Cam) -> str:
+    """What touches the cam; a lever's face runs along its bar, or beside it towards the cam."""
+    if cam.lever and cam.is_flat:
+        line, gap = bar(cam.lever.pin, cam.point), written(scene, words, cam.lever.face)
+        beside = "" if cam.lever.face.is_zero() else words("page.cam_beside", gap=gap)
+        return words("page.cam_face", bar=line) + beside
+    return words(f"page.cam_{cam.tip}", radius=written(scene, words, cam.roller))
 
 
 def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:

@@ -65,6 +65,8 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
         drawn["turning"] = partial(of_links, found, links)
     if solution.slides:
         drawn["slides"] = partial(of_slides, found, list(solution.slides))
+    if found.cycle.profiles:
+        drawn["cams"] = partial(of_cams, found)
     return drawn
 
 
@@ -166,6 +168,22 @@ def of_slides(found: Sampled, blocks: Sequence[str]) -> Figure:
         if curves:
             panels.append((words, units, curves))
     return stacked(found, f"Blocks on their guides{more}", panels)
+
+
+def of_cams(found: Sampled) -> Figure:
+    """Two panels for each cam that the driver turns: displacement and pressure angle."""
+    panels = []
+    profiles, more = some_of(list(found.cycle.profiles), MOST_PANELS // 2, "cams")
+    for name in profiles:
+        profile = found.cycle.profiles[name]
+        swings = profile.cam.lever is not None
+        lift = np.degrees(profile.rise.at) if swings else profile.rise.at * found.per_length
+        letter, unit = ("\\psi", "deg") if swings else ("s", found.length_unit)
+        curve = subscripted(letter, name), lift, COLOURS[0], DASHES[0]
+        panels.append((f"Displacement of link {name} by cam {profile.cam.on}", unit, [curve]))
+        angle = subscripted("\\alpha", name), profile.pressure, COLOURS[1], DASHES[0]
+        panels.append((f"Pressure angle of link {name}", "deg", [angle]))
+    return stacked(found, f"Cams{more}", panels)
 
 
 def stacked(

@@ -96,6 +96,11 @@ function marksOf(sketch, points, one, named = true) {
     const box = { x: x - width / 2, y: -y - height / 2, width, height, transform: turn };
     marks.push(element("rect", "slider", { ...box, "vector-effect": "non-scaling-stroke" }));
   }
+  for (const { link, centre, radius } of sketch.wheels) {
+    const [x, y] = points[centre];
+    const look = `wheel${sketch.driven.includes(link) ? " driven" : ""}`;
+    marks.push(element("circle", look, { cx: x, cy: -y, r: radius, "data-wheel": link }));
+  }
   for (const [name, held] of Object.entries(sketch.links)) {
     const at = held.filter((point) => points[point]).map((point) => points[point]);
     const look = `bar${sketch.driven.includes(name) ? " driven" : ""}`;
@@ -169,17 +174,38 @@ function nearest(things, distance) {
   return all.sort(([one], [other]) => one - other)[0]?.[1];
 }
 
-const pointAt = (at) => nearest(Object.keys(sketch.points), (name) => away(at, sketch.points[name]));
+/** The pin at a place, but for one. */
+const pointAt = (at, but = "") => {
+  const others = Object.keys(sketch.points).filter((name) => name !== but);
+  return nearest(others, (name) => away(at, sketch.points[name]));
+};
 const ghostAt = (at) => nearest(sketch.ghosts, (ghost) => away(at, ghost.at));
 
-/** The bar at a place, but for those of a point. */
+const fromRim = (at, { centre, radius }) => Math.abs(away(at, sketch.points[centre]) - radius);
+
+/** The wheel whose rim is at a place, but for those about a point. */
+const rimAt = (at, but) =>
+  nearest(
+    sketch.wheels.filter((wheel) => wheel.centre !== but),
+    (wheel) => fromRim(at, wheel),
+  );
+
+/** The bar or wheel at a place, but for those of a point. */
 function linkAt(at, but = "") {
   const free = Object.keys(sketch.links).filter((name) => !sketch.links[name].includes(but));
   return nearest(free, (name) => {
+    const rims = sketch.wheels.filter((wheel) => wheel.link === name);
+    const rim = Math.min(Infinity, ...rims.map((wheel) => fromRim(at, wheel)));
     const held = sketch.links[name].map((point) => sketch.points[point]).filter(Boolean);
     const sides = held.map((point, i) => beside(at, held[i - 1] ?? held.at(-1), point));
-    return held.length > 1 ? Math.min(...sides) : Infinity;
+    return held.length > 1 ? Math.min(rim, ...sides) : rim;
   });
+}
+
+/** A ring around a pin that is aimed at. */
+function ringed(name) {
+  const [x, y] = sketch.points[name];
+  return element("circle", "aim", { cx: x, cy: -y, r: 2 * PIN * pixel() });
 }
 
 /** Say something beside the pointer until the next act. */
@@ -226,8 +252,11 @@ svg.addEventListener("pointerdown", (event) => {
 svg.addEventListener("pointermove", (event) => {
   if (!press) return;
   const at = spot(event);
-  if (press.tool === "move" && press.point) draw({ [press.point]: at });
-  if (!["bar", "plate", "block"].includes(press.tool)) return;
+  if (press.tool === "move" && press.point) {
+    const goal = pointAt(at, press.point);
+    draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
+  }
+  if (!["bar", "plate", "block", "wheel"].includes(press.tool)) return;
   const from = sketch.points[press.point] ?? press.at;
   const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
   const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
@@ -235,7 +264,11 @@ svg.addEventListener("pointermove", (event) => {
   const words = `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
   const one = pixel();
   const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
-  draw({}, [line("drawn", from, at), element("text", "letter", letter, words)]);
+  const drawn = [line("drawn", from, at), element("text", "letter", letter, words)];
+  if (press.tool === "wheel") {
+    drawn.push(element("circle", "drawn", { cx: from[0], cy: -from[1], r: Math.hypot(dx, dy) }));
+  }
+  draw({}, drawn);
 });
 
 svg.addEventListener("pointerup", (event) => {
@@ -247,7 +280,11 @@ svg.addEventListener("pointerup", (event) => {
   const end = pointAt(at);
   draw();
   if (from.tool === "pivot") act(event, "pivot", [], at);
-  else if (from.tool === "move" && from.point && dragged) act(event, "move", [from.point], at);
+  else if (from.tool === "move" && from.point && dragged) {
+    const goal = pointAt(at, from.point);
+    if (goal) act(event, "join", [from.point, goal], at);
+    else act(event, "move", [from.point], at);
+  }
   else if (from.tool === "move" && from.ghost && !from.point) {
     act(event, "close", [from.ghost.key], at, { words: from.ghost.words });
   } else if (from.tool === "bar" && from.point && dragged) {
@@ -256,6 +293,9 @@ svg.addEventListener("pointerup", (event) => {
   else if (from.tool === "block" && from.point && dragged) {
     const slot = linkAt(at, from.point);
     act(event, "block", slot ? [from.point, slot] : [from.point], at);
+  } else if (from.tool === "wheel" && from.point && dragged) {
+    const rim = rimAt(at, from.point);
+    act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at);
   } else if (from.tool === "driver" && from.link) {
     act(event, "driver", [from.link], at, { speed: [Number(find("speed").value) || 0, 0] });
   } else if (from.tool === "delete" && (from.point || from.link)) {

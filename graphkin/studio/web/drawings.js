@@ -7,8 +7,9 @@ const shown = find("shown");
 const all = find("drawings");
 const names = ["mechanism", "velocity", "acceleration"];
 const SMALLEST = 1.8; // px for a millimetre of paper, beside the text
-const NARROW = 2.6; // and below it, where a drawing may be moved in its frame
+const NARROW = 2.6; // and below it
 const narrow = matchMedia("(max-width: 60rem)");
+const phone = matchMedia("(max-width: 40rem)"); // where a field is as high as its drawing
 const sheet = new CSSStyleSheet();
 let rules = "";
 let checked = ""; // what the independent check says of what is drawn
@@ -63,13 +64,16 @@ function set(element, markup) {
   if (element.made !== markup) element.innerHTML = element.made = markup;
 }
 
-/** Let no drawing be so small that its letters cannot be read; it can be moved in its frame,
- * and begins with its middle. Enlarged on a narrow page it fills its frame both ways. */
+/** A drawing is seen whole in its field. Enlarged, and on a phone, its letters are large enough to
+ * be read: it can be moved in its frame, and begins with its middle; enlarged on a narrow page it
+ * fills its frame both ways. */
 function legible(frame) {
   const svg = frame.querySelector("svg");
   const { width, height } = svg.viewBox.baseVal;
+  const large = frame.closest(".large");
   let least = narrow.matches ? NARROW : SMALLEST;
-  if (narrow.matches && frame.closest(".large")) {
+  if (!large && !phone.matches) least = 0;
+  else if (narrow.matches && large) {
     least = Math.max(least, frame.clientWidth / width, frame.clientHeight / height);
   }
   svg.style.minWidth = `${Math.round(width * least)}px`;
@@ -77,6 +81,12 @@ function legible(frame) {
   if (frame.seen) return;
   frame.seen = true;
   frame.scrollTo((frame.scrollWidth - frame.clientWidth) / 2, 0);
+}
+
+for (const page of [narrow, phone]) {
+  page.addEventListener("change", () => {
+    for (const frame of all.querySelectorAll(".drawing")) if (frame.firstChild) legible(frame);
+  });
 }
 
 /** Give one drawing the room of all, or all their own; it stays where it is seen. */
