@@ -15,7 +15,7 @@ from graphkin.construction.drivers.summed_rate import SummedRate
 from graphkin.construction.result_tables import sense
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.model import FRAME, Driver
+from graphkin.scene.model import FRAME, Belt, Driver
 
 
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
@@ -96,7 +96,7 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
                 if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
                     told.add(disc.link)
                     yield by_teeth(drawing, disc)
-            yield by_radii(drawing, names, rates, (touch.disc, touch.other))
+            yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.rolling.belt)
 
 
 def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
@@ -119,12 +119,15 @@ def by_radii(
     names: Sequence[str],
     rates: Sequence[float],
     discs: tuple[Disc, Disc],
+    belt: Belt | None,
 ) -> Relation:
     """The rate of a wheel from that of the arm and that of the wheel that it touches."""
     wheel, arm, track = (symbol(f"{drawing.rate.letter}_{name}") for name in names)
     _, carried, rolled = rates
-    ring = any(disc.wheel.inside for disc in discs)
-    sign, factor = ("+", 1) if ring else ("−", -1)
+    alike = any(disc.wheel.inside for disc in discs)
+    if belt is not None:
+        alike = not belt.crossed
+    sign, factor = ("+", 1) if alike else ("−", -1)
     radii = f"{radius_of(discs[1])}/{radius_of(discs[0])}"
     numbers = f"{figure(drawing, discs[1].radius)}/{figure(drawing, discs[0].radius)}"
     ratio = discs[1].radius / discs[0].radius

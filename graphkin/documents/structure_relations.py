@@ -15,6 +15,7 @@ from graphkin.structure.groups import (
     Crank,
     Driven,
     Dyad,
+    Geared,
     Group,
     Higher,
     Stretched,
@@ -60,4 +61,6 @@ def group_words(words: Words, group: Group) -> str:
             return words("calculation.group_led", links=links)
         case Tie():
             return words("calculation.group_idle", links=links)
+        case Geared() if group.contact.rolling.belt is not None:
+            return words("calculation.group_belt", links=links)
     return words("calculation.group_rolling", links=links)

@@ -126,6 +126,7 @@ STYLES: dict[str, Style] = {
     "disc": Style(0.5, fill=PALE),
     "spoke": Style(0.35, BODY, round=True),
     "track": Style(0.5),
+    "belt": Style(0.35),
     "pitch": Style(0.25, GREY, CHAIN),
     "gear": Style(0.35, round=True),
     "contact": Style(0, fill="ink"),

@@ -42,6 +42,9 @@ from graphkin.loops.vector_chains import Tree, Turnings, refuse_unknown_lean, tu
 from graphkin.scene.model import FRAME, Scene
 from graphkin.text.errors import Problem, StructureError
 
+CANCELLED = 2.0**-48
+"""Length, as a share of the mechanism's, that rounding may leave of bars that cancel."""
+
 
 class Equations(Struct, frozen=True, eq=False, dict=True):
     """The vector loops of a scene: chains to every link's origin, and the chains that close.
@@ -85,9 +88,12 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def around(self) -> Reals:
-        """How long each closed chain is without its slides (m): (N, closed chains)."""
+        """How long each closed chain is without its slides (m): (N, closed chains).
+
+        One whose bars cancel, but for rounding, is as long as the mechanism.
+        """
         length = abs(self.chains.fixed[:, len(self.links) :]).sum(axis=2)
-        return np.where(length > 0, length, self.size[:, None])
+        return np.where(length > CANCELLED * self.size[:, None], length, self.size[:, None])
 
     @cached_property
     def columns(self) -> Reals:

@@ -41,9 +41,10 @@ class NoSlip(NamedTuple):
 
 
 class Gear(NamedTuple):
-    """Two wheels that touch, their radii (m), and the arm that carries both centres.
+    """Two wheels that touch or have a belt, their radii (m), the arm that carries both centres.
 
-    ``sense`` is +1 where they touch from outside, -1 for a wheel in a ring.
+    ``sense`` is +1 where they touch from outside or the belt is crossed, -1 for a wheel in a ring
+    or an open belt.
     """
 
     links: tuple[str, str]
@@ -103,6 +104,8 @@ def pair(scene: Scene, name: str, rolling: Rolling, i: int, k: int, numbers: Num
     wheels = scene.links[name].wheels[i], scene.link(rolling.on).wheels[k]
     radii = radius(wheels[0], numbers), radius(wheels[1], numbers)
     sense = -1 if wheels[0].inside or wheels[1].inside else 1
+    if rolling.belt is not None:
+        sense = rolling.belt.sense
     return Gear((name, rolling.on), wheels, radii, sense, "", rolling)
 
 
@@ -113,6 +116,8 @@ def carried_pairs(
     found = []
     for i in range(len(scene.links[name].wheels)):
         for k in range(len(scene.link(rolling.on).wheels)):
+            if rolling.belt is not None and (i, k) != rolling.belt.wheels:
+                continue
             gear = pair(scene, name, rolling, i, k, numbers)
             centres = {wheel.centre for wheel in gear.wheels}
             arms = [each for each in bodies if each not in gear.links]
@@ -134,7 +139,7 @@ def touching(
         return float(np.nanmax(numbers.reals(abs(apart - needed) / np.maximum(apart, needed))))
 
     best = min(kept, key=gap)
-    if numbers.single and not gap(best) <= TOUCH:
+    if best.rolling.belt is None and numbers.single and not gap(best) <= TOUCH:
         first, second = (wheel.centre for wheel in best.wheels)
         raise StructureError(
             Problem(

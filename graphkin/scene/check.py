@@ -69,6 +69,8 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
     """Guides, tracks, wheels and profiles of a link name points and links that are there."""
     place = place_of(link.name)
+    tracks = [rolling for rolling in link.rolls if rolling.belt is None]
+    belts = [rolling for rolling in link.rolls if rolling.belt is not None]
     for index, wheel in enumerate(link.wheels):
         where = numbered(f"{place}.wheel", index, len(link.wheels))
         if wheel.centre:
@@ -76,9 +78,11 @@ def check_link(scene: Scene, link: Link, findings: Findings) -> None:
     for index, slide in enumerate(link.slides):
         where = numbered(f"{place}.slides", index, len(link.slides))
         check_guide(scene, link, slide, where, findings)
-    for index, rolling in enumerate(link.rolls):
-        where = numbered(f"{place}.rolls", index, len(link.rolls))
-        check_rolling(scene, link, rolling, where, findings)
+    for key, rollings in (("rolls", tracks), ("belt", belts)):
+        for index, rolling in enumerate(rollings):
+            where = numbered(f"{place}.{key}", index, len(rollings))
+            check_rolling(scene, link, rolling, where, findings)
+            check_belt(scene, link, rolling, where, findings)
     check_guides(scene, link, findings)
     check_profiles(scene, link, findings)
 
@@ -149,9 +153,16 @@ def check_rolling(
     on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if rolling.through is None and on is not None and not on.wheels and on is not link:
         expected = "a wheel there, or through and angle for a straight track"
+        if rolling.belt is not None:
+            expected = 'a wheel there: wheel = { centre = "P", radius = … }'
         wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
         hint = f"did you mean on = {quoted(wheels[0])}?" if len(wheels) == 1 else ""
-        findings.add(place, f"{named(rolling.on)} has no wheel to roll on", expected, hint)
+        findings.add(
+            place,
+            f"{named(rolling.on)} has no wheel to {'run' if rolling.belt else 'roll'} on",
+            expected,
+            hint,
+        )
     for name in rolling.start:
         known_link(scene, name, f"{place}.start.{name}", findings)
     for name, count in rolling.turns.items():
@@ -159,6 +170,20 @@ def check_rolling(
         number = count.number(scene.values)
         if not isinstance(number, Fraction) or number.denominator != 1:
             findings.add(count.place, f"{shortest(number)} turns", "a whole number of turns")
+
+
+def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings) -> None:
+    """A belt runs on wheels that are there, round the outside of both."""
+    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
+    if rolling.belt is None or on is None:
+        return
+    for each, index in zip((link, on), rolling.belt.wheels, strict=True):
+        if each.wheels and index >= len(each.wheels):
+            found = f"wheel {index + 1} of {named(each.name)}, which has {len(each.wheels)}"
+            findings.add(f"{place}.wheels", found, f"a number up to {len(each.wheels)}")
+        elif each.wheels and each.wheels[index].inside:
+            found = f"the wheel of {named(each.name)} is a ring"
+            findings.add(place, found, "a wheel with a rim outside, for a belt to run on")
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:

@@ -154,9 +154,25 @@ class Wheel(NamedTuple):
     inside: bool = False
 
 
+class Belt(NamedTuple):
+    """A belt, chain or rope round two wheels, ``crossed`` or open.
+
+    ``wheels`` are the places, in the lists of their links, of the wheel and of the one ``on``.
+    """
+
+    crossed: bool = False
+    wheels: tuple[int, int] = (0, 0)
+
+    @property
+    def sense(self) -> int:
+        """+1 where both turn opposite ways against their arm, as gears do; -1 the same way."""
+        return 1 if self.crossed else -1
+
+
 class Rolling(NamedTuple):
     """A wheel that rolls without slip on a straight or circular track of link ``on``.
 
+    With a ``belt`` the wheel does not touch the other: the belt joins their rims, without slip.
     ``turns`` are the whole turns to be added to the angle of a link that only its pins show, which
     is else the one within half a turn of its ``start``.
     """
@@ -167,6 +183,7 @@ class Rolling(NamedTuple):
     start: Mapping[str, Quantity]
     side: int = 1
     turns: Mapping[str, Quantity] = {}
+    belt: Belt | None = None
 
     def called(self, names: Mapping[str, str]) -> Rolling:
         """The same with links by other names."""
@@ -426,9 +443,15 @@ class Scene(Struct, frozen=True):
 
     @property
     def touching(self) -> tuple[tuple[str, str], ...]:
-        """Each wheel with the link on which it rolls, as written."""
+        """Each wheel with the link on which it rolls or to which a belt runs, as written."""
         links = self.links.values()
         return tuple((link.name, rolling.on) for link in links for rolling in link.rolls)
+
+    @property
+    def belted(self) -> tuple[tuple[str, str], ...]:
+        """Those that a belt joins."""
+        links = self.links.values()
+        return tuple((link.name, each.on) for link in links for each in link.rolls if each.belt)
 
     @property
     def cams(self) -> Mapping[str, Cam]:

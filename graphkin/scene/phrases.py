@@ -11,7 +11,7 @@ from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
 
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
-KEYWORDS = frozenset(("slides", "rolls", "wheel", "wheels", "touches", "profiles", "cam"))
+KEYWORDS = frozenset(("slides", "rolls", "belt", "wheel", "wheels", "touches", "profiles", "cam"))
 SIDES = {"left": 1, "right": -1}
 WAYS = {"forward": 1, "backward": -1}
 
@@ -152,7 +152,8 @@ def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | No
         findings.add(
             place,
             f"{shown_key(key)} is no key of a link",
-            "P, P-Q (a length), P-Q-R (an angle at Q), slides, rolls, wheel, touches or profiles",
+            "P, P-Q (a length), P-Q-R (an angle at Q), slides, rolls, belt, wheel, touches or "
+            "profiles",
         )
         return None
     names = [point_name(place, part, findings) for part in parts]

@@ -8,12 +8,13 @@ from graphkin.scene.expression import Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Table, numbered, one_or_many, shown
 from graphkin.scene.measures import FloatText, Measures, Pair
-from graphkin.scene.model import FRAME, Rolling, Slide, Wheel
+from graphkin.scene.model import FRAME, Belt, Rolling, Slide, Wheel
 from graphkin.scene.phrases import SIDES, line_words, link_name, point_name
 from graphkin.scene.quantity import Quantity
 
 MOST = 20
 GUIDE = "the link that carries the guide, 0 for the frame"
+OTHER = "the link that carries the other wheel, 0 for the frame"
 TRACK = "the link that carries the track or the other wheel, 0 for the frame"
 
 
@@ -152,6 +153,29 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
     table.take("through"), table.take("angle")
     table.finish()
     return Rolling(on, through, angle, start, side or 1, turns)
+
+
+def read_belts(table: Table, measures: Measures) -> tuple[Rolling, ...]:
+    """The belts that run from the wheels of a link to those of others."""
+    return tuple(read_belt(each, measures) for each in tables(table, "belt"))
+
+
+def read_belt(table: Table, measures: Measures) -> Rolling:
+    """One belt: ``{ on, crossed, wheels, start, turns }``; ``wheels`` count from one."""
+    on = link_name(table.at("on"), table.take("on"), measures.findings, OTHER) or FRAME
+    crossed, raw = table.flag("crossed"), table.take("wheels")
+    wheels = (1, 1)
+    match raw:
+        case [int(own), int(other)] if 0 < own <= MOST and 0 < other <= MOST:
+            wheels = own, other
+        case _ if raw is not None:
+            expected = "[1, 2]: the wheel of this link and that of the other, counted from 1"
+            measures.findings.add(table.at("wheels"), shown(raw), expected)
+    start = by_link(table, "start", measures, measures.units["angle"])
+    turns = by_link(table, "turns", measures, "")
+    table.finish()
+    belt = Belt(crossed, (wheels[0] - 1, wheels[1] - 1))
+    return Rolling(on, None, None, start, 1, turns, belt)
 
 
 def by_link(table: Table, key: str, measures: Measures, unit: str) -> dict[str, Quantity]:

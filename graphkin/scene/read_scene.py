@@ -22,7 +22,7 @@ from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
 from graphkin.scene.read_cams import with_cams
 from graphkin.scene.read_drivers import read_drivers
-from graphkin.scene.read_joints import read_rolls, read_slides, read_wheels
+from graphkin.scene.read_joints import read_belts, read_rolls, read_slides, read_wheels
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.touching_profiles import normals
@@ -199,9 +199,10 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     points, placings = read_shape(table, measures)
     wheels, profiles = read_wheels(table, measures, module), read_profiles(table)
     if name == FRAME:
-        for key in ("slides", "rolls", "touches", "cam"):
+        for key in ("slides", "rolls", "belt", "touches", "cam"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
         return Link(FRAME, points, placings, wheels=wheels, profiles=profiles)
-    slides, rolls = read_slides(table, measures), read_rolls(table, measures)
+    slides = read_slides(table, measures)
+    rolls = read_rolls(table, measures) + read_belts(table, measures)
     return Link(name, points, placings, slides, wheels, rolls, profiles)

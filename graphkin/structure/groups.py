@@ -151,7 +151,8 @@ class Geared(Struct, frozen=True):
     @property
     def title(self) -> str:
         """What it is called."""
-        return f"rolls on link {partner(self.contact, self.link)}"
+        does = "has a belt with" if self.contact.rolling.belt else "rolls on"
+        return f"{does} link {partner(self.contact, self.link)}"
 
 
 class Train(Struct, frozen=True):

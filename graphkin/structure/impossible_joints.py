@@ -35,8 +35,8 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
         if link.wheels and not link.rolls and link.name not in tracks:
             place = "frame.wheel" if link.name == FRAME else f"links.{link.name}.wheel"
             found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
-            there = f"rolls = {{ on = {quoted(link.name)} }} in a link with a wheel"
-            here = "" if link.name == FRAME else "rolls = { on, … } in this link, or "
+            there = f"rolls or belt = {{ on = {quoted(link.name)} }} in a link with a wheel"
+            here = "" if link.name == FRAME else "rolls or belt = { on, … } in this link, or "
             yield Problem(place, found, here + there)
 
 

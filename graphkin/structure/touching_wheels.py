@@ -1,4 +1,4 @@
-"""Which wheels of two links touch, and which link keeps them together already."""
+"""Which wheels of two links touch or have a belt, and which link keeps their distance."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
+from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, track_line
 from graphkin.structure.turning import LEVEL, stands
@@ -52,6 +52,8 @@ def touching(
     Where the distance is kept, wheels are told by their radii, else the first written ones are
     meant. Raises StructureError for wheels that are kept apart.
     """
+    if rolling.belt is not None:
+        return belted(scene, name, rolling, rolling.belt)
     link, on = scene.links[name], scene.link(rolling.on)
     if rolling.through is None:
         kept = list(kept_centres(scene, name, rolling))
@@ -65,6 +67,46 @@ def touching(
     if kept:
         raise StructureError(gap(scene, name, rolling, min(kept, key=miss)))
     return loose
+
+
+def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingContact:
+    """The two wheels that a belt runs on; StructureError where it cannot run on them."""
+    own, other = belt.wheels
+    wheel, track = scene.links[name].wheels[own], scene.link(rolling.on).wheels[other]
+    arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
+    if arm is None:
+        centres = f"{track.centre}-{wheel.centre}"
+        found = f"no link carries both centres, {track.centre} and {wheel.centre}"
+        hint = "the belt is taut only while their distance is kept"
+        raise StructureError(
+            Problem(f"links.{name}.belt", found, f"an arm: a link with {centres} = …", hint)
+        )
+    points, radii = body(scene, arm), (radius(scene, wheel), radius(scene, track))
+    distance = abs(points[wheel.centre] - points[track.centre])
+    if distance <= sum(radii) * (1 + TOUCH):
+        raise StructureError(overlap(scene, name, rolling, RollingContact(wheel, track, arm)))
+    if not belt.crossed and abs(radii[0] - radii[1]) <= TOUCH * max(radii):
+        found = f"an open belt on two wheels of radius {shown(scene, radii[0])}"
+        expected = "wheels of different radii: these turn alike, and have no relative centre"
+        hint = "a bar parallel to the line of centres, pinned to both wheels, moves them alike"
+        raise StructureError(Problem(f"links.{name}.belt", found, expected, hint))
+    return RollingContact(wheel, track, arm)
+
+
+def overlap(scene: Scene, name: str, rolling: Rolling, on: RollingContact) -> Problem:
+    """That two wheels stand too close for a belt round both."""
+    assert on.track is not None and on.arm is not None
+    own, other = radius(scene, on.wheel), radius(scene, on.track)
+    points, centres = body(scene, on.arm), f"{on.track.centre}-{on.wheel.centre}"
+    distance = abs(points[on.wheel.centre] - points[on.track.centre])
+    found = (
+        f"the wheels of radius {shown(scene, own)} and {shown(scene, other)} (on "
+        f"{link_words(rolling.on)}) overlap or touch: {link_words(on.arm)} keeps {centres} = "
+        f"{shown(scene, distance)}"
+    )
+    expected = f"more than the sum of the radii, {shown(scene, own + other)}"
+    hint = "wheels that touch are written with rolls"
+    return Problem(f"links.{name}.belt", found, expected, hint)
 
 
 def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsApart]:

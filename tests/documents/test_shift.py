@@ -89,7 +89,7 @@ def moved(before: list[Mark], after: list[Mark]) -> bool:
     )
 
 
-FOLLOWED = ("crank-slot", "oldham", "rapid-return", "gears-planet")
+FOLLOWED = ("crank-slot", "oldham", "rapid-return", "gears-planet", "belts-arm")
 """Example scenes of which every step is followed."""
 CASES = [(lab, n, kind) for lab in SHIPPED for n in (9,) for kind in KINDS]
 CASES += [(name, None, kind) for name in OTHERS for kind in KINDS if name != "parallelogram"]

@@ -196,6 +196,8 @@ def test_every_sentence_is_used():
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
     every = [mechanism_named(lab, 7) for lab in SHIPPED[1:]]
     more = (
+        "belts-arm",
+        "belts-crossed",
         "cam-flat",
         "cam-knife",
         "cam-lever",

@@ -29,6 +29,7 @@ from tests.scene_files import scene_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 NAMES = (
+    "belts-arm",
     "pump",
     "slotted-lever",
     "gears-ring",

@@ -39,7 +39,9 @@ LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 CENTRES = ", all its centres"
 """The end of the name of a mechanism of which the centres of all pairs of links are asked."""
 ENDLESS = tuple(f"{name}{CENTRES}" for name in ("slider-crank", "crank-fixed-slot", "trammel"))
-WHICH = tuple(dict.fromkeys((*LABS, *CHOSEN, "gears-planet", "oscillating-slide", *ENDLESS[1:])))
+WHICH = tuple(
+    dict.fromkeys((*LABS, *CHOSEN, "belts-arm", "gears-planet", "oscillating-slide", *ENDLESS[1:]))
+)
 LIMIT = 0.01
 """Millimetres within which a page draws as Python does."""
 TEETH = ("gear", "gear-disc")

@@ -23,7 +23,7 @@ NUMBER = re.compile(r"(?<![\w.\"-])\d+(?:\.\d+)?(?![\w.])")
 SECTION = re.compile(r"\s*\[+\s*(\w+)")
 CHANGED = ("frame", "links", "drivers")
 """The tables whose numbers are lengths, places and laws of the driver."""
-FIXED = re.compile(r"\s*(on|turn|slide|roll|against|rolls|wheel|slides)\s*=")
+FIXED = re.compile(r"\s*(on|turn|slide|roll|against|rolls|belt|wheel|wheels|slides)\s*=")
 """Keys whose numbers name links, or count teeth."""
 
 

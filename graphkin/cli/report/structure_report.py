@@ -63,6 +63,10 @@ def contact_words(contact: Contact) -> str:
     link, on = contact.links
     track = "a track" if contact.track is None else f"wheel {contact.track.centre}"
     words = f"wheel {contact.wheel.centre} of link {link} on {track} of {link_words(on)}"
+    if contact.rolling.belt is not None:
+        kind = "crossed" if contact.rolling.belt.crossed else "open"
+        words = f"{kind} belt to wheel {contact.wheel.centre} of link {link}"
+        words += f" from {track} of {link_words(on)}"
     if contact.arm is None:
         return words
     return f"{words}, at a distance that {link_words(contact.arm)} keeps"

@@ -91,6 +91,11 @@ class Finder:
         return found
 
     @cached_property
+    def belted(self) -> frozenset[Pair]:
+        """Links that a belt joins."""
+        return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.belted)
+
+    @cached_property
     def touching(self) -> frozenset[Pair]:
         """Each wheel and the link that it touches: their centre is where they do."""
         return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.touching)
@@ -213,6 +218,7 @@ class Finder:
                 ways=ways,
                 crossing=crossing,
                 touching=pair in self.touching,
+                belted=pair in self.belted,
                 aside=crossing is not None and not self.on_line(pair, point),
             )
         )

@@ -158,12 +158,14 @@ class GuideCentre(PairCentre, frozen=True, kw_only=True):
 class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     """The centre of two links by their velocities; by hand where two lines of centres meet.
 
-    ``touching`` links have it where they touch. ``aside``: no line is drawn from its point.
+    ``touching`` links have it where they touch, ``belted`` ones where the strands of their belt
+    meet the line of centres. ``aside``: no line is drawn from its point.
     """
 
     key: ClassVar[str] = "relative-centre"
 
     touching: bool = False
+    belted: bool = False
     aside: bool = False
 
     def same(self, drawing: Drawing) -> int | None:
@@ -196,7 +198,8 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     def sentence_key(self, drawing: Drawing) -> str:
         """By how its lines meet, or what is odd about it."""
         if not self.is_by_hand(drawing):
-            suffix = self.oddity(drawing) or ("touch" if self.touching else "")
+            known = "belt" if self.belted else "touch" if self.touching else ""
+            suffix = self.oddity(drawing) or known
             return f"{self.key}-{suffix}" if suffix else self.key
         if len(self.ways) == 1:
             return "kennedy-endless"

@@ -145,9 +145,10 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
     at, lift, unit = exact(0, cam.law[0].to.unit), Fraction(0), cam.law[0].rise.unit
     points = []
     for piece in cam.law:
-        points.append(f"{written(scene, words, at)}: {written(scene, words, exact(lift, unit))}")
+        height = words.decimal(exact(lift).written(scene.values))
+        points.append(f"{written(scene, words, at)}: {height}")
         at, lift = piece.to, lift + piece.rise.number(scene.values)
-    return ", ".join(points)
+    return ", ".join(points) + f" ({unit})"
 
 
 def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:

@@ -40,6 +40,13 @@ ROLLS = {
     (True, True): "page.meshes_fixed",
 }
 """The sentences of wheels on moving and on fixed ones, without teeth and with them."""
+BELTS = {
+    (False, False): "page.belt",
+    (False, True): "page.belt_crossed",
+    (True, False): "page.belt_fixed",
+    (True, True): "page.belt_crossed_fixed",
+}
+"""The sentences of belts to moving wheels and to fixed ones, open and crossed."""
 
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -150,6 +157,8 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
                 start = start_on_wheel(drawing, link, rolling)
                 key = ROLLS[rolling.on == FRAME, toothed]
+                if rolling.belt is not None:
+                    key = BELTS[rolling.on == FRAME, rolling.belt.crossed]
                 yield words(key, other=escape(rolling.on), start=start, **fields)
             else:
                 fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")

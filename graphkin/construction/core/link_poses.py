@@ -15,7 +15,7 @@ from graphkin.construction.core.program import is_in_scene
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Line, cross, dot
-from graphkin.scene.model import FRAME, Apart, At, Link, Polar, Rolling, Scene, Slide, Wheel
+from graphkin.scene.model import FRAME, Apart, At, Belt, Link, Polar, Rolling, Scene, Slide, Wheel
 from graphkin.scene.quantity import Quantity
 
 CLEAR = 1.6
@@ -233,6 +233,8 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def on_wheel(self, own: list[Disc], rolling: Rolling) -> Touch | None:
         """A circular track: on the line of the centres, of the two wheels that touch."""
         others = [disc for disc in self.discs if disc.link == rolling.on]
+        if rolling.belt is not None:
+            return self.by_belt(own, others, rolling, rolling.belt)
         pairs = [(one, other) for one in own for other in others]
         if not pairs:
             return None
@@ -250,6 +252,20 @@ class LinkPoses(Struct, frozen=True, dict=True):
             return None
         way = -apart / abs(apart) if other.wheel.inside else apart / abs(apart)
         return Touch(rolling, one, one.centre + one.radius * way, 1j * way, None, other)
+
+    def by_belt(
+        self, own: list[Disc], others: list[Disc], rolling: Rolling, belt: Belt
+    ) -> Touch | None:
+        """A belt: where its strands meet the line of the centres."""
+        wheels = self.scene.links[own[0].link].wheels if own else ()
+        tracks = self.scene.link(rolling.on).wheels
+        one = next((d for d in own if d.wheel is wheels[belt.wheels[0]]), None)
+        other = next((d for d in others if d.wheel is tracks[belt.wheels[1]]), None)
+        if one is None or other is None:
+            return None
+        apart = other.centre - one.centre
+        at = one.centre + apart * (one.radius / (one.radius + belt.sense * other.radius))
+        return Touch(rolling, one, at, 1j * apart / abs(apart), None, other)
 
 
 def lettered(point: str) -> str:

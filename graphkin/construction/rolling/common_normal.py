@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 class CommonNormal(Construction, frozen=True, kw_only=True):
     """The ``line`` through the image ``start`` of one point of contact, for that of the other.
 
-    It is parallel to the radius from ``p`` to ``q``.
+    It is parallel to the radius from ``p`` to ``q``, for links that are ``belted`` to the line of
+    their centres.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
@@ -28,6 +29,7 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
 
     p: str
     q: str
+    belted: bool = False
     start: int
     line: int
 
@@ -43,7 +45,8 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
     def clause(self, drawing: Drawing, role: str) -> str:
         """The parallel to the radius."""
         start = symbol(drawing.trace.program.steps[self.start].name)
-        return drawing.words("step.common-normal", s=start, **self.symbols())
+        key = "common-normal-belt" if self.belted else "common-normal"
+        return drawing.words(f"step.{key}", s=start, **self.symbols())
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The line, with the radius to which it is parallel."""
@@ -51,12 +54,13 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Where wheels touch their accelerations differ along the common normal only."""
-        yield Relation(drawing.words("calculation.touching", bar=bar(self.p, self.q)))
+        key = "belted" if self.belted else "touching"
+        yield Relation(drawing.words(f"calculation.{key}", bar=bar(self.p, self.q)))
 
 
-def common_normal(pen: Pen, start: int, ends: tuple[str, str]) -> int:
+def common_normal(pen: Pen, start: int, ends: tuple[str, str], *, belted: bool = False) -> int:
     """The parallel to the radius between two points, through an image."""
     line = pen.draw(along_bar, start, *(pen.the("position", end) for end in ends))
     p, q = map(letter, ends)
-    pen.make(CommonNormal(p=p, q=q, start=start, line=line))
+    pen.make(CommonNormal(p=p, q=q, belted=belted, start=start, line=line))
     return line

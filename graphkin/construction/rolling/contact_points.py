@@ -19,10 +19,10 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, dot
-from graphkin.scene.model import FRAME, Rolling
+from graphkin.scene.model import FRAME, Belt, Rolling
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -186,6 +186,23 @@ class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
             o=symbol(disc.wheel.centre),
             **self.symbols(),
         )
+
+
+class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
+    """Where common tangents of two wheels, which a ``belt`` is, meet the line of ``ends``.
+
+    There both wheels, as plates without bounds, have one velocity.
+    """
+
+    reasons: ClassVar[Mapping[str, str]] = {"point": "why.belt"}
+
+    belt: Belt
+    ends: tuple[str, str]
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """By the belt: by its strands themselves where it is crossed, else by them produced."""
+        key = "centre-of-crossed-belt" if self.belt.crossed else "centre-of-open-belt"
+        return drawing.words(f"step.{key}", bar=bar(*self.ends), **self.symbols())
 
 
 class RackPoint(Construction, frozen=True, kw_only=True):

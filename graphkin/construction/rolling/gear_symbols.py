@@ -63,7 +63,11 @@ def meshes(drawing: Drawing, disc: Disc) -> list[Mesh]:
     for touch in drawing.standing.touches:
         if disc in (touch.disc, touch.other):
             way = touch.at - disc.centre
-            if touch.disc.module and (touch.other is None or touch.other.module):
+            if (
+                touch.rolling.belt is None
+                and touch.disc.module
+                and (touch.other is None or touch.other.module)
+            ):
                 shift = 0.0 if disc is touch.disc else 0.5
                 found.append(Mesh(phase(way), shift, overlapping(touch)))
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from msgspec import Struct
 
@@ -16,6 +17,7 @@ from graphkin.construction.links.counted_turn import CountedTurn, counted_link, 
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.rolling.contact_points import (
+    CentreOfBelt,
     CentrePath,
     ContactOfWheels,
     ContactOnTrack,
@@ -64,11 +66,17 @@ def track_of(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
 
 @by_contact
 def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
-    """The radius of a wheel, negative where it rolls to the right of a track or is a ring."""
+    """The radius of a wheel, negative where it rolls to the right of a track or is a ring.
+
+    So is that of the wheel from which an open belt comes.
+    """
     chosen = contact.wheel if wheel else contact.track
     assert chosen is not None
+    belt = contact.rolling.belt
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         radius = pen.given("length", chosen.radius)
+        if not wheel and belt is not None and not belt.crossed:
+            return pen.draw(opposite, radius)
         if chosen.inside or (contact.track is None and contact.rolling.side < 0):
             return pen.draw(opposite, radius)
     return radius
@@ -189,9 +197,14 @@ def wheel_on_wheel(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
 def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
     """The contact of two wheels whose centres stand."""
     side = seen_from(pen, contact, link)
-    ends = pen.the("position", side.track.centre), pen.the("position", side.own.centre)
+    centres = side.track.centre, side.own.centre
+    ends = tuple(pen.the("position", centre) for centre in centres)
     radii = side.track_radius, side.radius
-    mark_contact(pen, contact, ContactOfWheels, contact_of_wheels, *ends, *radii)
+    if contact.rolling.belt is None:
+        mark_contact(pen, contact, ContactOfWheels, contact_of_wheels, *ends, *radii)
+    else:
+        kind = partial(CentreOfBelt, belt=contact.rolling.belt, ends=centres)
+        mark_contact(pen, contact, kind, contact_of_wheels, *ends, *radii)
 
 
 def roll_round(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> None:

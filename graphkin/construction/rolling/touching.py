@@ -58,8 +58,7 @@ class TouchingEffect(Struct, frozen=True):
     def touching(self, scene: Scene) -> list[str]:
         """The wheels of a scene with what they touch: 3 on 0."""
         found = (each for each in contacts(scene) if meshes(scene, each) is self.in_mesh)
-        pairs = (each.links for each in found)
-        return [f"{wheel} on {'the frame' if on == FRAME else on}" for wheel, on in pairs]
+        return [words_of(each) for each in found]
 
     def cause(self, scene: Scene) -> str:
         """The wheels that bring it in."""
@@ -68,6 +67,13 @@ class TouchingEffect(Struct, frozen=True):
     def absence(self, scene: Scene) -> str:
         """That there are none."""
         return "" if self.touching(scene) else self.lacks
+
+
+def words_of(contact: Contact) -> str:
+    """A wheel with what it touches, or runs with by a belt."""
+    wheel, on = contact.links
+    other = "the frame" if on == FRAME else on
+    return f"{wheel} with {other} by a belt" if contact.rolling.belt else f"{wheel} on {other}"
 
 
 TOUCHING = (

@@ -149,7 +149,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     other = carried(pen, known, name, "acceleration")
     corner, line = known_and_free(pen, centre, own)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        along = common_normal(pen, other, (centre, own))
+        along = common_normal(pen, other, (centre, own), belted=contact.rolling.belt is not None)
         found = crossed_image(pen, line, along, name=second_image(own), of=own)
         component_arrow(pen, corner, found, "τ", own, centre)
     return pen.want("acceleration", own, found)

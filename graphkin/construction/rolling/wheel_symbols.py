@@ -19,7 +19,7 @@ from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, Mark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched
-from graphkin.numbers.arithmetic import Real, larger, pick, smaller
+from graphkin.numbers.arithmetic import Real, at, larger, pick, smaller, sqrt
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Link
 
@@ -65,10 +65,31 @@ def draw_contacts(board: FieldContent, drawing: Drawing, field: Field) -> None:
     for disc in drawing.standing.discs:
         board.marks += spokes(drawing, field, disc)
     for touch in drawing.standing.touches:
-        at, name = field(touch.at), drawing.standing.name_at(touch.at)
-        board.marks.append(CircleMark(*at, CONTACT, "contact", touch.disc.link))
+        board.marks += within(strands(field, touch), field.rect)
+        here, name = field(touch.at), drawing.standing.name_at(touch.at)
+        board.marks.append(CircleMark(*here, CONTACT, "contact", touch.disc.link))
         if name:
-            board.labels.append(Label(symbol(name), "", at, 2.5, name, priority=1, radius=CONTACT))
+            board.labels.append(
+                Label(symbol(name), "", here, 2.5, name, priority=1, radius=CONTACT)
+            )
+
+
+def strands(field: Field, touch: Touch) -> Iterator[Mark]:
+    """The strands of a belt, common tangents of its wheels; open ones are produced to meet."""
+    belt, other = touch.rolling.belt, touch.other
+    if belt is None or other is None:
+        return
+    apart = other.centre - touch.disc.centre
+    lean = (touch.disc.radius + belt.sense * other.radius) / abs(apart)
+    rise, along = sqrt(1 - lean * lean), apart / abs(apart)
+    for side in (1, -1):
+        normal = along * at(lean, side * rise)
+        start = touch.disc.centre + touch.disc.radius * normal
+        end = other.centre - belt.sense * other.radius * normal
+        yield LineMark(*field(start), *field(end), "belt", touch.disc.link)
+        if not belt.crossed:
+            nearer = start if touch.disc.radius < other.radius else end
+            yield LineMark(*field(nearer), *field(touch.at), "locus", touch.disc.link)
 
 
 def wheel(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:

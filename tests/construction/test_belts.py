@@ -1,0 +1,303 @@
+"""Belts: the rims of both wheels run at one speed along the strands, seen from the arm."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.text.errors import SceneError, StructureError
+from tests.documents.sheet_tools import FOLDER
+from tests.textbook.book import RPM, answers
+
+OWN, OTHER, APART = 24.0, 60.0, 150.0
+HEAD = """
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+"""
+ON_ARM = """
+[frame]
+O = [0, 0]
+[links.1]
+O-S = 45
+wheel = {{ centre = "O", radius = 60 }}
+[links.2]
+O-P = 150
+[links.3]
+P-Q = 40
+wheel = {{ centre = "P", radius = 24 }}
+belt = {{ on = 1, crossed = {crossed} }}
+[[drivers]]
+turn = 2
+angle = 40
+speed = 7
+acceleration = 11
+[[drivers]]
+turn = 1
+angle = 110
+speed = -3
+acceleration = 5
+"""
+
+
+def solved(crossed: bool):
+    """The answers with both wheels and the arm accelerated."""
+    return answers(HEAD + ON_ARM.format(crossed=str(crossed).lower()))
+
+
+BOTH = pytest.mark.parametrize("crossed", [False, True])
+
+
+@BOTH
+def test_against_the_arm_rates_are_inversely_as_the_radii(crossed):
+    links, sense = solved(crossed).links, -1 if crossed else 1
+    arm, track, wheel = links["2"], links["1"], links["3"]
+    ratio = sense * OTHER / OWN
+    assert wheel.omega - arm.omega == pytest.approx(ratio * (track.omega - arm.omega))
+    assert wheel.epsilon - arm.epsilon == pytest.approx(ratio * (track.epsilon - arm.epsilon))
+    assert wheel.omega == pytest.approx(7 + ratio * (-3 - 7))
+    assert wheel.epsilon == pytest.approx(11 + ratio * (5 - 11))
+
+
+@BOTH
+def test_a_strand_is_not_stretched(crossed):
+    """Its ends, on both rims, have one velocity along it; so has a bar's, accelerated along itself
+    by the arm's rate squared times its length."""
+    found = solved(crossed)
+    centre, links = found.points["P"], found.links
+    sense = 1 if crossed else -1
+    o, p = 0j, centre.position
+    along = (p - o) / abs(p - o)
+    lean = (OWN + sense * OTHER) / APART
+    normal = -along * complex(lean, sqrt(1 - lean**2))
+    rim = p + OWN / 1000 * normal
+    end = o - sense * OTHER / 1000 * normal
+    strand = (rim - end) / abs(rim - end)
+    arm, wheel, track = links["2"], links["3"], links["1"]
+    v_rim = centre.velocity + 1j * wheel.omega * (rim - p)
+    v_end = 1j * track.omega * end
+    assert ((v_rim - v_end) * strand.conjugate()).real == pytest.approx(0, abs=1e-12)
+    a_rim = centre.acceleration + (1j * wheel.epsilon - wheel.omega**2) * (rim - p)
+    a_end = (1j * track.epsilon - track.omega**2) * end
+    along_it = ((a_rim - a_end) * strand.conjugate()).real
+    assert along_it == pytest.approx(-(arm.omega**2) * abs(rim - end))
+
+
+@BOTH
+def test_the_wheel_has_turned_as_far_as_the_belt_has_run(crossed):
+    """From the start, where all stand at 0."""
+    found, sense = solved(crossed), -1 if crossed else 1
+    way = found.points["Q"].position - found.points["P"].position
+    turned = 40 + sense * (110 - 40) * OTHER / OWN
+    assert np.angle(way / np.exp(1j * np.radians(turned))) == pytest.approx(0, abs=1e-12)
+
+
+def test_an_epicyclic_arm_between_two_belts_is_where_both_want_it():
+    """Two pulleys on one planet axle, belts from the frame and from a driven wheel (Willis)."""
+    text = """
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+wheel = { centre = "O", radius = 60 }
+[links.1]
+O-S = 45
+wheel = { centre = "O", radius = 40 }
+[links.2]
+O-P = 150
+[links.3]
+P-Q = 40
+wheels = [{ centre = "P", radius = 24 }, { centre = "P", radius = 50 }]
+belt = [{ on = 0 }, { on = 1, wheels = [2, 1], crossed = true }]
+[[drivers]]
+turn = 1
+angle = 20
+speed = 10
+"""
+    links = answers(text).links
+    # ω3 - ω2 = -ω2 60/24 and ω3 - ω2 = -(10 - ω2) 40/50
+    arm = -10 * 0.8 / (-60 / 24 - 0.8)
+    assert links["2"].omega == pytest.approx(arm)
+    assert links["3"].omega == pytest.approx(arm * (1 - 60 / 24))
+
+
+def test_khurmi_11_1_engine_line_shaft_dynamo():
+    found = load(FOLDER / "belts-dynamo.toml").solve()
+    assert found.links["3"].omega / RPM == pytest.approx(1500)
+    assert found.links["2"].omega / RPM == pytest.approx(250)
+
+
+@pytest.mark.parametrize("name", ["belts-dynamo", "belts-crossed", "belts-arm"])
+def test_the_closures_agree_over_the_turn(name):
+    for angle in (0, 75, 210, 345):
+        made = load(FOLDER / f"{name}.toml", angle=angle)
+        assert made.witness(made.solve()).agrees
+
+
+ON_FRAME = """
+[frame]
+O = [0, 0]
+P = [{apart}, 0]
+[links.1]
+O-S = 45
+wheel = {{ centre = "O", radius = 60 }}
+[links.3]
+P-Q = 40
+wheel = {{ centre = "P", radius = {radius}{more} }}
+belt = {{ on = 1{keys} }}
+[[drivers]]
+turn = 1
+angle = 40
+speed = 7
+"""
+
+
+@pytest.mark.parametrize(
+    ("apart", "radius", "more", "keys", "said"),
+    [
+        (
+            80,
+            24,
+            "",
+            "",
+            "overlap or touch: the frame keeps O-P = 80 mm; expected more than the sum",
+        ),
+        (84, 24, "", ", crossed = true", "expected more than the sum of the radii, 84 mm"),
+        (150, 60, "", "", "an open belt on two wheels of radius 60 mm"),
+        (150, 24, ", inside = true", "", "links.3.belt: the wheel of link 3 is a ring"),
+        (150, 24, "", ", wheels = [2, 1]", "links.3.belt.wheels: wheel 2 of link 3, which has 1"),
+        (150, 24, "", ", wheels = 2", "links.3.belt.wheels: 2; expected [1, 2]"),
+        (150, 24, "", ", crossed = 1", "links.3.belt.crossed: 1; expected true or false"),
+    ],
+)
+def test_what_no_belt_can_do_is_told(apart, radius, more, keys, said):
+    text = HEAD + ON_FRAME.format(apart=apart, radius=radius, more=more, keys=keys)
+    with pytest.raises((SceneError, StructureError)) as told:
+        answers(text)
+    assert said in str(told.value)
+
+
+def test_a_belt_needs_an_arm():
+    text = HEAD + ON_ARM.format(crossed="false").replace("O-P = 150", "O-R = 150")
+    with pytest.raises((SceneError, StructureError), match="an arm: a link with O-P"):
+        answers(text)
+
+
+@pytest.mark.parametrize(("large", "small"), [(100, 70), (120, 70), (90, 70)])
+def test_the_load_of_a_differential_hoist_moves_at_half_the_difference_of_the_rims(large, small):
+    made = load(FOLDER / "hoist-differential.toml", R=large)
+    found = made.solve()
+    assert made.witness(found).agrees
+    speed = 30 * RPM * (large - small) / 2000
+    assert found.points["P"].velocity == pytest.approx(1j * speed)
+    assert found.links["4"].omega == pytest.approx(30 * RPM)
+    strands = [found.points[point].velocity.imag for point in "BC"]
+    assert strands == pytest.approx([30 * RPM * large / 1000, -30 * RPM * small / 1000])
+
+
+MOVING_PULLEY = """
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 50
+wheel = { centre = "O", radius = 50 }
+rolls = { on = 2, through = "B", angle = 0 }
+[links.2]
+B = [0, 0]
+slides = { on = 0, through = [50, -100], angle = 90 }
+[links.3]
+P = [0, 0]
+wheel = { centre = "P", radius = 80 }
+rolls = [
+  { on = 2, through = [-200, 0], angle = 0, side = "right" },
+  { on = 0, through = [210, -300], angle = 90 },
+]
+[[drivers]]
+turn = 1
+angle = 30
+speed = 4
+acceleration = 6
+"""
+
+
+def test_a_moving_pulley_rises_at_half_the_speed_of_the_rope():
+    found = answers(MOVING_PULLEY)
+    assert found.points["B"].velocity == pytest.approx(0.2j)
+    assert found.points["P"].velocity == pytest.approx(0.1j)
+    assert found.points["P"].acceleration == pytest.approx(0.15j)
+    assert found.links["3"].omega == pytest.approx(-0.1 / 0.08)
+
+
+IN_SERIES = """
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+wheel = { centre = "O", radius = 20 }
+[links.1]
+O-S = 45
+wheel = { centre = "O", radius = 40 }
+[links.2]
+O-P = 150
+P-R = 140
+O-R = 200
+R = "left of O-P"
+[links.3]
+P-Q = 40
+wheels = [{ centre = "P", radius = 24 }, { centre = "P", radius = 50 }]
+belt = { on = 1 }
+[links.4]
+R-V = 20
+wheels = [{ centre = "R", radius = 24 }, { centre = "R", radius = 30 }]
+belt = [
+  { on = 3, wheels = [1, 2], crossed = true },
+  { on = 0, wheels = [2, 1] },
+]
+[[drivers]]
+turn = 1
+angle = 20
+speed = 149
+acceleration = 4
+"""
+
+
+def test_belts_in_series_on_a_free_arm():
+    """From wheel 1 by 40/24 and -50/24, from the fixed wheel by 20/30: 24 ω2 = 125 (ω1 - ω2)."""
+    links = answers(IN_SERIES).links
+    assert links["2"].omega == pytest.approx(125)
+    assert links["2"].epsilon == pytest.approx(4 * 125 / 149)
+    assert links["3"].omega == pytest.approx(125 + 24 * 40 / 24)
+    assert links["4"].omega == pytest.approx(125 - 125 * 20 / 30)
+
+
+ON_A_COUPLER = """
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O1 = [0, 0]
+O2 = [300, 0]
+[links.1]
+O1-A = 80
+wheel = {{ centre = "A", radius = 30 }}
+[links.2]
+A-B = 280
+[links.3]
+O2-B = 200
+[links.4]
+B-Q = 40
+wheel = {{ centre = "B", radius = 45 }}
+belt = {{ on = 1, crossed = {crossed}, start = {{ 1 = 60, 2 = 20 }} }}
+[[drivers]]
+turn = 1
+angle = 50
+speed = 10
+[branches]
+B = "left of A-O2"
+"""
+
+
+@BOTH
+def test_a_belt_from_a_crank_to_a_wheel_on_its_coupler(crossed):
+    links = answers(ON_A_COUPLER.format(crossed=str(crossed).lower())).links
+    against = links["1"].omega - links["2"].omega
+    ratio = -30 / 45 if crossed else 30 / 45
+    assert links["4"].omega - links["2"].omega == pytest.approx(ratio * against)
