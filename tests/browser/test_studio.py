@@ -209,7 +209,40 @@ def test_values_go_into_the_text_and_back_by_undo(studio):
     assert page.is_disabled("#reset")
     answered(page, lambda: page.keyboard.press("Control+z"))
     assert page.input_value("#text") == PUMP
+    assert page.input_value("#value-n") == "12"
+    answered(page, lambda: page.keyboard.press("Control+z"))
     assert page.input_value("#value-n") == "7"
+    answered(page, lambda: page.keyboard.press("Control+Shift+z"))
+    assert page.input_value("#value-n") == "12"
+    answered(page, lambda: page.keyboard.press("Control+y"))
+    assert "n = { value = 12, min = 1" in page.input_value("#text")
+
+
+def test_one_history_holds_typing_sliders_and_acts_in_their_order(studio):
+    page = studio()
+    at_rest(page)
+    answered(page, lambda: write(page, "Pump mechanism", "A pump"))
+    typed = page.input_value("#text")
+    page.focus("#slider-n")
+    answered(page, lambda: page.keyboard.press("ArrowRight"))
+    until(page, "document.querySelector('#value-n').value === '8'")
+    answered(page, lambda: page.click("#build"))
+    page.check("#tools input[value='pivot']")
+    box = page.locator("#canvas svg").bounding_box()
+    answered(page, lambda: page.mouse.click(box["x"] + 30, box["y"] + 30))
+    built = page.input_value("#text")
+    assert "O3 = " in built
+    answered(page, lambda: page.click("#undo"))
+    assert (page.input_value("#text"), page.input_value("#value-n")) == (typed, "8")
+    answered(page, lambda: page.click("#undo"))
+    assert (page.input_value("#text"), page.input_value("#value-n")) == (typed, "7")
+    answered(page, lambda: page.click("#undo"))
+    while page.input_value("#text") != PUMP:
+        answered(page, lambda: page.click("#undo"))
+    for _ in range(9):
+        page.click("#redo")
+    until(page, "document.querySelector('#value-n').value === '8'")
+    assert page.input_value("#text") == built
 
 
 def test_a_scene_is_saved_where_it_was_opened_and_no_other_is_replaced_unasked(studio, place):

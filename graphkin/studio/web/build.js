@@ -321,28 +321,11 @@ svg.addEventListener(
   { passive: false },
 );
 
-/** Go a step back or forth in the text, as its own keys do. */
-function again(which) {
-  find("text").focus();
-  document.execCommand(which);
-  svg.focus();
-}
-
-svg.addEventListener("keydown", (event) => {
-  if (!(event.ctrlKey || event.metaKey)) return;
-  const key = event.key.toLowerCase();
-  if (key !== "z" && key !== "y") return;
-  event.preventDefault();
-  again(key === "y" || event.shiftKey ? "redo" : "undo");
-});
-
 function explain() {
   find("how").textContent = say(`studio.how_${tool()}`);
   find("driven").hidden = tool() !== "driver";
 }
 
-find("undo").addEventListener("click", () => again("undo"));
-find("redo").addEventListener("click", () => again("redo"));
 find("tools").addEventListener("change", explain);
 find("tools").addEventListener("submit", (event) => event.preventDefault());
 toggle.addEventListener("click", () => building(!isBuilding()));

@@ -13,13 +13,17 @@ let shown = ""; // the problems that are shown
 /** The text as it is written. */
 export const written = () => text.value;
 
-/** Call back whenever the text changes. */
+let wrote = () => {};
+
+/** Call back whenever the text changes, with what goes on as one change: typing, or deleting. */
 export function onWriting(work) {
-  text.addEventListener("input", () => {
-    forget();
-    work();
-  });
+  wrote = work;
 }
+
+text.addEventListener("input", ({ inputType = "" }) => {
+  forget();
+  wrote(inputType === "insertText" ? "typing" : inputType.startsWith("deleteContent") ? "deleting" : "");
+});
 
 /** Number the lines, those with mistakes marked; each number is as high as its line, wrapped. */
 function number(wrong = new Set()) {
@@ -116,15 +120,12 @@ function go({ line, start, end }) {
   follow();
 }
 
-/** Change pieces of the text, the last first, so that each can be undone. */
+/** Change pieces of the text, the last first, as one change. */
 export function change(edits) {
   text.focus();
-  for (const { start, end, text: words } of edits) {
-    text.setSelectionRange(start, end);
-    const done = words ? document.execCommand("insertText", false, words) : document.execCommand("delete");
-    if (!done) text.setRangeText(words);
-  }
+  for (const { start, end, text: words } of edits) text.setRangeText(words, start, end, "end");
   forget();
+  wrote("");
 }
 
 /** Put another text in place of this one, as one change of what differs. */

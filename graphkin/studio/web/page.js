@@ -4,8 +4,9 @@ import { building, onBuilding, placesFields, showSketch } from "./build.js";
 import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
 import { change, onWriting, replace, showProblems, written } from "./editor.js";
+import { historyOf } from "./history.js";
 import { counted, sentence } from "./mistakes.js";
-import { forgetMoves, held as isHeld, markSliders, onMoving, settings, showSliders } from "./sliders.js";
+import { forgetMoves, held as isHeld, markSliders, onMoving, setMoves, settings, showSliders, writing } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
 
 const PAUSE = 150; // ms without a sign before the text is read
@@ -21,6 +22,7 @@ let shown = 0; // of the newest answer
 let moving = false; // a move is on its way
 let next = false; // another move has come since
 let timer = 0;
+let back = false; // what is shown has been there before
 let wrong = []; // what is wrong with the scene as it was last looked at
 let chosen = ""; // the language, where it was chosen here
 
@@ -224,11 +226,34 @@ async function intoText() {
   }
 }
 
-onWriting(() => {
+const changes = historyOf(
+  () => ({ text: written(), moved: settings() }),
+  (state) => {
+    setMoves(state.moved);
+    back = true;
+    replace(state.text);
+    back = false;
+    look(false);
+  },
+);
+onWriting((kind) => {
+  if (!back) changes.note(kind);
   state();
   soon();
 });
-onMoving((quick) => (quick ? move() : look(false)));
+onMoving((quick, name) => {
+  changes.note(name && `slider ${name}`);
+  if (quick) move();
+  else look(false);
+});
+for (const which of ["undo", "redo"]) {
+  find(which).addEventListener("click", () => changes[which]());
+  find("text").addEventListener("beforeinput", (event) => {
+    if (event.inputType !== `history${which[0].toUpperCase()}${which.slice(1)}`) return;
+    event.preventDefault();
+    changes[which]();
+  });
+}
 onChoosing(() => look(false));
 file.addEventListener("input", state);
 find("new").addEventListener("click", () => {
@@ -249,6 +274,7 @@ find("language").addEventListener("change", another);
 find("write").addEventListener("click", intoText);
 find("reset").addEventListener("click", () => {
   forgetMoves();
+  changes.note();
   look(false);
 });
 find("parameters").addEventListener("submit", (event) => event.preventDefault());
@@ -257,6 +283,20 @@ addEventListener("keydown", (event) => {
     event.preventDefault();
     save();
   }
+});
+
+/** Whether a key is meant for the field in which it is pressed. */
+const own = (field) => {
+  if (field.closest?.("dialog") || field === file) return true;
+  return Boolean(field.dataset?.value !== undefined && writing(field));
+};
+
+addEventListener("keydown", (event) => {
+  const key = event.key.toLowerCase();
+  if (!(event.ctrlKey || event.metaKey) || !["z", "y"].includes(key) || own(event.target)) return;
+  event.preventDefault();
+  if (key === "y" || event.shiftKey) changes.redo();
+  else changes.undo();
 });
 addEventListener("beforeunload", (event) => {
   if (!isSafe()) event.preventDefault();

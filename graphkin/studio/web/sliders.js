@@ -8,6 +8,7 @@ const reset = find("reset");
 const rows = new Map();
 let moved = {};
 let changed = () => {};
+let anew = false; // a value is shown also in the field that is being written in
 let holding = false; // a slider is held by the pointer
 
 /** The values that differ from the text, by name. */
@@ -19,9 +20,19 @@ export const values = () => [...rows].map(([name, row]) => [name, row.field.valu
 /** Whether a slider is held: it may move again at any time. */
 export const held = () => holding;
 
-/** Call back when a slider is moved (quick), or let go, or a value is entered. */
+/** Whether something is being written into a field that is not entered yet. */
+export const writing = (field) => field.value.trim() !== field.dataset.value;
+
+/** Call back when a slider is moved (quick, with its name), or let go, or a value is entered. */
 export function onMoving(work) {
   changed = work;
+}
+
+/** Let parameters have these values, and all others those of the text. */
+export function setMoves(values) {
+  moved = { ...values };
+  anew = true;
+  enable();
 }
 
 /** Go back to what the text says. */
@@ -45,6 +56,7 @@ export function showSliders(sliders) {
     if (box.children[i] !== row.whole) box.insertBefore(row.whole, box.children[i] ?? null);
     fill(row, slider);
   });
+  anew = false;
   if (!sliders.length) box.textContent = say("studio.no_parameters");
   find("into").hidden = !sliders.length;
   enable();
@@ -92,7 +104,7 @@ function made(name) {
     moved[name] = row.stops[Number(range.value)];
     show(row, moved[name]);
     enable();
-    changed(true);
+    changed(true, name);
   });
   range.addEventListener("pointerdown", () => {
     holding = true;
@@ -103,6 +115,7 @@ function made(name) {
     const value = field.value.trim().replace(",", ".").replace("−", "-");
     if (value && value === moved[name]) return; // Enter was pressed before
     if (value) moved[name] = value;
+    field.dataset.value = field.value.trim();
     enable();
     changed(false);
   });
@@ -131,6 +144,7 @@ function fill(row, slider) {
 }
 
 function show(row, value) {
-  if (document.activeElement !== row.field) row.field.value = value;
+  if (anew || document.activeElement !== row.field) row.field.value = value;
+  row.field.dataset.value = value;
   row.range.setAttribute("aria-valuetext", `${value} ${row.unit.textContent}`.trim());
 }
