@@ -271,9 +271,15 @@ class Higher(Struct, frozen=True):
 
 
 class Unresolved(Struct, frozen=True):
-    """What is left when no driver and no group applies."""
+    """What is left when no driver and no group applies.
+
+    ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
+    its links on which wheels roll straight on.
+    """
 
     links: tuple[str, ...]
+    driven: tuple[Driver, ...] = ()
+    tracks: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:

@@ -232,13 +232,25 @@ def geared_base(scene: Scene, group: Geared) -> Base:
 
 
 def no_construction(group: Group) -> StructureError:
-    """The error for links that hold together in a way for which there is no construction."""
-    what = group.title if not isinstance(group, Unresolved) else "hold together in a way"
-    return StructureError(
-        Problem(
-            "links." + ", ".join(group.links),
-            f"{what} that cannot be constructed",
-            "links that close on known ones, two at a time or after one of them has been tried",
-            "is a driver missing, or does it drive a link that cannot be reached by itself?",
-        )
-    )
+    """The error for links that hold together in a way for which there is no construction.
+
+    It names the limit: several driven guides in one group, a track that wheels alone hold, two
+    links to be tried at once.
+    """
+    place = "links." + ", ".join(group.links)
+    if not isinstance(group, Unresolved):
+        found = f"{group.title} that cannot be constructed"
+        return StructureError(Problem(place, found, CLOSING))
+    if len(group.driven) > 1:
+        pairs = ", ".join(f"link {each.link} on {each.against}" for each in group.driven)
+        found = f"close only with {len(group.driven)} drivers at once: {pairs}"
+        return StructureError(Problem(place, found, "one driver within a group that is tried"))
+    if group.tracks:
+        found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
+        return StructureError(Problem(place, found, "a track that slides, is driven, or is fixed"))
+    found = "close only when two of them are tried at once"
+    hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
+    return StructureError(Problem(place, found, CLOSING, hint))
+
+
+CLOSING = "links that close on known ones, two at a time or after one of them has been tried"
