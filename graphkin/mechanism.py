@@ -18,6 +18,7 @@ from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.higher_class.settling import run_settled
 from graphkin.construction.higher_class.trial_rates import trial_rates
+from graphkin.construction.tape.batch_runner import LEAST, BatchRunner
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind
 from graphkin.scene import scene_files
@@ -27,7 +28,6 @@ from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import Group
-from graphkin.tape.batch_runner import LEAST, BatchRunner
 from graphkin.text.errors import Problem, SceneError
 from graphkin.text.hooks import service
 

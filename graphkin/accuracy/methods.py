@@ -15,10 +15,10 @@ from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.core.timing import Timing
+from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind, ball_kind, decimal_kind
 from graphkin.scene.model import Closure
-from graphkin.tape.batch_runner import BatchRunner, Way
 from graphkin.text.errors import GraphkinError
 
 DIGITS = (15, 30, 60, 120)
@@ -188,7 +188,7 @@ def batch_work(
 
 def can_be_emitted(reference: Reference) -> bool:
     """Whether source can follow the program."""
-    from graphkin.tape.batch_runner import BatchRequest
+    from graphkin.construction.tape.batch_runner import BatchRequest
 
     program, answers = reference.places.course.program, reference.answers
     keep = [program.targets[target] for target in answers.every]

@@ -25,6 +25,7 @@ from graphkin.accuracy.stopwatch import Effort
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
 from graphkin.construction.core.results import gathered
+from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import newton, ratios_at
@@ -33,7 +34,6 @@ from graphkin.loops.rounding import Rounding
 from graphkin.loops.witness.examine import started
 from graphkin.motion.sweep import names
 from graphkin.scene.model import Scene
-from graphkin.tape.batch_runner import BatchRunner, Way
 from graphkin.text.errors import GraphkinError
 
 TOLERANCES = (1e-3, 1e-6, 1e-12)

@@ -13,9 +13,9 @@ from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS, Sort, Whose
 from graphkin.construction.core.run import run
 from graphkin.construction.core.timing import Timing
+from graphkin.construction.tape.batch_runner import Way
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT
-from graphkin.tape.batch_runner import Way
 
 SCOPES = dict(zip(KINDS, ("position", "+ velocity", "+ acceleration"), strict=True))
 """What each derivative adds to those before it."""

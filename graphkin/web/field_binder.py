@@ -19,11 +19,11 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.tape.tape_outputs import NOWHERE, TapeOutputs
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.drawing.richtext import extent
-from graphkin.tape.tape_outputs import NOWHERE, TapeOutputs
 from graphkin.web.body_pose import BodyPose
 from graphkin.web.field_extents import room_of
 from graphkin.web.moving_sheet import MovingSheet

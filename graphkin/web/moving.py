@@ -14,13 +14,13 @@ from msgspec import Struct
 
 from graphkin.construction.core.crossings import is_drawn
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.tape.javascript import MATH, script_source
+from graphkin.construction.tape.traced import UntraceableError
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import CircleMark, Text
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, reach_of
 from graphkin.numbers.plane import Vector
-from graphkin.tape.javascript import MATH, script_source
-from graphkin.tape.traced import UntraceableError
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.branch_tracking import TrackedBranch
 from graphkin.web.field_binder import FieldBinder, Record

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from graphkin.construction.tape.traced import TracedNumber
 from graphkin.drawing.field import XY, Carried, Field
 from graphkin.numbers.plane import dot
-from graphkin.tape.traced import TracedNumber
 from graphkin.web.body_pose import BodyPose, is_one
 from graphkin.web.field_binder import FieldBinder
 

@@ -13,9 +13,9 @@ from graphkin.construction.core.drawn_scene import ENDLESS, NOISE, Drawing
 from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import Trace
+from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.numbers.arithmetic import larger, pick, smaller
 from graphkin.numbers.plane import Circle, Ratio, dot
-from graphkin.tape.tape_outputs import TapeOutputs
 from graphkin.web.body_pose import BodyPose, unit
 
 

@@ -9,15 +9,15 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.construction.core.program import Program
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.tape_outputs import runner
+from graphkin.construction.tape.traced import TracedNumber
+from graphkin.construction.tape.tracer import traced_kind
 from graphkin.motion.driving import COORDINATES, TURN, What, stated
 from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
-from graphkin.tape.graph import Graph
-from graphkin.tape.tape_outputs import runner
-from graphkin.tape.traced import TracedNumber
-from graphkin.tape.tracer import traced_kind
 
 INPUT = "driver"
 """The name of the input: the driver's position, or the time."""

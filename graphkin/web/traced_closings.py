@@ -12,12 +12,12 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.construction.core.batch import made_ready, run_moving
+from graphkin.construction.tape.emit import LOOP, value
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.tape_outputs import TapeOutputs
+from graphkin.construction.tape.traced import TracedNumber
+from graphkin.construction.tape.tracer import traced_kind
 from graphkin.numbers.arithmetic import phase
-from graphkin.tape.emit import LOOP, value
-from graphkin.tape.graph import Graph
-from graphkin.tape.tape_outputs import TapeOutputs
-from graphkin.tape.traced import TracedNumber
-from graphkin.tape.tracer import traced_kind
 
 TRIES = 24
 """Steps along the secant, at most."""

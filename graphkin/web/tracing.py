@@ -13,14 +13,14 @@ from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.run import Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.links.counted_turn import counted_link
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.tape_outputs import TapeOutputs
+from graphkin.construction.tape.traced import TracedNumber
+from graphkin.construction.tape.tracer import traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.pieces import followed, through
 from graphkin.motion.sweep import sweep_of
 from graphkin.motion.turns_counted import Turned, name_of
-from graphkin.tape.graph import Graph
-from graphkin.tape.tape_outputs import TapeOutputs
-from graphkin.tape.traced import TracedNumber
-from graphkin.tape.tracer import traced_kind
 from graphkin.web.branch_tracking import TrackedBranch, around
 from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
 from graphkin.web.traced_closings import (

@@ -19,11 +19,11 @@ import numpy as np
 from graphkin.construction.compile import write
 from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.results import gathered
+from graphkin.construction.tape.batch_runner import BatchRunner
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
-from graphkin.tape.batch_runner import BatchRunner
 
 DYADS = (2, 5, 10, 20, 50, 100, 200)
 FITTED = 20

@@ -15,9 +15,9 @@ import numpy as np
 
 from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.run import Trace
+from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind
-from graphkin.tape.batch_runner import BatchRunner, Way
 from tests.bench.four_bar_in_c import compiled
 from tests.bench.linkages import PINS, SCENES, peer
 from tests.bench.linkages_by_formulas import in_blocks

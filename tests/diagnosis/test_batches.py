@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from graphkin.construction.tape.batch_runner import EMITTED_FROM
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
-from graphkin.tape.batch_runner import EMITTED_FROM
 from tests.diagnosis.scope import asking, shipped
 
 SIZES = (EMITTED_FROM // 2, 8 * EMITTED_FROM)

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphkin.construction.tape.tape_outputs import runner
 from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
 from graphkin.motion.period import strangers, turns_to_return
 from graphkin.scene.read_scene import read_text
-from graphkin.tape.tape_outputs import runner
 from graphkin.text.errors import GraphkinError
 from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing

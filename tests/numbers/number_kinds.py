@@ -18,10 +18,10 @@ from msgspec.structs import replace
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.program import Given, Program
 from graphkin.construction.core.run import StepFailed, as_of, run
+from graphkin.construction.tape.batch_runner import BatchRunner
 from graphkin.numbers.arithmetic import Kind, at, is_ball
 from graphkin.numbers.kinds import array_kind, decimal_kind
 from graphkin.scene.quantity import exact
-from graphkin.tape.batch_runner import BatchRunner
 
 REFERENCE = decimal_kind(100)
 NUDGE = Fraction(1, 10**40)

@@ -10,10 +10,10 @@ import numpy as np
 
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.too_short import TINY
+from graphkin.construction.tape.tape_outputs import ran
 from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import Arc
 from graphkin.drawing.symbols import SHORT, head
-from graphkin.tape.tape_outputs import ran
 from graphkin.web.moving import Moving
 from graphkin.web.page_driver import INPUT
 from graphkin.web.traced_closings import solver

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.javascript import MATH, script_source
+from graphkin.construction.tape.tape_outputs import ran
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
-from graphkin.tape.graph import Graph
-from graphkin.tape.javascript import MATH, script_source
-from graphkin.tape.tape_outputs import ran
 from graphkin.web.moving import Moving
 from tests.browser.opening import chromium  # noqa: F401
 from tests.web.laid import laid

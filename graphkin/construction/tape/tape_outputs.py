@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from graphkin.tape.graph import FOLD, Graph, Node
-from graphkin.tape.traced import COMPARE, TracedNumber, Truth, entered
+from graphkin.construction.tape.graph import FOLD, Graph, Node
+from graphkin.construction.tape.traced import COMPARE, TracedNumber, Truth, entered
 
 TRUTHS: Mapping[str, Callable[..., Any]] = {
     **COMPARE,
@@ -108,8 +108,8 @@ def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]]
     """Some outputs as a function of arrays of inputs, each array of the same length."""
     import numpy as np
 
-    from graphkin.tape.emit import ARRAYS
-    from graphkin.tape.emit import TRUTHS as CONDITIONS
+    from graphkin.construction.tape.emit import ARRAYS
+    from graphkin.construction.tape.emit import TRUTHS as CONDITIONS
 
     known = {**ARRAYS, **CONDITIONS, "choose": "where", "over": "reciprocal"}
     order = [(number, graph.nodes[number]) for number in graph.needed(outputs)]

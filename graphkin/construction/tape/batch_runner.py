@@ -17,10 +17,10 @@ from graphkin.construction.core.batch import is_array, run_batch, run_blocks
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.results import merged
 from graphkin.construction.core.run import Trace, Values
+from graphkin.construction.tape.emitted import Emitted
+from graphkin.construction.tape.traced import UntraceableError
+from graphkin.construction.tape.tracer import parts_named, traced
 from graphkin.numbers.arithmetic import batch_kind
-from graphkin.tape.emitted import Emitted
-from graphkin.tape.traced import UntraceableError
-from graphkin.tape.tracer import parts_named, traced
 
 EMITTED_FROM = 2_000
 """Variants from which source is written: a few such batches make up for it."""

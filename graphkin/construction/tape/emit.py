@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from graphkin.tape.graph import Graph, Node
+from graphkin.construction.tape.graph import Graph, Node
 
 ARRAYS = {
     "add": "add",

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from graphkin.tape.graph import Graph, Node
+from graphkin.construction.tape.graph import Graph, Node
 
 SIGNS = {
     "add": "{}+{}",

@@ -11,10 +11,10 @@ from msgspec import Struct
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace
+from graphkin.construction.tape.emit import Column, loop_source, numpy_source
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.traced import TracedNumber
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
-from graphkin.tape.emit import Column, loop_source, numpy_source
-from graphkin.tape.graph import Graph
-from graphkin.tape.traced import TracedNumber
 
 BLOCK = 8192
 """Variants run at once by numpy: few enough for the cache, enough to pay for each call."""

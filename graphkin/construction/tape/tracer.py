@@ -10,9 +10,9 @@ from typing import Any
 from graphkin.construction.core.batch import is_array, made_ready, run_moving
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace, Values
+from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.traced import Traced, TracedNumber
 from graphkin.numbers.arithmetic import Kind, nearest_quarter, quarter_turns
-from graphkin.tape.graph import Graph
-from graphkin.tape.traced import Traced, TracedNumber
 
 
 class TracedKind(Kind, frozen=True):

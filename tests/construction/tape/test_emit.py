@@ -14,17 +14,17 @@ from graphkin.construction.core.batch import run_batch, run_blocks
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.results import smallest_margin
 from graphkin.construction.core.vocabulary import action
+from graphkin.construction.tape.batch_runner import EMITTED_FROM, BatchRunner
+from graphkin.construction.tape.emit import loop_source
+from graphkin.construction.tape.emitted import BLOCK, loop_names, sin45
+from graphkin.construction.tape.graph import COMMUTING, Graph
+from graphkin.construction.tape.traced import TracedNumber, UntraceableError
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind, pick
 from graphkin.numbers.plane import Ratio
-from graphkin.tape.batch_runner import EMITTED_FROM, BatchRunner
-from graphkin.tape.emit import loop_source
-from graphkin.tape.emitted import BLOCK, loop_names, sin45
-from graphkin.tape.graph import COMMUTING, Graph
-from graphkin.tape.traced import TracedNumber, UntraceableError
 from tests.chosen import CHOSEN
 
-SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+SCENES = Path(__file__).resolve().parents[3] / "examples" / "scenes"
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
 WAYS = [
     "numpy",

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from numbers import Complex, Real
 from typing import Any
 
-from graphkin.tape.graph import Graph
+from graphkin.construction.tape.graph import Graph
 
 
 class UntraceableError(AttributeError, TypeError):
