@@ -35,6 +35,8 @@ def test_every_wheel_touches_its_track_at_its_rim():
     seen = 0
     for name, made in EVERY.items():
         for touch in poses(made(name)).touches:
+            if touch.rolling.belt is not None:
+                continue
             away = touch.at - touch.disc.centre
             assert abs(away) == pytest.approx(touch.disc.radius, rel=1e-9), name
             assert abs((away.conjugate() * touch.along).real) <= 1e-9 * abs(away), name

@@ -605,6 +605,27 @@ class Reader:
         along = self.at(other) - self.at(o)
         self.put(name, self.at(o) + along / abs(along) * number(r))
 
+    @says(
+        r"the strands of the (?P<kind>open|crossed) belt(?:, produced,)? meet the line of centres "
+        r"⟨p⟩⟨q⟩ in ⟨name⟩: there links ⟨g:number⟩ and ⟨k:number⟩ have one velocity"
+    )
+    def strands_meet(self, kind: str, p: str, q: str, name: str, g: str, k: str) -> None:
+        first, second = (self.belted_radius(name, link) for link in (g, k))
+        share = first / (first + second) if kind == "crossed" else first / (first - second)
+        self.put(name, self.at(p) + (self.at(q) - self.at(p)) * share)
+
+    def belted_radius(self, name: str, link: str) -> float:
+        """The radius of the wheel of a link round which the belt of a point runs."""
+        told = rf"wheel {link}(?: \(r = ({NUMBER}) (?:mm|cm|m)\))?(?: |$)"
+        for belt, strands in pairwise(self.items):
+            if "belt runs" in belt and re.search(rf"centres in {re.escape(name)}(?: |$)", strands):
+                match = re.search(told, belt)
+                if match and match[1]:
+                    return number(match[1])
+        sizes = [re.match(rf"wheel {link}: centre .*, r = ({NUMBER})", item) for item in self.items]
+        (size,) = (number(found[1]) for found in sizes if found)
+        return size
+
     # velocities
 
     @says(
@@ -644,7 +665,7 @@ class Reader:
 
     @says(
         "through ⟨s⟩ the parallel to (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩)(?:, the "
-        "normal of the contact)?"
+        "normal of the contact|, the line of centres)?"
     )
     def parallel_to(self, s: str, of: str, **_: str) -> None:
         self.loci.append(Line.of(self.at(s), self.direction(of)))
@@ -657,6 +678,18 @@ class Reader:
     def pins(self, pairs: str) -> None:
         for name, point in re.findall(rf"({NAME}) = ({NAME})", pairs):
             self.put(name, self.at(point))
+
+    @says(
+        "⟨name⟩, the centre of links ⟨g:number⟩ and ⟨k:number⟩, is where the strands of their belt "
+        "meet the line of centres"
+    )
+    def centre_on_belt(self, name: str, g: str, k: str) -> None:
+        told = rf"wheel (?:{g}.* to wheel {k}|{k}.* to wheel {g})(?: |$)"
+        for belt, strands in pairwise(self.items):
+            if "belt runs" in belt and re.search(told, belt):
+                point = re.search(rf"centres in ({NAME})", strands)
+                assert point is not None
+                self.put(name, self.at(point[1]))
 
     @says("join ⟨m⟩ and ⟨n⟩")
     def kennedy_line(self, m: str, n: str) -> None:

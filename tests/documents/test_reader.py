@@ -27,6 +27,7 @@ APART = {
     "gears-double-planet": "trials",
     "gears-ravigneaux": "trials",
     "gears-simpson": "trials",
+    "hoist-differential": "strands as racks",
     "inflection-cardan": "inflection circles",
     "klein-engine": "Klein’s construction",
     "rapid-return": "loci and trials",

@@ -134,6 +134,18 @@ def of_wheel(scene: Scene, words: Words, wheel: Wheel) -> dict[str, str]:
     return {**fields, "teeth": teeth, "module": module(scene, words, wheel)}
 
 
+def wheel_name(scene: Scene, words: Words, link: str, number: int) -> str:
+    """The wheel of a link by its name; of a link with several by its size, too."""
+    wheels = scene.link(link).wheels
+    if len(wheels) < 2:
+        return escape(link)
+    wheel = wheels[number]
+    size = wheel.radius if wheel.teeth is None else wheel.teeth
+    assert size is not None
+    letter = "r" if wheel.teeth is None else "z"
+    return f"{escape(link)} (*{letter}* = {written(scene, words, size)})"
+
+
 def module(scene: Scene, words: Words, wheel: Wheel) -> str:
     """The module of a gear: its pitch circle's diameter over its number of teeth."""
     assert wheel.radius is not None and wheel.teeth is not None
@@ -157,9 +169,13 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
                 start = start_on_wheel(drawing, link, rolling)
                 key = ROLLS[rolling.on == FRAME, toothed]
+                other = escape(rolling.on)
                 if rolling.belt is not None:
                     key = BELTS[rolling.on == FRAME, rolling.belt.crossed]
-                yield words(key, other=escape(rolling.on), start=start, **fields)
+                    own, there = rolling.belt.wheels
+                    fields["k"] = wheel_name(scene, words, link.name, own)
+                    other = wheel_name(scene, words, rolling.on, there)
+                yield words(key, other=other, start=start, **fields)
             else:
                 fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")
                 fields["start"] = start_on_track(drawing, link, rolling)
