@@ -31,7 +31,7 @@ const scene = () => ({ text: written(), name: file.value.trim(), settings: setti
 /** Ask for a look at the scene as it is, and show the answer unless a newer one is there; whether
  * it is shown. */
 async function look(quick) {
-  clearTimeout(timer);
+  unsettled();
   const own = ++number;
   const waiting = setTimeout(() => drawings.setAttribute("aria-busy", "true"), LONG);
   try {
@@ -49,7 +49,7 @@ async function look(quick) {
     showDrawings(answer);
     showSketch(answer.sketch);
     document.body.dataset.shown = String(own);
-    document.body.dataset.settled = String(!quick);
+    if (own === number && !timer) document.body.dataset.settled = String(!quick);
     unsaved();
     return true;
   } catch (error) {
@@ -74,8 +74,15 @@ async function move() {
   if (!isHeld()) timer = setTimeout(() => look(false), REST);
 }
 
-function soon() {
+/** What is shown is not what stands here any more; what was to be asked is asked anew. */
+function unsettled() {
   clearTimeout(timer);
+  timer = 0;
+  document.body.dataset.settled = "false";
+}
+
+function soon() {
+  unsettled();
   timer = setTimeout(() => look(false), PAUSE);
 }
 
