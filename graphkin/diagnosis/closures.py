@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from types import MappingProxyType
+from typing import Any
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.branches import has_two_ways
-from graphkin.construction.core.program import Part, Program, Step
+from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed, Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.settling import run_settled, ways
@@ -41,6 +43,7 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
     """The closures of every group that closes in more than one way."""
     found: list[Choice] = []
     taken: set[int] = set()
+    stated = values_as_stated(scene, program)
     for whole in groups:
         group = whole.dyad if isinstance(whole, Stretched) else whole
         number = choosing_step(scene, group, program, taken)
@@ -49,7 +52,9 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
         taken.add(number)
         point = shown_point(scene, group, program)
         if isinstance(group, Dyad):
-            both = [dyad_closure(scene, program, number, group, point, way) for way in (1, -1)]
+            both = [
+                dyad_closure(scene, program, number, group, point, way, stated) for way in (1, -1)
+            ]
             found.append(Choice(group.links, point, tuple(both)))
         else:
             found.append(Choice(group.links, point, numbered(scene, program, number, point)))
@@ -107,13 +112,22 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
 
 
 def dyad_closure(
-    scene: Scene, program: Program, number: int, dyad: Dyad, point: str, way: int
+    scene: Scene,
+    program: Program,
+    number: int,
+    dyad: Dyad,
+    point: str,
+    way: int,
+    before: Mapping[int, Any],
 ) -> GroupClosure:
-    """One closure of a dyad: the picked crossing (way +1) or the other one (-1)."""
+    """One closure of a dyad: the picked crossing (way +1) or the other one (-1).
+
+    ``before`` are the values that the program has as the scene states it.
+    """
     step = program.steps[number]
     other = replaced(program, number, replace(step, extra=(way * step.extra[0], *step.extra[1:])))
     words = words_of(scene, point, dyad, way)
-    return GroupClosure(words, place_of(scene, other, point), way > 0, failing(scene, other))
+    return closure(scene, other, number, words, point, chosen=way > 0, before=before)
 
 
 def numbered(scene: Scene, program: Program, number: int, point: str) -> tuple[GroupClosure, ...]:
@@ -130,9 +144,8 @@ def numbered(scene: Scene, program: Program, number: int, point: str) -> tuple[G
     for k in range(1, ways(scene, program, number, [known[arg] for arg in step.args]) + 1):
         action = replace(step.action, value=replace(closer, number=k))
         other = replaced(program, number, replace(step, action=action))
-        place = place_of(scene, other, point)
-        words = f"closure {k}"
-        found.append(GroupClosure(words, place, k == closer.number, failing(scene, other)))
+        chosen = k == closer.number
+        found.append(closure(scene, other, number, f"closure {k}", point, chosen=chosen))
     return tuple(found)
 
 
@@ -143,30 +156,56 @@ def replaced(program: Program, number: int, step: Step) -> Program:
     return replace(program, steps=tuple(steps))
 
 
-def failing(scene: Scene, program: Program) -> str:
-    """What cannot be drawn of the positions; empty when all closes."""
-    positions = [target for target in program.targets if target[0] == "position"]
+def values_as_stated(scene: Scene, program: Program) -> Mapping[int, Any]:
+    """The values of the positions as the scene states its branches; none where these fail."""
     try:
-        run_positions(scene, program, program.needed(positions))
-    except StepFailed as failed:
-        return failed.step.name or f"step {failed.number}"
-    return ""
-
-
-def place_of(scene: Scene, program: Program, point: str) -> complex | None:
-    """Where a point lies (m), None where it cannot be drawn."""
-    target = ("position", point)
-    try:
-        trace = run_positions(scene, program, program.needed([target]))
+        return run_positions(scene, program, program.needed(positions_of(program))).values
     except StepFailed:
-        return None
-    value = trace.value(*target)
-    return value if isinstance(value, complex) else None
+        return {}
 
 
-def run_positions(scene: Scene, program: Program, needed: tuple[int, ...]) -> Trace:
-    """Run some steps of a program on the scene's own numbers."""
-    return run_settled(scene, program, needed)
+def positions_of(program: Program) -> list[Target]:
+    """The places of all points."""
+    return [target for target in program.targets if target[0] == "position"]
+
+
+def closure(
+    scene: Scene,
+    program: Program,
+    number: int,
+    words: str,
+    point: str,
+    *,
+    chosen: bool,
+    before: Mapping[int, Any] = MappingProxyType({}),
+) -> GroupClosure:
+    """A closure in words: where it puts a point (m), and what then cannot be drawn.
+
+    ``number`` is the step that picks it: what comes earlier is as ``before``, and all of the
+    ``chosen`` one.
+    """
+    known = {step: value for step, value in before.items() if chosen or step < number}
+    target, every = ("position", point), program.needed(positions_of(program))
+    try:
+        trace, failing = run_positions(scene, program, every, known), ""
+    except StepFailed as failed:
+        failing = failed.step.name or f"step {failed.number}"
+        try:
+            trace = run_positions(scene, program, program.needed([target]), known)
+        except StepFailed:
+            return GroupClosure(words, None, chosen, failing)
+    place = trace.value(*target)
+    return GroupClosure(words, place if isinstance(place, complex) else None, chosen, failing)
+
+
+def run_positions(
+    scene: Scene,
+    program: Program,
+    needed: tuple[int, ...],
+    known: Mapping[int, Any] | None = None,
+) -> Trace:
+    """Run some steps of a program on the scene's own numbers, but for those that are known."""
+    return run_settled(scene, program, needed, overrides=known)
 
 
 def words_of(scene: Scene, pin: str, dyad: Dyad, way: int) -> str:

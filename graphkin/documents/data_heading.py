@@ -21,7 +21,7 @@ GAP = 5.0
 """Distance of the words from the table in mm."""
 BESIDE = {1: 4.2, 2: 4.2, 3: 3.6}
 """The distance in mm of so many lines beside the table, of which there are three at most."""
-LINES = ((2.5, 4.2, 2, False), (2.5, 3.75, 3, True), (1.8, 3.2, 3, False), (1.8, 2.9, 4, False))
+LINES = ((2.5, 4.2, 2, False), (2.5, 3.75, 3, True), (1.8, 3.2, 3, False), (1.8, 2.6, 4, False))
 """How data without a table may look: height of letters and distance of lines in mm, lines at most,
 and whether these are so near that signs may touch."""
 

@@ -50,7 +50,9 @@ def group_words(words: Words, group: Group) -> str:
         case CamFollower():
             return words("calculation.group_cam", links=links, type=group.dyad.type)
         case Stretched():
-            return words("calculation.group_stretched", links=links, type=group.dyad.type)
+            one, two = "calculation.group_stretched_one", "calculation.group_stretched_two"
+            key = one if len(group.cylinders) == 1 else two
+            return words(key, links=links, type=group.dyad.type)
         case Higher() if isinstance(group.last, Tie):
             rank, order = group.order
             rank_words = ROMAN[min(rank, len(ROMAN) - 1)]

@@ -11,7 +11,7 @@ from graphkin.scene.model import Angled, Apart, At, OnLine, Placing, Side, Trian
 from graphkin.scene.phrases import OnWords
 from graphkin.scene.quantity import Quantity, exact
 
-MOST_POINTS = 200
+MOST_POINTS = 500
 
 
 def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple[Placing, ...]]:

@@ -175,7 +175,8 @@ def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
     taken = list[Driver]()
     for group in groups:
         parts = (*group.chain, group) if isinstance(group, Higher) else (group,)
-        taken += [part.driver for part in parts if isinstance(part, Crank | Driven | Stretched)]
+        taken += [part.driver for part in parts if isinstance(part, Crank | Driven)]
+        taken += [each for part in parts if isinstance(part, Stretched) for each in part.drivers]
         if isinstance(group, Higher) and isinstance(group.last, Driver):
             taken.append(group.last)
     return [driver for driver in scene.drivers if driver not in taken]

@@ -105,30 +105,54 @@ class CamFollower(Struct, frozen=True):
         return f"{self.dyad.title}, set by the law of a cam"
 
 
-class Stretched(Struct, frozen=True):
-    """A dyad of which one bar is a cylinder: a block on a known pin and a rod driven in it.
-
-    ``near`` is the link on the known pin, ``dyad`` the rest with the far link as its first; the
-    bar's left end there is the far link's point under that pin.
-    """
+class Cylinder(Struct, frozen=True):
+    """A link ``near`` on a known pin and a link ``far``, driven along the guide between them."""
 
     driver: Driver
     near: str
+    far: str
     slide: Sliding
     pin: Pin
+
+    @property
+    def foot(self) -> Pin:
+        """The pin of the bar that it stands for: the far link's point under the known pin."""
+        return Pin(f"{self.pin.point}@{self.far}", (self.far, self.pin.links[1]))
+
+
+class Stretched(Struct, frozen=True):
+    """A dyad of which the first bar, or both, are cylinders: tubes on known pins, rods driven.
+
+    The links of the ``dyad`` are the far ones of the cylinders; its outer pins are their feet.
+    """
+
+    cylinders: tuple[Cylinder, ...]
     dyad: Dyad
 
     @property
-    def links(self) -> tuple[str, str, str]:
-        """Both links of the cylinder and the other of the dyad."""
-        return (self.near, *self.dyad.links)
+    def drivers(self) -> tuple[Driver, ...]:
+        """What drives the cylinders."""
+        return tuple(each.driver for each in self.cylinders)
+
+    @property
+    def outer(self) -> tuple[Joint, ...]:
+        """Its pairs with what is known."""
+        pins = tuple(each.pin for each in self.cylinders)
+        return pins if len(pins) == 2 else (*pins, self.dyad.right)
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All links of the cylinders, and the other of the dyad."""
+        near = [each.near for each in self.cylinders]
+        return (near[0], *self.dyad.links, *near[1:])
 
     @property
     def title(self) -> str:
         """What it is called."""
-        return (
-            f"{self.dyad.title} with a driven cylinder of links {self.near}, {self.dyad.links[0]}"
-        )
+        pairs = [f"links {each.near}, {each.far}" for each in self.cylinders]
+        if len(pairs) == 2:
+            return f"{self.dyad.title} with driven cylinders of {pairs[0]} and of {pairs[1]}"
+        return f"{self.dyad.title} with a driven cylinder of {pairs[0]}"
 
 
 class Geared(Struct, frozen=True):
@@ -242,13 +266,17 @@ class CoupledTrain(Struct, frozen=True):
 class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
-    What closes it at last is a link between two known points, or a driver's given motion.
+    What closes it at last is a link between two known points, or a driver's given motion. Where
+    ``wheels`` of it roll on straight tracks that are known, and pinning them where they touch
+    leaves groups that need no trial, those move it ``at_instant``.
     """
 
     trial: TriedLink
     chain: tuple[Group, ...]
     last: Tie | Driver
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
+    wheels: tuple[Contact, ...] = ()
+    at_instant: tuple[Group, ...] = ()
 
     @property
     def links(self) -> tuple[str, ...]:

@@ -10,7 +10,8 @@ from collections.abc import Collection, Iterator
 from msgspec.structs import replace
 
 from graphkin.scene.model import Driver, Scene
-from graphkin.structure.groups import Geared, Group, Higher, Tie, TriedLink
+from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Tie, TriedLink
+from graphkin.structure.instant_groups import groups_at_instant, pinned_wheels
 from graphkin.structure.joints import Joints
 from graphkin.structure.next_group import (
     next_driven,
@@ -41,7 +42,12 @@ def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -
         for group in tried(part_of[trial.link], known, waiting, trial)
     ]
     scene = joints.scene
-    return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
+    least = min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
+    if least is None:
+        return None
+    wheels = pinned_wheels(joints, least, known)
+    at_instant = groups_at_instant(joints, least, known, waiting, wheels)
+    return replace(least, wheels=wheels, at_instant=at_instant)
 
 
 def speeding(scene: Scene, group: Higher) -> int:
@@ -105,7 +111,7 @@ def over_given(
 def supports(group: Group) -> set[str]:
     """The links on which a group hangs."""
     found = {link for pair in getattr(group, "outer", ()) for link in pair.links}
-    if hasattr(group, "driver"):
+    if isinstance(group, Crank | Driven):
         found |= {group.driver.link, group.driver.against}
     return found - set(group.links)
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from copy import copy
 
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import Joint, Leading, Pin, all_pairs, refuse_loose, sharers
+from graphkin.structure.pairs import Contact, Joint, Pin, all_pairs, refuse_loose, sharers
 
 
 class Joints:
@@ -17,7 +17,7 @@ class Joints:
         self.owners = sharers(scene)
         self.order = {name: i for i, name in enumerate((FRAME, *scene.links))}
         self.names: tuple[str, ...] = tuple(scene.links)
-        self.others: dict[str, list[Leading]] = {name: [] for name in self.order}
+        self.others: dict[str, list[Joint]] = {name: [] for name in self.order}
         every = all_pairs(scene)
         refuse_loose(every)
         for pair in every:
@@ -68,6 +68,17 @@ class Joints:
         part = copy(self)
         part.names = tuple(name for name in self.names if name in links)
         return part
+
+    def with_pins(self, pins: Sequence[tuple[Contact, Pin]]) -> Joints:
+        """The same pairs, with pins in place of some contacts."""
+        pinned = copy(self)
+        pinned.found = {}
+        pinned.others = {
+            link: [next((pin for contact, pin in pins if contact == pair), pair) for pair in pairs]
+            for link, pairs in self.others.items()
+        }
+        pinned.owners = self.owners | {pin.point: pin.links for _, pin in pins}
+        return pinned
 
     def apart(self, known: Collection[str], tied: Iterable[set[str]]) -> Iterator[set[str]]:
         """The unknown links in parts that neither pairs nor the sets ``tied`` join, as written."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Sequence
 
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import (
     CamFollower,
     Crank,
+    Cylinder,
     Driven,
     Dyad,
     Geared,
@@ -29,8 +30,11 @@ def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
             settle(each, known, waiting)
         if isinstance(group.last, Driver):
             waiting.remove(group.last)
-    elif isinstance(group, Crank | Driven | Stretched):
+    elif isinstance(group, Crank | Driven):
         waiting.remove(group.driver)
+    elif isinstance(group, Stretched):
+        for driver in group.drivers:
+            waiting.remove(driver)
 
 
 def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
@@ -161,34 +165,46 @@ def next_stretched(
     joints: Joints, known: Collection[str], waiting: list[Driver]
 ) -> Stretched | None:
     """The first dyad, as its driver is written, with a driven cylinder for a bar."""
-    for driver in waiting:
-        if driver.kind != "slide" or driver.link in known or driver.against in known:
-            continue
-        for near, far in ((driver.link, driver.against), (driver.against, driver.link)):
-            left = joints.between(near, known)
-            slides = joints.inner(near, far, known)
-            if len(left) == len(slides) == 1 and isinstance(left[0], Pin):
-                slide = slides[0]
-                if isinstance(slide, Sliding) and not joints.between(far, known):
-                    dyad = stretched_dyad(joints, known, near, far, left[0])
-                    if dyad is not None:
-                        return Stretched(driver, near, slide, left[0], dyad)
+    cylinders = [each for driver in waiting for each in cylinders_of(joints, known, driver)]
+    for cylinder in cylinders:
+        for other in joints.neighbours(cylinder.far):
+            if found := stretched_dyad(joints, known, cylinder, other, cylinders):
+                return found
     return None
+
+
+def cylinders_of(joints: Joints, known: Collection[str], driver: Driver) -> Iterator[Cylinder]:
+    """The cylinder that a driver makes longer, if one of its two links is on a known pin."""
+    if driver.kind != "slide" or driver.link in known or driver.against in known:
+        return
+    for near, far in ((driver.link, driver.against), (driver.against, driver.link)):
+        left, slides = joints.between(near, known), joints.inner(near, far, known)
+        if len(left) == len(slides) == 1 and not joints.between(far, known):
+            pin, slide = left[0], slides[0]
+            if isinstance(pin, Pin) and isinstance(slide, Sliding):
+                yield Cylinder(driver, near, far, slide, pin)
 
 
 def stretched_dyad(
-    joints: Joints, known: Collection[str], near: str, far: str, pin: Pin
-) -> Dyad | None:
-    """The dyad of a cylinder's far link with its neighbour: three pins, or two and a slide."""
-    foot = Pin(f"{pin.point}@{far}", (far, pin.links[1]))
-    for other in joints.neighbours(far):
-        if other in known or other == near or joints.between(near, (other,)):
-            continue
-        inner, right = joints.inner(far, other, known), joints.between(other, known)
-        alone = len(inner) == len(right) == 1
-        if alone and isinstance(inner[0], Pin) and isinstance(right[0], Pin | Sliding):
-            return Dyad((far, other), foot, inner[0], right[0])
-    return None
+    joints: Joints,
+    known: Collection[str],
+    cylinder: Cylinder,
+    other: str,
+    cylinders: Sequence[Cylinder],
+) -> Stretched | None:
+    """The dyad of a cylinder's far link with another: with a known one, or with a cylinder."""
+    near, far = cylinder.near, cylinder.far
+    if other in known or other == near or joints.between(near, (other,)):
+        return None
+    inner, right = joints.inner(far, other, known), joints.between(other, known)
+    if len(inner) != 1 or not isinstance(inner[0], Pin):
+        return None
+    if len(right) == 1 and isinstance(right[0], Pin | Sliding):
+        return Stretched((cylinder,), Dyad((far, other), cylinder.foot, inner[0], right[0]))
+    second = next((each for each in cylinders if each.far == other), None)
+    if second is None or joints.between(second.near, (near, far)):
+        return None
+    return Stretched((cylinder, second), Dyad((far, other), cylinder.foot, inner[0], second.foot))
 
 
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:

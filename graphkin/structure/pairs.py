@@ -16,6 +16,7 @@ from graphkin.text.errors import Problem, StructureError
 
 __all__ = [
     "Contact",
+    "ContactName",
     "Joint",
     "Leading",
     "Pair",
@@ -42,6 +43,11 @@ class Pin(Struct, frozen=True):
     point: str
     links: tuple[str, str]
 
+    @property
+    def place(self) -> str:
+        """The point where it lies; ``point`` may be one link's own under it, such as A@3."""
+        return self.point.partition("@")[0]
+
 
 class Sliding(Struct, frozen=True):
     """A sliding pair: a block on a guide of another link; what a driver does to it, as written."""
@@ -62,6 +68,12 @@ class Sliding(Struct, frozen=True):
     def led_point(self, scene: Scene, link: str) -> str:
         """The point of one of its links that it leads along a line."""
         return scene.link(link).points[0]
+
+
+class ContactName(str):
+    """The name of a point of contact, which belongs to no scene: T, and T@3 as one of link 3."""
+
+    __slots__ = ()
 
 
 class Contact(Struct, frozen=True):

@@ -605,7 +605,7 @@ def ways(scene: Scene, groups: tuple[Group, ...]) -> Iterator[tuple[str, tuple[s
 
 def line_of(dyad: Dyad) -> str:
     """The line between the two known pins of a dyad."""
-    ends = (pair.point.partition("@")[0] for pair in dyad.outer if isinstance(pair, Pin))
+    ends = (pair.place for pair in dyad.outer if isinstance(pair, Pin))
     return "-".join(ends)
 
 

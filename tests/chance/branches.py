@@ -69,7 +69,7 @@ def sine_of(standing: Standing, dyad: Dyad) -> float:
         first, second = (standing.slides[pair.links[0]].along for pair in guides)
         return cross(first, second)
     left, inner, right = (
-        standing.place(pair.point.partition("@")[0]) if isinstance(pair, Pin) else 0j
+        standing.place(pair.place) if isinstance(pair, Pin) else 0j
         for pair in (dyad.left, dyad.inner, dyad.right)
     )
     if dyad.type == "RRR":
@@ -88,12 +88,12 @@ def words_of(standing: Standing, group: Group) -> dict[str, str]:
     if not isinstance(dyad, Dyad):
         return {}
     pins = [
-        standing.place(pair.point.partition("@")[0]) if isinstance(pair, Pin) else None
+        standing.place(pair.place) if isinstance(pair, Pin) else None
         for pair in (dyad.left, dyad.inner, dyad.right)
     ]
     left, inner, right = pins
     if dyad.type == "RRR":
-        ends = dyad.left.point.partition("@")[0], dyad.right.point
+        ends = dyad.left.place, dyad.right.place
         side = "left" if cross(right - left, inner - left) > 0 else "right"
         return {dyad.inner.point: f"{side} of {ends[0]}-{ends[1]}"}
     if dyad.type == "RRP":

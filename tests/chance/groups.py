@@ -134,12 +134,9 @@ def rpp(m: Maker) -> None:
         m.block(dict([left]), second, m.across(along))
 
 
-def cylinder(m: Maker) -> None:
-    """A driven cylinder as a bar of a dyad, its rod pinned to a bar or to a block."""
-    a = m.any_body()
-    left = m.anchor(a)
-    way = m.vector()
-    pin = m.name(), left[1] + way
+def cylinder_between(m: Maker, left: tuple[str, complex], pin: tuple[str, complex]) -> list[str]:
+    """A driven cylinder between a known pin and another; its two links."""
+    way = pin[1] - left[1]
     along = way / abs(way) * m.sign() if m.coin() else m.beside(way)
     near, far = dict([left]), dict([pin])
     if m.coin():
@@ -147,12 +144,27 @@ def cylinder(m: Maker) -> None:
     on = m.body(far)
     block = m.block(near, on, along)
     m.drive("slide", block, on, m.slide_coordinate(block))
-    if m.coin():
-        b = m.any_body(but=[a, on, block])
-        place = pin[1] + m.length() * m.across(way)
-        bar(m, (m.point(b, place), place), pin)
+    return [on, block]
+
+
+def cylinder(m: Maker) -> None:
+    """A driven cylinder as a bar of a dyad, its rod pinned to a bar, a cylinder or a block."""
+    a = m.any_body()
+    left = m.anchor(a)
+    way = m.vector()
+    pin = m.name(), left[1] + way
+    links = cylinder_between(m, left, pin)
+    kind = m.rng.choice(("bar", "cylinder", "block"))
+    if kind == "block":
+        led(m, dict([pin]), lambda: m.beside(way), [a, *links])
+        return
+    b = m.any_body(but=[a, *links])
+    place = pin[1] + m.length() * m.across(way)
+    right = m.point(b, place), place
+    if kind == "bar":
+        bar(m, right, pin)
     else:
-        led(m, dict([pin]), lambda: m.beside(way), [a, on, block])
+        cylinder_between(m, right, pin)
 
 
 # --- higher groups -------------------------------------------------------------------------------
@@ -323,16 +335,21 @@ def rim_pin(m: Maker) -> None:
 
 
 def gear(m: Maker) -> None:
-    """A sun about a pin of a body, driven or part of the body, and a planet on a driven arm."""
+    """A sun about a pin of a body, driven or part of the body, and a planet on a driven arm.
+
+    They touch, or a belt joins them.
+    """
     on = m.any_body()
     sun_at = m.anchor(on)
     radii = m.length(), m.length()
-    how = m.rng.choice(("outside", "outside", "ring", "within"))
-    if how != "outside":
+    how = m.rng.choice(("outside", "outside", "ring", "within", "open", "crossed"))
+    belt = how if how in ("open", "crossed") else ""
+    if how not in ("outside", "crossed"):
         small, large = sorted(radii)
         large = max(large, 1.3 * small)
-        radii = (large, small) if how == "ring" else (small, large)
-    apart = radii[0] + radii[1] if how == "outside" else abs(radii[0] - radii[1])
+        radii = (small, large) if how == "within" else (large, small)
+    apart = abs(radii[0] - radii[1]) if how in ("ring", "within") else radii[0] + radii[1]
+    apart *= m.rng.uniform(1.1, 3) if belt else 1
     place = sun_at[1] + apart * m.direction()
     if on != FRAME and m.coin(0.3):
         planet_at = m.point(on, place), place
@@ -350,9 +367,8 @@ def gear(m: Maker) -> None:
     m.standing.bodies[sun].wheels.append((sun_at[0], signs[0] * radii[0]))
     planet = wheel_body(m, planet_at)
     m.standing.bodies[planet].wheels.append((planet_at[0], signs[1] * radii[1]))
-    meshed(
-        m, planet, sun, arm, (planet_at[0], sun_at[0]), (signs[1] * radii[1], signs[0] * radii[0])
-    )
+    turning = signs[1] * radii[1], (-1 if how == "open" else signs[0]) * radii[0]
+    meshed(m, planet, sun, arm, (planet_at[0], sun_at[0]), turning, belt)
     if m.coin(0.4):
         outer(m, planet, arm)
 
@@ -377,8 +393,9 @@ def meshed(
     arm: str,
     centres: tuple[str, str],
     radii: tuple[float, float],
+    belt: str = "",
 ) -> None:
-    """The contact, counted from angles in which all of it is turned by less than half a turn."""
+    """The contact, or belt, counted from angles from which all has turned less than half a turn."""
     turned = {arm: m.rng.uniform(-2, 2), on: m.rng.uniform(-2, 2)}
     turned |= {name: 0.0 for name in turned if name == FRAME}
     turned[wheel] = turned[arm] - radii[1] / radii[0] * (turned[on] - turned[arm])
@@ -387,7 +404,7 @@ def meshed(
         for name in (wheel, on, arm)
         if name != FRAME
     }
-    m.standing.gears.append(Gear(wheel, on, arm, centres, radii, start, turned))
+    m.standing.gears.append(Gear(wheel, on, arm, centres, radii, belt, start, turned))
 
 
 def rack(m: Maker) -> None:
@@ -457,7 +474,7 @@ def planet(m: Maker) -> None:
         start = {n: math.degrees(m.angle(n) - turned[n]) for n in (last, wheel, arm)}
         own_turned = {n: turned[n] for n in (last, wheel, arm)}
         m.standing.gears.append(
-            Gear(last, wheel, arm, (pin[0], centre[0]), (own, radius), start, own_turned)
+            Gear(last, wheel, arm, (pin[0], centre[0]), (own, radius), "", start, own_turned)
         )
 
 

@@ -51,6 +51,8 @@ class Straight:
 class Gear:
     """A wheel on another whose centres an arm keeps apart; rings have a negative radius.
 
+    So has the wheel from which an open belt comes; a crossed one turns as wheels that touch.
+
     ``start`` holds the angles (degrees) from which each turning is counted, and ``turned`` how far
     (radians) each body has turned since.
     """
@@ -60,6 +62,7 @@ class Gear:
     arm: str
     centres: tuple[str, str]
     radii: tuple[float, float]
+    belt: str = ""
     start: dict[str, float] = field(default_factory=dict)
     turned: dict[str, float] = field(default_factory=dict)
 

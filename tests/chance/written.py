@@ -52,9 +52,12 @@ class Written:
         if slide := self.standing.slides.get(body.name):
             lines.append(f"slides = {{ {self.guided(slide)} }}")
         tracks = [self.tracked(each) for each in self.standing.straights if each.wheel == body.name]
-        tracks += [self.meshed(each) for each in self.standing.gears if each.wheel == body.name]
+        gears = [gear for gear in self.standing.gears if gear.wheel == body.name]
+        tracks += [self.meshed(gear) for gear in gears if not gear.belt]
         if tracks:
             lines.append(f"rolls = [{', '.join(tracks)}]")
+        if belts := [self.meshed(gear) for gear in gears if gear.belt]:
+            lines.append(f"belt = [{', '.join(belts)}]")
         return lines
 
     def shape(self, body: Body) -> list[str]:
@@ -136,7 +139,8 @@ class Written:
         )
         said = ", ".join(f"{name} = {number(angle)}" for name, angle in gear.start.items())
         start = f", start = {{ {said} }}" if said else ""
-        return f"{{ on = {gear.on}{start} }}"
+        crossed = ", crossed = true" if gear.belt == "crossed" else ""
+        return f"{{ on = {gear.on}{crossed}{start} }}"
 
     def driver(self, drive: Drive) -> list[str]:
         """A driver."""

@@ -17,7 +17,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.read_scene import read_text
-from graphkin.text.errors import SceneError, StructureError
+from graphkin.text.errors import ClosureError, SceneError, StructureError
 
 CAMS = [f"cam-{name}" for name in ("roller", "knife", "flat", "rocker", "lever", "table")]
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -468,3 +468,28 @@ def test_one_mistake_is_one_error(old, new, place):
     with pytest.raises(SceneError) as error:
         read_text(text.replace(old, new), "cam")
     assert place in {problem.place for problem in error.value.problems}
+
+
+def test_where_the_pitch_curve_is_straight_the_centre_lies_at_infinity():
+    """Between hollow and hump r² + 2r'² = r r", where K runs to infinity: told, never made up."""
+    text = TEXT.format(
+        at="340.2436726472059",
+        x=0,
+        y=0,
+        arm=20,
+        lean=90,
+        offset=0,
+        tip="roller",
+        base=30,
+        roller="roller = 8",
+        start=0,
+        clock="true",
+        rise=30,
+        motion="3-4-5",
+        back="3-4-5",
+        speed=5,
+        push=0,
+    ).replace("to = 110", "to = 60")
+    straight = r"the pitch curve of link cam is straight at the contact"
+    with pytest.raises(ClosureError, match=straight):
+        Mechanism(read_text(text, "straight")).solve()

@@ -102,6 +102,12 @@ GLOSS = re.compile(rf" ?\(({NAME}) is the point of link [^)]* coincident with ({
 POLE_GLOSS = re.compile(rf" ?\(({NAME}) is the image of ({NAME}), for ({NAME}) is the pole\)")
 
 
+def sliding(point: str, link: str) -> str:
+    """The form of a sliding point's name: its own, or with the link where several share it."""
+    own = rf"|{re.escape(point)}_\{{{re.escape(link)}\}}" if link else ""
+    return rf"(?:{re.escape(point)}{own})"
+
+
 @dataclass
 class Reader:
     """One who draws a scene from its two sheets: the places reached, by their names."""
@@ -222,6 +228,12 @@ class Reader:
             turned = cross(self.at(q) - self.at(p), self.moved(q, plan) - self.moved(p, plan))
             if abs(turned) > APART:
                 return 1 if turned > 0 else -1
+        for under, image in plan.items():  # the link's own point under another's: a_2 under A
+            if (own := re.fullmatch(rf"(\w+?)_{re.escape(index)}", under)) and points:
+                p, q = points[0], own[1].upper()
+                turned = cross(self.at(q) - self.at(p), image - self.moved(p, plan))
+                if abs(turned) > APART:
+                    return 1 if turned > 0 else -1
         raise DefectError(f"the sense of {turning} cannot be seen")
 
     def image(self, point: str) -> str:
@@ -246,11 +258,12 @@ class Reader:
         from_ = self.moved(points[1], plan) if len(points) > 1 else plan["o"]
         return self.moved(points[0], plan) - from_
 
-    def block(self, point: str) -> Line:
-        """The guide of a point, as the data tell it."""
+    def block(self, point: str, link: str = "") -> Line:
+        """The guide of a point, as the data tell it, where they name its link by that."""
         for item in self.items:
             match = re.match(
-                rf"(?:pin )?{re.escape(point)} slides (?:in a slot )?(along|parallel to) (.*)", item
+                rf"(?:pin )?{sliding(point, link)} slides (?:in a slot )?(along|parallel to) (.*)",
+                item,
             )
             if match:
                 line = self.told_line(match[2], point)
@@ -266,6 +279,8 @@ class Reader:
             return Line.of(self.at(p), self.at(q) - self.at(p))
         if match := re.match(rf"the line of link \w+ through the point .*? at ({NUMBER}°)", words):
             return Line.of(self.at(point), cmath.rect(1, self.angle(match[1])))
+        if match := re.match(rf"the line of link \w+ through ({NAME}) \(positive", words):
+            return Line.of(self.at(point), self.at(point) - self.at(match[1]))
         match = re.match(
             rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER})[;,] ({NUMBER})\) "
             r"(mm|cm|m)) "
@@ -328,24 +343,27 @@ class Reader:
         """The sense in which a block or wheel is driven along its guide or track."""
         kind, _, link = of.partition(" ")
         if kind == "guide":
-            item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(link))} slides")
-            line = self.positive(self.guide(link), item)
+            point = self.sliding_point(link)
+            item = self.told_of(rf"(?:pin )?{sliding(point, link)} slides")
+            line = self.positive(self.block(point, link), item)
         else:
             item = self.told_of(rf"wheel {link} rolls")
             line = self.positive(self.track(link), item)
-        size = re.match(NUMBER, self.given(f"{symbol}_{{{link}}}"))
+        of = re.escape(f"{symbol}_{{{link}") + r"(/\w+)?\} = "
+        size = re.match(NUMBER, self.given(self.told_of(of).partition(" = ")[0]))
         assert size
         return line.along * math.copysign(1, number(size[0]))
 
     def guide(self, link: str) -> Line:
         """The guide of a block by the number of its link."""
-        return self.block(self.sliding_point(link))
+        return self.block(self.sliding_point(link), link)
 
     def sliding_point(self, link: str) -> str:
         """The point of a link that slides along its guide."""
         points: list[str] = re.findall(NAME, self.links.get(link, "").removeprefix("block "))
         for point in points:
-            if any(re.match(rf"(?:pin )?{re.escape(point)} slides", item) for item in self.items):
+            form = rf"(?:pin )?{sliding(point, link)} slides"
+            if any(re.match(form, item) for item in self.items):
                 return point
         raise DefectError(f"no point of link {link} slides along a guide")
 
@@ -488,7 +506,7 @@ class Reader:
 
     @says("(?:through ⟨p⟩ )?draw guide ⟨k:number⟩")
     def draw_guide(self, k: str, p: str | None) -> None:
-        item = self.told_of(rf"(?:pin )?{re.escape(self.sliding_point(k))} slides")
+        item = self.told_of(rf"(?:pin )?{sliding(self.sliding_point(k), k)} slides")
         if p is None and "along the line of link" in item:
             raise DefectError(f"guide {k} moves: no point is told through which to draw it")
         self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
@@ -756,8 +774,8 @@ class Reader:
         self.put(name, self.at(s))
 
     @says(
-        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = (?P<kind>[av])_\\{[^}]*\\} ∥ (?P<of>(?:guide|track) "
-        "[^,]*), ⟨drawn:number⟩ mm"
+        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = (?P<kind>[av])_\\{[^}]*\\}(?:\\^\\{r\\})? ∥ "
+        "(?P<of>(?:guide|track) [^,]*), ⟨drawn:number⟩ mm"
     )
     def driven_slide(self, s: str, s2: str, name: str, kind: str, of: str, drawn: str) -> None:
         self.put(name, self.at(s) + self.driven_way(of, kind) * number(drawn))

@@ -22,7 +22,7 @@ LABS = [(lab, n) for lab in ("pump", "slotted-lever") for n in (7, 20)]
 ALL = [*((name, None) for name in CHOSEN), *LABS]
 HIGHER = (
     "rapid-return",
-    "rod-and-wheel",
+    "platform-3rpr",
     "stephenson-2-binary",
     "stephenson-2-ternary",
     "stephenson-3-crank",

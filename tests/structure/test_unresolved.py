@@ -13,22 +13,28 @@ units = { length = "mm", angle = "deg", speed = "rad/s" }
 """
 LEG = """
 [links.{rod}]
-A{n} = [0, 0]
+{foot} = [0, 0]
 [links.{block}]
-B{n} = [0, 0]
-slides = {{ on = {rod}, through = "A{n}", angle = 0 }}
+{head} = [0, 0]
+slides = {{ on = {rod}, through = "{foot}", angle = 0 }}
 [[drivers]]
 slide = {block}
 against = {rod}
 position = 130
 speed = 10
 """
+LEGS = ("A1-P1", "A2-P2", "A3-Q1", "A4-Q2", "P3-Q3", "P4-Q4")
 CYLINDERS = (
     HEAD
-    + "[frame]\nA1 = [0, 0]\nA2 = [300, 0]\nA3 = [150, 260]\n"
-    + "".join(LEG.format(n=n, rod=2 * n - 1, block=2 * n) for n in (1, 2, 3))
-    + '[links.7]\nB1-B2 = 100\nB1-B3 = 100\nB2-B3 = 100\nB3 = "left of B1-B2"\n'
+    + "[frame]\nA1 = [0, 0]\nA2 = [300, 0]\nA3 = [150, 260]\nA4 = [400, 200]\n"
+    + "".join(
+        LEG.format(foot=leg[:2], head=leg[3:], rod=2 * n + 1, block=2 * n + 2)
+        for n, leg in enumerate(LEGS)
+    )
+    + "[links.13]\nP1 = [0, 0]\nP2 = [100, 0]\nP3 = [50, 80]\nP4 = [90, 70]\n"
+    + "[links.14]\nQ1 = [0, 0]\nQ2 = [100, 0]\nQ3 = [50, 80]\nQ4 = [90, 70]\n"
 )
+"""Two plates, each on two cylinders, and two cylinders between them."""
 ROLLER = """
 [links.{n}]
 {p} = [0, 0]
@@ -47,7 +53,11 @@ PLANK = (
 @pytest.mark.parametrize(
     ("text", "found"),
     [
-        (CYLINDERS, "close only with 3 drivers at once: link 2 on 1, link 4 on 3, link 6 on 5"),
+        (
+            CYLINDERS,
+            "close only with 6 drivers at once: link 2 on 1, link 4 on 3, link 6 on 5, "
+            "link 8 on 7, link 10 on 9, link 12 on 11",
+        ),
         (PLANK, "hold link 3, a straight track, by wheels and pins alone"),
     ],
 )

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import Base
+from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.guides.guides import axis, path_of
@@ -20,6 +21,7 @@ from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
 from graphkin.numbers.cam_followers import (
+    TipMotion,
     guided_face,
     guided_tip,
     lever_way,
@@ -125,11 +127,32 @@ def swing_on_face(pivot: Point, pin: Point, face: Real, base: Real, lift: Real, 
     return lever_way(pin - pivot, start_on_face(pin - pivot, base + face), side, lift)
 
 
-@action("cam-centre")
+def tip_on_guide(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> TipMotion:
+    """How a roller or a knife moves that a guide leads, seen from the cam's pivot."""
+    along = path.along / abs(path.along)
+    return guided_tip(along, cross(along, path.point - pivot), height, rate, bend)
+
+
+def tip_of_lever(
+    pivot: Point, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
+) -> TipMotion:
+    """How it moves at the end of a lever."""
+    return swung_tip(pin - pivot, way * arm, side, rate, bend)
+
+
+def curved(motion: TipMotion) -> Real:
+    """How far the tip stands from the pivot, in parts of that and the way to the centre.
+
+    It vanishes where the pitch curve is straight, so that its centre of curvature lies at infinity.
+    """
+    far = abs(motion.centre)
+    return abs(motion.place) / (abs(motion.place) + far)
+
+
+@action("cam-centre", margin=lambda *known: curved(tip_on_guide(*known)))
 def centre_under_tip(pivot: Point, path: Line, height: Real, rate: Real, bend: Real) -> Point:
     """The centre of curvature of the pitch curve of a roller or a knife."""
-    along = path.along / abs(path.along)
-    return pivot + guided_tip(along, cross(along, path.point - pivot), height, rate, bend).centre
+    return pivot + tip_on_guide(pivot, path, height, rate, bend).centre
 
 
 @action("cam-centre")
@@ -138,12 +161,12 @@ def centre_under_face(pivot: Point, path: Line, height: Real, rate: Real, bend: 
     return pivot + guided_face(path.along / abs(path.along), height, rate, bend).centre
 
 
-@action("cam-centre")
+@action("cam-centre", margin=lambda *known: curved(tip_of_lever(*known)))
 def centre_under_lever(
     pivot: Point, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
 ) -> Point:
     """The same under the tip of a lever."""
-    return pivot + swung_tip(pin - pivot, way * arm, side, rate, bend).centre
+    return pivot + tip_of_lever(pivot, pin, way, arm, rate, bend, side).centre
 
 
 @action("cam-centre")
@@ -185,7 +208,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
         return words("step.cam-lever", bar=bar(self.pin, self.name), **fields)
 
 
-class CurvatureCentre(Construction, frozen=True, kw_only=True):
+class CurvatureCentre(Determined, frozen=True, kw_only=True):
     """The centre of curvature ``point``, called ``name``, of the cam ``link`` under its follower.
 
     It is laid off from the cam's pivot ``start``.
@@ -194,6 +217,7 @@ class CurvatureCentre(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.cam_centre"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    has_angle: ClassVar[bool] = False
 
     link: str
     follower: str
@@ -208,6 +232,10 @@ class CurvatureCentre(Construction, frozen=True, kw_only=True):
     def points(self) -> tuple[str, ...]:
         """The pivot and the centre."""
         return self.start, self.name
+
+    def in_line(self, steps: Sequence[Step], nearly: str) -> str:
+        """A pitch curve without curvature."""
+        return f"the pitch curve of link {self.link} is {nearly}straight at the contact"
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its distance from the pivot, and its direction in the plane."""

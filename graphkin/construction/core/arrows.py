@@ -55,10 +55,13 @@ def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: s
     pen.vector(join, tail, tip, of=vector)
 
 
-def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str) -> None:
-    """The arrow of a relative acceleration along a guide that moves."""
+def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str, *, index: str = "") -> None:
+    """The arrow of a relative acceleration along a guide that moves.
+
+    It is that of the point against the link's own under it, if no ``index`` says otherwise.
+    """
     if link == FRAME:
         return
-    symbol = f"a_{letter(point)}{letter(under(point, link))}^r"
+    symbol = f"a_{index or letter(point) + letter(under(point, link))}^r"
     if symbol not in pen.arrows:
         pen.vector(join, tail, tip, of=PlanVector(symbol, point, sign="r"))

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 from msgspec import Struct
 
-from graphkin.construction.core.program import ContactName
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -24,7 +23,7 @@ from graphkin.structure.groups import (
     Unresolved,
 )
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
+from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -78,11 +77,10 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return dyad_bases(scene, group)
         case CamFollower(dyad=dyad):
             return dyad_bases(scene, dyad)
-        case Stretched(near=near, pin=pin, dyad=dyad):
-            far = dyad.links[0]
+        case Stretched(cylinders=cylinders, dyad=dyad):
             first, second = dyad_bases(scene, dyad)
-            rod = Base(far, first.end or "", first.start, first.others)
-            return rod, base_of(scene, near, pin.point, None), second
+            tubes = [base_of(scene, each.near, each.pin.point, None) for each in cylinders]
+            return own_first(first), tubes[0], own_first(second), *tubes[1:]
         case Geared():
             return (geared_base(scene, group),)
         case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
@@ -100,6 +98,13 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
     raise no_construction(group)
 
 
+def own_first(base: Base) -> Base:
+    """The same base, begun at the link's own point where it began under another's."""
+    if base.end is None or "@" not in base.start:
+        return base
+    return Base(base.link, base.end, base.start, base.others)
+
+
 def leads_of(group: Group) -> dict[str, str]:
     """The links that turn as another does, because they slide on one another, and which that is."""
     match group:
@@ -107,8 +112,8 @@ def leads_of(group: Group) -> dict[str, str]:
             return leads_of(dyad)
         case Driven(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
-        case Stretched(near=near, dyad=dyad):
-            return {near: dyad.links[0], **leads_of(dyad)}
+        case Stretched(cylinders=cylinders, dyad=dyad):
+            return {each.near: each.far for each in cylinders} | leads_of(dyad)
         case Geared(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
         case Tie(link=link, second=Sliding() as pair):
@@ -215,7 +220,7 @@ def no_track(link: str) -> StructureError:
         Problem(
             f"links.{link}",
             "is a straight track that only a wheel and a pin hold",
-            "a track that slides, is driven, or belongs to the frame",
+            HELD,
         )
     )
 
@@ -247,10 +252,12 @@ def no_construction(group: Group) -> StructureError:
         return StructureError(Problem(place, found, "one driver within a group that is tried"))
     if group.tracks:
         found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
-        return StructureError(Problem(place, found, "a track that slides, is driven, or is fixed"))
+        return StructureError(Problem(place, found, HELD, LEVEL))
     found = "close only when two of them are tried at once"
     hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
     return StructureError(Problem(place, found, CLOSING, hint))
 
 
+HELD = "a track that slides, is driven, or belongs to the frame"
+LEVEL = "wheels of one size on one track keep it parallel to that: write slides = { … } for it"
 CLOSING = "links that close on known ones, two at a time or after one of them has been tried"

@@ -134,7 +134,7 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
     """The stated side of a dyad's inner pin: +1 left of the way from one known pin to the other."""
     assert isinstance(dyad.inner, Pin) and isinstance(dyad.left, Pin)
     assert isinstance(dyad.right, Pin)
-    ends = (dyad.left.point.partition("@")[0], dyad.right.point)
+    ends = (dyad.left.place, dyad.right.place)
     branch = scene.branches.get(dyad.inner.point)
     if isinstance(branch, Side) and (branch.first, branch.second) == ends:
         return branch.side

@@ -207,10 +207,13 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @cached_property
     def joins(self) -> Mapping[tuple[int, int], Step]:
-        """The arrows of the plans by the points that they join, whether or not they were run."""
+        """The arrows of the plans by the points that they join, whether or not they were run.
+
+        Where two join the same points, the first.
+        """
         return {
             (step.args[0], step.args[1]): step
-            for step in self.trace.program.steps
+            for step in reversed(self.trace.program.steps)
             if step.arrow and step.action is join
         }
 

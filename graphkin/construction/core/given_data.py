@@ -14,6 +14,7 @@ from graphkin.construction.core.line_words import axis_of
 from graphkin.construction.core.parameter_words import (
     after_parameter,
     is_derived,
+    lone,
     other_parameters,
     reckoned,
 )
@@ -40,7 +41,8 @@ from graphkin.text import MINUS, Words
 class Datum(Struct, frozen=True):
     """One of the data as markup: a value with its ``name`` and what is said of it, or words alone.
 
-    ``sign`` stands between name and value; a rate may be ``constant`` and have a ``sense``.
+    ``sign`` stands between name and value; a rate may be ``constant`` and have a ``sense``. ``of``
+    is the number that it tells, ``parameters`` are those that it is set by.
     """
 
     words: str = ""
@@ -49,6 +51,8 @@ class Datum(Struct, frozen=True):
     sign: str = " = "
     constant: str = ""
     sense: str = ""
+    of: Quantity | None = None
+    parameters: tuple[str, ...] = ()
 
     @property
     def said(self) -> str:
@@ -93,7 +97,10 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
         *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
     return [
-        *(Datum(name=name, value=value) for name, value in other_parameters(scene, words)),
+        *(
+            Datum(name=name, value=value, parameters=(of,))
+            for of, name, value in other_parameters(scene, words)
+        ),
         *(
             piece
             for driver in scene.drivers
@@ -182,7 +189,7 @@ def of_driver(
     if solved or not reckoned(scene, driver.position):
         angle = in_degrees(scene, words, driver.position)
         place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
-        yield Datum(name=angle_symbol(scene, driver), value=place)
+        yield Datum(name=angle_symbol(scene, driver), value=place, of=driver.position)
     steady = driver.acceleration.is_zero()
     rates = [(f"{speed}{index}", driver.speed, words("page.constant") if steady else "")]
     if not steady:
@@ -194,7 +201,15 @@ def of_driver(
         size, sense = with_sense(scene, words, driver, quantity)
         told = size if solved or not reckoned(scene, quantity) else ""
         if told or constant or sense:
-            yield Datum(name=name, value=told, constant=constant, sense=sense)
+            by = tuple(filter(None, [lone(scene, quantity)]))
+            yield Datum(
+                name=name,
+                value=told,
+                constant=constant,
+                sense=sense,
+                of=quantity,
+                parameters=by,
+            )
 
 
 def driver_index(driver: Driver) -> str:
@@ -224,12 +239,16 @@ def angle_symbol(scene: Scene, driver: Driver) -> str:
 def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
     """The lengths of bars, those of equal length together."""
     equal: dict[str, list[str]] = {}
+    first: dict[str, Quantity] = {}
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
             for p, q, length in placing.lengths():
-                equal.setdefault(after_parameter(scene, words, length), []).append(bar(p, q))
+                text = after_parameter(scene, words, length)
+                equal.setdefault(text, []).append(bar(p, q))
+                first.setdefault(text, length)
     for text, bars in equal.items():
-        yield Datum(name=" = ".join(bars), value=text)
+        by = tuple(filter(None, [lone(scene, first[text])]))
+        yield Datum(name=" = ".join(bars), value=text, of=first[text], parameters=by)
 
 
 def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.core.amounts import written
+from graphkin.construction.core.bases import under
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, constructions
 from graphkin.construction.core.line_words import axis_of, heading, straight
 from graphkin.construction.core.parameter_words import after_parameter
+from graphkin.construction.core.pen import letter
 from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
@@ -51,11 +53,18 @@ BELTS = {
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for a block's guide, for which of the two crossings it stands at, and what is plus."""
-    fields = {"point": symbol(link.points[0]), "way": which_way(drawing, link, slide)}
+    fields = {"point": sliding_point(drawing, link), "way": which_way(drawing, link, slide)}
     fields["line"] = bar(*slide.along) if slide.along else straight(drawing, slide)
     fields["positive"] = positive(drawing, link, slide)
     beside = not slide.offset.is_zero()
     return drawing.words(GUIDES[slide.pin, beside], **fields, **aside(drawing, slide))
+
+
+def sliding_point(drawing: Drawing, link: Link) -> str:
+    """The point by which a block is told: that of its link where blocks of several share it."""
+    point, links = link.points[0], drawing.scene.links.values()
+    shared = [each for each in links if each.slides and each.points[0] == point]
+    return symbol(letter(under(point, link.name)) if len(shared) > 1 else point)
 
 
 def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -163,8 +172,8 @@ def tracks(drawing: Drawing) -> Iterator[str]:
     scene, words = drawing.scene, drawing.words
     letters = contact_letters(scene)
     for link in scene.links.values():
-        for rolling, letter in zip(link.rolls, letters.get(link.name, ()), strict=True):
-            fields = {"k": escape(link.name), "touch": symbol(letter)}
+        for rolling, contact in zip(link.rolls, letters.get(link.name, ()), strict=True):
+            fields = {"k": escape(link.name), "touch": symbol(contact)}
             if rolling.angle is None:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
                 start = start_on_wheel(drawing, link, rolling)

@@ -29,11 +29,12 @@ def variant(scene: Scene, words: Words) -> list[str]:
     ]
 
 
-def other_parameters(scene: Scene, words: Words) -> list[tuple[str, str]]:
-    """The parameters put into an expression that no driver or length shows by itself."""
+def other_parameters(scene: Scene, words: Words) -> list[tuple[str, str, str]]:
+    """The parameters put into an expression that no driver or length shows by itself: each with
+    its symbol and what it is set to."""
     shown = {name for quantity in shown_quantities(scene) if (name := lone(scene, quantity))}
     put = put_in(scene)
-    return [as_set(scene, words, name) for name in scene.values if name in put - shown]
+    return [(name, *as_set(scene, words, name)) for name in scene.values if name in put - shown]
 
 
 def put_in(scene: Scene) -> set[str]:

@@ -11,6 +11,7 @@ from msgspec import Struct
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.vocabulary import Action
 from graphkin.numbers.arithmetic import Kind, at, pick
+from graphkin.structure.pairs import ContactName
 
 
 class Part(Enum):
@@ -126,12 +127,6 @@ class Step(Struct, frozen=True):
 
 PLACES = ("axis", "guide", "track", "rolled")
 """Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
-
-
-class ContactName(str):
-    """The name of a point of contact, which belongs to no scene: T, and T@3 as one of link 3."""
-
-    __slots__ = ()
 
 
 def is_in_scene(point: str) -> bool:

@@ -375,14 +375,17 @@ def no_moving_guide(scene: Scene) -> str:
 # --- planning it ---------------------------------------------------------------------------------
 
 
-def coriolis_of(pen: Pen, link: str, tail: int, tip: int, point: str, block: str) -> int:
+def coriolis_of(
+    pen: Pen, link: str, tail: int, tip: int, point: str, block: str, *, index: str = ""
+) -> int:
     """Coriolis acceleration of a relative velocity (tail to tip in the plan) on a turning link.
 
-    ``point`` is where it slides, ``block`` what slides.
+    ``point`` is where it slides, ``block`` what slides, ``index`` that of the velocity: of the
+    point against that of the link under it, if nothing else is said.
     """
     key = ("coriolis", link, tail, tip)
     if key not in pen.shared:
-        index = letter(point) + letter(under(point, link))
+        index = index or letter(point) + letter(under(point, link))
         with pen.calls_for(Effect.CORIOLIS):
             triangles = similar_triangles(pen, link, tail, tip, point, index)
             read = triangles.get("read")

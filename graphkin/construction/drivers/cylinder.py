@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from graphkin.construction.acceleration import acceleration
 from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
-from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.coriolis.coriolis import coriolis_of, end_of, lay_off_turned
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.guide_actions import (
     axis_by_guide,
@@ -15,89 +15,128 @@ from graphkin.construction.guides.guide_actions import (
     stretch,
 )
 from graphkin.construction.guides.guide_line import guide_at
-from graphkin.construction.guides.guides import local_line
-from graphkin.construction.guides.sliding import component_between
+from graphkin.construction.guides.guides import known_guide, local_line
 from graphkin.construction.links import position
 from graphkin.construction.links.compass_arc import draw_arc
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
-from graphkin.structure.groups import Stretched
+from graphkin.structure.groups import Cylinder, Stretched
 from graphkin.structure.pairs import Pin
 
 
 def place(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
-    """The far pin of the cylinder on an arc as long as it is, then the line of its guide."""
+    """The far pin on the arc of each cylinder, as long as that is, then the lines of the guides."""
+    ways = [way_between_pins(pen, shapes, each, inner_pin(group)) for each in group.cylinders]
+    arcs = [
+        arc_of_cylinder(pen, each, inner_pin(group), way)
+        for each, way in zip(group.cylinders, ways, strict=True)
+    ]
+    if len(arcs) == 2:
+        position.two_arcs(pen, group.dyad, *arcs)
+    else:
+        position.dyad_on(pen, shapes, group.dyad, *arcs)
+    for each, way in zip(group.cylinders, ways, strict=True):
+        turn_to_pins(pen, shapes, each, inner_pin(group), way)
+
+
+def inner_pin(group: Stretched) -> str:
+    """The pin that joins the two bars of the dyad."""
     assert isinstance(group.dyad.inner, Pin)
-    near, far = group.pin.point, group.dyad.inner.point
-    block, carrier = group.slide.links
-    pins = {group.near: near, group.dyad.links[0]: far}
-    way = way_between_pins(pen, shapes, group, pins)
-    start = pen.the("position", near)
-    pen.want("position", under(near, group.dyad.links[0]), start)
+    return group.dyad.inner.point
+
+
+def arc_of_cylinder(pen: Pen, cylinder: Cylinder, far: str, way: int) -> int:
+    """The arc about the known pin, with the length between the pins for its radius."""
+    near = cylinder.pin.point
+    start = place_foot(pen, cylinder)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         with pen.on(Part.SHAPE, Plane.NUMBERS):
             length = pen.draw(length_of, way)
-        arc = draw_arc(pen, (near, far), start, length)
-    position.dyad_on(pen, shapes, group.dyad, arc)
+        return draw_arc(pen, (near, far), start, length)
+
+
+def place_foot(pen: Pen, cylinder: Cylinder) -> int:
+    """The far link's point under the known pin."""
+    foot = cylinder.foot.point
+    if not pen.has("position", foot):
+        pen.want("position", foot, pen.the("position", cylinder.pin.point))
+    return pen.the("position", foot)
+
+
+def turn_to_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str, way: int) -> None:
+    """Both links of a cylinder turned as its pins stand, and the line of its guide."""
+    near, (block, carrier) = cylinder.pin.point, cylinder.slide.links
+    pins = {cylinder.near: near, cylinder.far: far}
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
-    ends = local_line(pen, shapes, group.slide.slide, carrier)
+    ends = local_line(pen, shapes, cylinder.slide.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         turn = pen.draw(axis_stretched, *places, way)
         pen.want("axis", block, turn)
         pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        line = guide_at(pen, block, (start, near), turn)
-    pen.shared["guide", *group.slide.links] = line
+        line = guide_at(pen, block, (pen.the("position", near), near), turn)
+    pen.shared["guide", *cylinder.slide.links] = line
 
 
-def way_between_pins(pen: Pen, shapes: LinkShapes, group: Stretched, pins: dict[str, str]) -> int:
+def way_between_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str) -> int:
     """The way from the pin of the link with the guide to that of the block, along the guide."""
-    block, carrier = group.slide.links
+    block, carrier = cylinder.slide.links
+    pins = {cylinder.near: cylinder.pin.point, cylinder.far: far}
     first = pen.scene.link(block).points[0]
     here = shapes.local(block, pins[block]), shapes.local(block, first)
     end = shapes.local(carrier, pins[carrier])
-    ends = local_line(pen, shapes, group.slide.slide, carrier)
-    where = pen.drive(group.driver).position
+    ends = local_line(pen, shapes, cylinder.slide.slide, carrier)
+    where = pen.drive(cylinder.driver).position
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        offset = pen.given("length", group.slide.slide.offset)
+        offset = pen.given("length", cylinder.slide.slide.offset)
         return pen.draw(stretch, *here, offset, end, *ends, where)
 
 
 def move(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
-    """Image of the far link's point under the near pin: the given speed along the guide."""
-    foot, way = foot_of(group)
-    point = group.pin.point
-    start, line = pen.the("velocity", point), pen.shared["guide", *group.slide.links]
-    speed = pen.drive(group.driver).speed
-    steps, block = (start, line, speed), group.slide.block
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        found = slide_image(pen, letter(foot), block, steps, name=image(foot), way=way)
-    pen.want("velocity", foot, found)
-    velocity_arrows(pen, foot, point)
+    """The velocity plan: each cylinder's given speed along its guide, then as a dyad."""
+    for each in group.cylinders:
+        move_foot(pen, shapes, each)
     velocity.dyad(pen, shapes, group.dyad)
 
 
+def move_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
+    """Image of the far link's point under the near pin: the given speed along the guide."""
+    point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
+    start, line = pen.the("velocity", point), known_guide(pen, shapes, cylinder.slide)
+    steps = start, line, pen.drive(cylinder.driver).speed
+    place_foot(pen, cylinder)
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        name, way = image(foot), sense_of(cylinder)
+        found = slide_image(pen, letter(foot), block, steps, name=name, way=way)
+    pen.want("velocity", foot, found)
+    velocity_arrows(pen, foot, point)
+
+
 def accelerate(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
-    """Second image of that point: the given acceleration along the guide that turns."""
-    foot, way = foot_of(group)
-    point, far = group.pin.point, group.dyad.links[0]
-    start, line = pen.the("acceleration", point), pen.shared["guide", *group.slide.links]
-    rate = pen.drive(group.driver).acceleration
-    images = pen.the("velocity", point), pen.the("velocity", foot)
-    corner = component_between(pen, far, images, point, group.slide.block)
-    steps, block = (corner, line, rate), group.slide.block
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        name = second_image(foot)
-        with pen.calls_for(acceleration.sliding_effect(pen, rate)):
-            found = slide_image(
-                pen, letter(foot), block, steps, name=name, way=way, told_from=start
-            )
-        slide_arrow(pen, corner, found, far, point)
-    pen.want("acceleration", foot, found)
+    """The acceleration plan: what is known of each cylinder along its guide, then as a dyad."""
+    for each in group.cylinders:
+        accelerate_foot(pen, shapes, each)
     acceleration.dyad(pen, shapes, group.dyad)
 
 
-def foot_of(group: Stretched) -> tuple[str, int]:
-    """The far link's point under the near pin, and the sense in which the driver moves it."""
-    far = group.dyad.links[0]
-    return under(group.pin.point, far), 1 if far == group.slide.block else -1
+def accelerate_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
+    """Second image of that point: the given acceleration along the guide that turns."""
+    point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
+    line = known_guide(pen, shapes, cylinder.slide)
+    rate = pen.drive(cylinder.driver).acceleration
+    images = pen.the("velocity", point), pen.the("velocity", foot)
+    index = letter(foot) + letter(point)
+    component = coriolis_of(pen, cylinder.far, *images, point, block, index=index)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        corner = end_of(pen, lay_off_turned, pen.the("acceleration", point), component)
+        steps = corner, line, rate
+        name, way = second_image(foot), sense_of(cylinder)
+        with pen.calls_for(acceleration.sliding_effect(pen, rate)):
+            found = slide_image(pen, letter(foot), block, steps, name=name, way=way)
+        slide_arrow(pen, corner, found, cylinder.far, point, index=index)
+    pen.want("acceleration", foot, found)
+
+
+def sense_of(cylinder: Cylinder) -> int:
+    """The sense in which the driver moves the far link: +1 along the guide."""
+    return 1 if cylinder.far == cylinder.slide.block else -1

@@ -36,8 +36,7 @@ def driven_slide(start: Point, line: Line, speed: Real, way: int) -> Point:
 class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     """The motion of a ``point`` along a guide, laid off from ``start`` to its ``image``.
 
-    ``speed`` is its speed or acceleration along the guide, ``told_from`` the step of the point from
-    which a sentence lays it off.
+    ``speed`` is its speed or acceleration along the guide.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
@@ -46,7 +45,6 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     point: str
     speed: int
-    told_from: int
     image: int
 
     def tried_rate(self, role: str) -> int:
@@ -68,7 +66,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         steps = drawing.trace.program.steps
         return {
             **self.symbols(),
-            "s": symbol(letter_at(drawing, self.told_from)),
+            "s": symbol(letter_at(drawing, self.start)),
             "name": symbol(steps[self.image].name),
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image),
@@ -125,12 +123,11 @@ def slide_image(
     *,
     name: str,
     way: int,
-    told_from: int | None = None,
 ) -> int:
     """The image of a point that slides, from those of what is known of it.
 
     ``steps`` are where it begins, the guide and the speed, ``way`` is the sense in which that is
-    counted, ``told_from`` the point from which it is said to be laid off, if not where it begins.
+    counted.
     """
     start, _, speed = steps
     image = pen.draw(driven_slide, *steps, name=name, extra=(way,))
@@ -140,7 +137,6 @@ def slide_image(
             guide=guide,
             start=start,
             speed=speed,
-            told_from=start if told_from is None else told_from,
             image=image,
         )
     )

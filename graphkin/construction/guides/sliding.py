@@ -60,16 +60,6 @@ def known_end(pen: Pen, pair: Joint, link: str, point: str) -> int:
     return lay_off_component(pen, pair, link, point, point, vector)
 
 
-def component_between(pen: Pen, link: str, images: tuple[int, int], point: str, block: str) -> int:
-    """The end of the component of a velocity along a link that turns, laid off from its point.
-
-    ``images`` are the tail and the tip of that velocity, ``point`` slides with a block.
-    """
-    vector = coriolis_of(pen, link, *images, point, block)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        return end_of(pen, lay_off_turned, pen.the("acceleration", point), vector)
-
-
 def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
     """The component of what slides that a step lays off; None for other steps."""
     laid = step.of

@@ -88,20 +88,21 @@ def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
 def dyad_on(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
     """The inner pin of a dyad whose first bar keeps it on an arc that is drawn already."""
     if isinstance(group.right, Pin):
-        two_bars(pen, shapes, group, near)
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            assert isinstance(group.inner, Pin)
+            far = arc(pen, shapes, group.links[1], group.right.point, group.inner.point)
+        two_arcs(pen, group, near, far)
     else:
         bar_and_guide(pen, shapes, group, near)
 
 
-def two_bars(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
-    """The inner pin of a dyad RRR: two arcs."""
+def two_arcs(pen: Pen, group: Dyad, near: int, far: int) -> None:
+    """The inner pin of a dyad RRR: where two arcs meet."""
     assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
     assert isinstance(group.inner, Pin)
-    left, pin, right = group.left.point, group.inner.point, group.right.point
+    pin, centres = group.inner.point, (group.left.place, group.right.place)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        far = arc(pen, shapes, group.links[1], right, pin)
         side, extra = pen.choice(group)
-        centres = left.partition("@")[0], right
         found = meet_arcs(pen, pin, centres, (near, far), *side, sign=extra)
     pen.want("position", pin, found)
 
@@ -110,7 +111,7 @@ def bar_and_guide(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
     """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
     assert not isinstance(group.right, Pin)
-    left, pin, link = group.left.point.partition("@")[0], group.inner.point, group.links[1]
+    left, pin, link = group.left.place, group.inner.point, group.links[1]
     led = led_by(group.right)
     path = led.path(pen, shapes, link, pin)
     with pen.on(Part.POSITION, Plane.MECHANISM):
