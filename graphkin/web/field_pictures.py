@@ -41,13 +41,14 @@ def bar_rules(fields: str, rects: Sequence[Rect]) -> Iterator[str]:
 
 
 def placed(name: str, timed: Timed) -> str:
-    """A mark with its id, the sentence that draws it, and the step that it shows.
+    """A mark with its id, the sentence that draws it, and the step that it shows, written once.
 
     One without an id belongs to a picture within the picture.
     """
     own = f' id="{name}"' if name else " data-aside"
     of = f' data-of="{timed.step}"' if timed.step is not None else ""
-    written = drawn_mark(timed).replace(" ", f'{own} data-at="{timed.at}"{of} ', 1)
+    plain = replace(timed, mark=replace(timed.mark, step=None))
+    written = drawn_mark(plain).replace(" ", f'{own} data-at="{timed.at}"{of} ', 1)
     return f'<g class="lettering">{written}</g>' if isinstance(timed.mark, Text) else written
 
 

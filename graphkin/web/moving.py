@@ -8,28 +8,36 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 from graphkin.construction.core.crossings import is_drawn
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import data
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.traced import UntraceableError
+from graphkin.construction.tape.tracer import traced_kind
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import CircleMark, Text
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, reach_of
 from graphkin.numbers.plane import Vector
+from graphkin.scene.model import Scene
+from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.branch_tracking import TrackedBranch
 from graphkin.web.field_binder import FieldBinder, Record
 from graphkin.web.field_extents import box_of, half
+from graphkin.web.figures import figures
 from graphkin.web.follow import MarkBindings
 from graphkin.web.moving_sheet import MovingSheet
 from graphkin.web.page_driver import PageDriver, Reach, driven_by
 from graphkin.web.scripts import MOVING, joined
 from graphkin.web.tracing import Tracing
+from graphkin.writers.html_markup import marked_up
 
 if TYPE_CHECKING:
     from graphkin.web.screen_sheets import ScreenSheet
@@ -68,7 +76,7 @@ class Moving(Struct, frozen=True):
 def moving(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Moving | None:
     """How the marks of some sheets follow the driver; None where ``still`` says why they cannot."""
     try:
-        driven = driven_by(mechanism.scene)
+        driven = driven_by(mechanism.scene, figures(mechanism))
         return None if driven is None else put_together(Tracing(mechanism, driven), sheets)
     except (GraphkinError, UntraceableError):
         return None
@@ -114,7 +122,8 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         followed(s, sheet, here, rects, marks, more, led, tracing)
         for s, (sheet, here) in enumerate(zip(sheets, places, strict=True))
     ]
-    data = {
+    both = list(enumerate(zip(sheets, places, strict=True)))
+    knows = {
         "name": driven.name,
         "unit": driven.unit,
         "low": reach.low,
@@ -128,16 +137,19 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "marks": marks,
         "more": more,
         "led": led,
-        "grips": [list(grips(s, sheet, driven)) for s, sheet in enumerate(sheets)],
+        "grips": [list(grips(s, sheet, here, driven)) for s, (sheet, here) in both],
+        "figures": list(figures_of(tracing, sheets[0].drawing)),
+        "stands": stands(tracing),
+        "derived": list(derived(tracing, sheets[0].drawing)),
         "rects": rects,
         "fields": fields,
         "values": list(read_outs(places)),
         "margins": list(crossings(tracing, sheets[0])),
         "reach": size,
     }
-    data |= {"size": len(tracing.tape.outputs), "course": way_through(course, tracing, reach)}
-    data["turned"] = list(turned_through(tracing))
-    return Moving(source(data, tracing), driven, reach, data, tracing)
+    knows |= {"size": len(tracing.tape.outputs), "course": way_through(course, tracing, reach)}
+    knows["turned"] = list(turned_through(tracing))
+    return Moving(source(knows, tracing), driven, reach, knows, tracing)
 
 
 def followed(
@@ -160,7 +172,7 @@ def followed(
     steps are drawn, with 1 where one may stand on the other side of what it names; and the places
     of the records of what stands off a point.
     """
-    angles, first = tracing.driven.angles(tracing.x), 0
+    angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
     found = []
     for marks, field in fields:
@@ -192,11 +204,87 @@ def followed(
     return found
 
 
-def grips(s: int, sheet: ScreenSheet, driven: PageDriver) -> Iterator[tuple[str, str, bool]]:
-    """The pins by which the mechanism of a sheet may be moved: id, name, whether it is driven."""
+def grips(
+    s: int, sheet: ScreenSheet, places: MovingSheet, driven: PageDriver
+) -> Iterator[tuple[str, str, bool, int]]:
+    """The pins by which the mechanism of a sheet may be moved: id, name, whether it is driven, and
+    by which of the figures; -1 for the driver itself, or the time."""
+    own = points_led(places, driven)
     for k, mark in enumerate(sheet.left):
-        if isinstance(mark, CircleMark) and mark.cls.split()[0] == "pin":
-            yield f"m{s}-{k}", mark.name, mark.name in driven.pins
+        if isinstance(mark, CircleMark) and mark.cls.split()[0] in ("pin", "point"):
+            led = own.get(mark.name, -1)
+            if led >= 0 or mark.cls.split()[0] == "pin":
+                yield f"m{s}-{k}", mark.name, led >= 0 or mark.name in driven.pins, led
+
+
+def points_led(places: MovingSheet, driven: PageDriver) -> dict[str, int]:
+    """Which of the figures leads each point of the links that are driven: the last on which it
+    hangs, so that a bar at the end of a driven one goes by its own driver."""
+    graph, found = places.tape.graph, dict[str, int]()
+    for number, figure in enumerate(driven.figures):
+        link = None if figure.driver is None else driven.scene.link(figure.driver.link)
+        for name in link.points if link else ():
+            place = places.tape.lifted(places.moving.positions[name])
+            if graph.input(figure.name) in graph.needed((place.node, place.imag.node)):
+                found[name] = number
+    return found
+
+
+def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
+    """What a page knows of the figures: the output that each shows, where its own input is, and
+    which of the data tells it."""
+    scene, tape, words = tracing.driven.scene, tracing.tape, drawing.words
+    given = data(drawing)
+    for figure in tracing.driven.figures:
+        shows = tracing.known[figure.parameter or figure.name]
+        told = next((k for k, one in enumerate(given) if figure.parameter in one.parameters), -1)
+        if figure.driver is not None:
+            shows = tracing.driven.timed(figure.driver, tracing.x, tracing.known)[0]
+            shows = shows / figure.metres
+            told = next(k for k, one in enumerate(given) if one.of is figure.driver.position)
+        yield {
+            "key": figure.name.removeprefix("figure ").replace("of driver ", "drive"),
+            "name": marked_up(figure.symbol),
+            "place": tracing.inputs[figure.name],
+            "start": figure.start,
+            "low": figure.low,
+            "high": figure.high,
+            "step": figure.step,
+            "unit": printed_unit(figure.unit, words),
+            "shows": tape.number(shows),
+            "datum": told,
+            "moves": -1 if figure.driver else int(figure.parameter in stands_by(scene)),
+        }
+
+
+def derived(tracing: Tracing, drawing: Drawing) -> Iterator[list[Any]]:
+    """The data that follow from figures: which, markup of the name, the output and the unit."""
+    names = {figure.parameter for figure in tracing.driven.figures if figure.parameter}
+    kind, words = traced_kind(), drawing.words
+    for k, one in enumerate(data(drawing)):
+        if one.of is not None and names & one.of.uses():
+            number = tracing.tape.number(one.of.number(tracing.known, kind))
+            yield [k, marked_up(one.name), number, printed_unit(one.of.unit, words)]
+
+
+def stands(tracing: Tracing) -> int:
+    """The output that tells where the driver stands by the parameters; -1 where it has none."""
+    driven = tracing.driven
+    if driven.driver is None or not driven.figures:
+        return -1
+    place = driven.driver.position.si(tracing.known, traced_kind())
+    return tracing.tape.number(place * (180 / pi if driven.what == "turn" else 1 / driven.metres))
+
+
+def stands_by(scene: Scene) -> frozenset[str]:
+    """The parameters that tell where the driver stands."""
+    return frozenset().union(*(driver.position.uses() for driver in scene.drivers))
+
+
+def printed_unit(unit: str, words: Words) -> str:
+    """A unit after its number."""
+    printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    return f" {printed}" if printed and printed != "°" else printed
 
 
 def read_outs(places: Sequence[MovingSheet]) -> Iterator[tuple[str, int, str, int]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import pi
 from typing import Any
 
@@ -18,6 +18,7 @@ from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
+from graphkin.web.figures import GivenFigure
 
 INPUT = "driver"
 """The name of the input: the driver's position, or the time."""
@@ -36,7 +37,8 @@ PARTS = 360
 class PageDriver(Struct, frozen=True):
     """What moves: the driver (None for the time), and where it stands, in ``unit``.
 
-    ``metres`` is what one unit of a driver along a line is.
+    ``metres`` is what one unit of a driver along a line is, ``figures`` are the numbers of the data
+    that can be changed.
     """
 
     scene: Scene
@@ -45,6 +47,7 @@ class PageDriver(Struct, frozen=True):
     start: float
     unit: str
     metres: float = 1.0
+    figures: tuple[GivenFigure, ...] = ()
 
     @property
     def name(self) -> str:
@@ -61,8 +64,11 @@ class PageDriver(Struct, frozen=True):
         """The points of the link that is driven; none of a time."""
         return () if self.driver is None else tuple(self.scene.link(self.driver.link).points)
 
-    def overrides(self, program: Program, x: TracedNumber) -> dict[int, Any]:
-        """The values of the drivers' own steps for a traced position or time."""
+    def overrides(
+        self, program: Program, x: TracedNumber, known: Mapping[str, Any]
+    ) -> dict[int, Any]:
+        """The values of the drivers' own steps for a traced position or time; ``known`` are the
+        parameters and figures."""
         found: dict[int, Any] = {}
         for driver, drive in zip(self.scene.drivers, program.drives, strict=True):
             if self.driver is not None:
@@ -70,18 +76,18 @@ class PageDriver(Struct, frozen=True):
                     place = x if self.what == "turn" else x * self.metres
                     found |= self.placed(drive, driver, place)
                 continue
-            place, speed, push = self.timed(driver, x)
+            place, speed, push = self.timed(driver, x, known)
             found |= self.placed(drive, driver, place)
             found |= {drive.speed: speed, drive.acceleration: push}
         return found
 
-    def angles(self, x: TracedNumber) -> dict[str, Any]:
+    def angles(self, x: TracedNumber, known: Mapping[str, Any]) -> dict[str, Any]:
         """The angle in degrees of each link that a driver turns, by its name."""
         found: dict[str, Any] = {}
         for driver in self.scene.drivers:
             if driver.kind == "turn":
                 moves = self.driver in (None, driver)
-                here = x if self.driver is not None else self.timed(driver, x)[0]
+                here = x if self.driver is not None else self.timed(driver, x, known)[0]
                 found[driver.link] = here if moves else stated(driver, self.scene)[0]
         return found
 
@@ -92,35 +98,39 @@ class PageDriver(Struct, frozen=True):
         found = {drive.position: traced_kind().direction(place)}
         return found if drive.angle is None else found | {drive.angle: place * (pi / 180)}
 
-    def timed(self, driver: Driver, time: TracedNumber) -> tuple[Any, Any, Any]:
+    def timed(
+        self, driver: Driver, time: TracedNumber, known: Mapping[str, Any]
+    ) -> tuple[Any, Any, Any]:
         """Position (degrees or metres), speed and acceleration of a driver at a traced time."""
-        if TIME in driver.position.uses():
-            values = {**self.scene.values, TIME: time}
-            place, speed, push = (
-                quantity.si(values, traced_kind())
-                for quantity in (driver.position, driver.speed, driver.acceleration)
-            )
-            return place * (180 / pi) if driver.kind == "turn" else place, speed, push
-        place, speed, push = stated(driver, self.scene)
-        since = time - self.start
-        way = (speed + push * since / 2) * since
-        return place + way * (180 / pi if driver.kind == "turn" else 1), speed + push * since, push
+        kind, law = traced_kind(), TIME in driver.position.uses()
+        values = {**known, TIME: time} if law else known
+        rates = (driver.speed, driver.acceleration)
+        speed, push = (rate.si(values, kind) for rate in rates)
+        in_degrees = 180 / pi if driver.kind == "turn" else 1
+        if law:
+            place = driver.position.si(values, kind) * in_degrees
+        else:
+            since = time - self.start
+            place = stated(driver, self.scene)[0] + (speed + push * since / 2) * since * in_degrees
+            speed = speed + push * since
+        led = next((each for each in self.figures if each.driver is driver), None)
+        return (place if led is None else place + known[led.name] * led.metres), speed, push
 
 
-def driven_by(scene: Scene) -> PageDriver | None:
+def driven_by(scene: Scene, figures: tuple[GivenFigure, ...] = ()) -> PageDriver | None:
     """What moves a scene: its only driver, else the time; None without a driver."""
     if not scene.drivers:
         return None
     number = chosen(scene, None)
     if number is None or law_of_time(scene):
-        return PageDriver(scene, None, "time", time_of(scene), "s")
+        return PageDriver(scene, None, "time", time_of(scene), "s", figures=figures)
     driver = scene.drivers[number - 1]
     place = stated(driver, scene)[0]
     if driver.kind == "turn":
-        return PageDriver(scene, driver, "turn", place, "deg")
+        return PageDriver(scene, driver, "turn", place, "deg", figures=figures)
     unit = scene.units["length"]
     metres = float(LENGTHS[unit])
-    return PageDriver(scene, driver, driver.kind, place / metres, unit, metres)
+    return PageDriver(scene, driver, driver.kind, place / metres, unit, metres, figures)
 
 
 def time_of(scene: Scene) -> float:

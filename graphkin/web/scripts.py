@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from graphkin.web.offline_page import part
@@ -24,6 +25,7 @@ STEP_PAGE = (
     "stepping.js",
     "travel.js",
     "driver.js",
+    "figures.js",
     "grab.js",
     "beginning.js",
     "room.js",
@@ -44,6 +46,8 @@ MOVING = ("closing.js", "moving.js")
 """What lays out the marks that follow the driver."""
 FORM = ("form.js",)
 """The script of a form for answers."""
+REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
+"""A remark at the end of a line, in which no text can stand."""
 REMARKS = ("//", "/**")
 """How lines begin that only a reader of the files needs."""
 
@@ -56,5 +60,5 @@ def together(names: tuple[str, ...]) -> str:
 @lru_cache(maxsize=4)
 def joined(names: tuple[str, ...]) -> str:
     """Some files one after the other, without remarks."""
-    lines = (line.strip() for name in names for line in part(name).splitlines())
+    lines = (REMARK.sub("", line.strip()) for name in names for line in part(name).splitlines())
     return "\n".join(line for line in lines if line and not line.startswith(REMARKS))

@@ -10,6 +10,7 @@ from typing import Any
 from msgspec import Struct, field
 
 from graphkin.construction.core.batch import made_ready, run_moving
+from graphkin.construction.core.parameter_words import within
 from graphkin.construction.core.run import Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.links.counted_turn import counted_link
@@ -59,24 +60,34 @@ class Tracing(Struct, frozen=True, dict=True):
     @cached_property
     def tape(self) -> TapeOutputs:
         """The outputs."""
-        return TapeOutputs(self.graph, {INPUT: self.driven.start})
+        starts = {figure.name: figure.start for figure in self.driven.figures}
+        return TapeOutputs(self.graph, {INPUT: self.driven.start, **starts})
+
+    @cached_property
+    def known(self) -> dict[str, Any]:
+        """The parameters of the scene, those that can be changed traced, and what leads drivers."""
+        led: dict[str, Any] = dict(self.mechanism.scene.values)
+        for each in self.driven.figures:
+            led[each.parameter or each.name] = TracedNumber(self.graph, self.graph.input(each.name))
+        return led
 
     @property
     def inputs(self) -> dict[str, int]:
-        """The places of the inputs: the driver, what closes groups, the angles links count near."""
+        """The places of the inputs: the driver, what closes groups, the angles links count near,
+        and the figures."""
         names = [INPUT, *(name for each in self.closings for name in each.names)]
-        return {name: place for place, name in enumerate((*names, *self.counting))}
+        return {name: place for place, name in enumerate((*names, *self.beside(self.driven.start)))}
 
     def traced(self, drawn: Trace) -> Trace:
         """The steps that were run for a sheet, traced. Raises UntraceableError."""
-        program, values = drawn.program, self.mechanism.scene.values
+        program, values = drawn.program, self.known
         scaled = dict(self.mechanism.trial_rates)
         if program.seconds is not None and program.seconds in drawn.values:
             scaled[program.seconds] = drawn.values[program.seconds]
         own = {after for number in scaled for after in program.descendants(number)}
         shared = {n: value for n, value in self.done.items() if n not in own}
         overrides = scaled | self.closers(drawn) | shared
-        overrides |= self.driven.overrides(program, self.x) | self.counted(drawn)
+        overrides |= self.driven.overrides(program, self.x, values) | self.counted(drawn)
         overrides = {n: value for n, value in overrides.items() if n in drawn.values}
         needed = sorted(drawn.values)
         ready = made_ready(program, needed, values, needed, frozenset(overrides))
@@ -115,6 +126,11 @@ class Tracing(Struct, frozen=True, dict=True):
         """The angles near which links count at places of the driver, by their inputs."""
         every = {} if self.turned is None else self.turned.values(at)
         return {name: every[name] for name in self.counting}
+
+    def beside(self, at: Any) -> dict[str, Any]:
+        """The inputs at places of the driver that nothing closes: those angles, and the figures as
+        they are drawn."""
+        return {**self.near(at), **{each.name: at * 0 + each.start for each in self.driven.figures}}
 
     # --- groups of higher class ----------------------------------------------------------------
 
@@ -157,7 +173,10 @@ class Tracing(Struct, frozen=True, dict=True):
                 first = self.tape.point(point)
                 found |= {first, first + 1}
         scene = self.mechanism.scene
+        changed = {each.parameter for each in self.driven.figures}
         for link in scene.links.values():
+            if any(changed & quantity.uses() for quantity in within(link.placings)):
+                continue  # its bars are as long as the figures say
             kept = (name for name in link.points if name not in scene.cam_centres)
             points = [places[name] for name in kept if name in places]
             for point in points[1:]:
@@ -176,10 +195,11 @@ class Tracing(Struct, frozen=True, dict=True):
         """The range, and what closes groups on the way through it; None where nothing moves."""
         if not self.closings:
             outputs = [self.tape.outputs[i] for i in closed]
-            reach = reach_of(self.driven, self.graph, outputs, self.near)
+            reach = reach_of(self.driven, self.graph, outputs, self.beside)
             return None if reach is None else (reach, TrackedBranch())
-        solve = solver(self.graph, INPUT, self.closings, self.counting, self.near, size)
         turning, start = self.driven.what == "turn", self.driven.start
+        names = tuple(self.beside(start))
+        solve = solver(self.graph, INPUT, self.closings, names, self.beside, size)
         return around(solve, start, window(self.driven), turning=turning)
 
 

@@ -23,26 +23,30 @@ Laid = list[float] | None
 """The numbers of a mark as ``redrawn.numbers`` has them, a text's shift; None where hidden."""
 
 
-def laid(moving: Moving, x: float) -> Mapping[str, Laid] | None:
-    """The marks of a page at a place of the driver; None where the mechanism does not close."""
-    y = reckoned(moving, x)
+def laid(
+    moving: Moving, x: float, figures: Mapping[str, float] | None = None
+) -> Mapping[str, Laid] | None:
+    """The marks of a page at a place of the driver and with some figures changed; None where the
+    mechanism does not close."""
+    y = reckoned(moving, x, figures or {})
     if y is None or not all(isfinite(y[i]) for i in moving.data["closed"]):
         return None
     found: dict[str, Laid] = {}
     for name, kind, shown, *rest in moving.data["marks"]:
         numbers = Shapes(y, moving.data["rects"]).of(kind)(*rest)
         if kind == "o":
-            numbers = [] if abs(x - moving.data["start"]) < 1e-9 else None
+            as_drawn = abs(x - moving.data["start"]) < 1e-9 and not figures
+            numbers = [] if as_drawn else None
         if numbers is not None and not all(map(isfinite, numbers)):
             numbers = None
         found[name] = numbers if shown < 0 or y[shown] > 0 else None
     return found
 
 
-def reckoned(moving: Moving, x: float) -> list[float] | None:
+def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[float] | None:
     """The outputs at a place of the driver; None where a group does not close."""
     tracing, course = moving.tracing, moving.data["course"]
-    inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.near(np.array([x]))}
+    inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.beside(np.array([x]))}
     if tracing.closings:
         at, turn = np.array(course["at"]), course["turn"]
         place = at[0] + (x - at[0]) % turn if turn else x
@@ -50,12 +54,14 @@ def reckoned(moving: Moving, x: float) -> list[float] | None:
         tried = {place - 1 for place in course["places"]}
         near = tuple(n if k in tried else float(np.sign(n)) for k, n in enumerate(near))
         size = moving.data["reach"]
-        solve = solver(tracing.graph, INPUT, tracing.closings, tracing.counting, tracing.near, size)
+        names = tuple(tracing.beside(x))
+        solve = solver(tracing.graph, INPUT, tracing.closings, names, tracing.beside, size)
         state = solve(x, near)
         if state is None:
             return None
         names = (name for each in tracing.closings for name in each.names)
         inputs |= {name: np.array([number]) for name, number in zip(names, state, strict=True)}
+    inputs |= {name: np.array([value]) for name, value in figures.items()}
     outputs = ran(tracing.graph, tracing.tape.outputs, inputs)
     return [float(np.ravel(value)[0]) for value in outputs]
 

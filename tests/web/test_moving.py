@@ -139,9 +139,12 @@ def is_of_one_position(mark: Mark, drawing: Drawing) -> bool:
     return not isinstance(mark, Polyline) or first not in (*CURVES, *TEETH, "construction")
 
 
-def compared(name: str, x: float, marks: dict[str, Any]) -> Iterator[str]:
-    """What a page draws otherwise than Python at a place of the driver."""
-    (sheets, found), mechanism = page_of(name), named(name)
+def compared(
+    name: str, x: float, marks: dict[str, Any], other: Mechanism | None = None
+) -> Iterator[str]:
+    """What a page draws otherwise than Python at a place of the driver; ``other`` is the mechanism
+    with its figures changed."""
+    (sheets, found), mechanism = page_of(name), other or named(name)
     here = defaultdict(list)
     drawn: dict[Any, int] = defaultdict(int)
     places = {mark_id: (mark, s, side) for mark_id, mark, s, side in fields(sheets)}

@@ -302,7 +302,7 @@ def test_a_triangle_that_is_left_out_has_no_letters_no_reason_and_no_crossing(na
     assert left_out and not {of for _, of in heights} & {*left_out}
 
 
-@pytest.mark.parametrize("name", ["stephenson-2-binary", "stephenson-3-crank", "rod-and-wheel"])
+@pytest.mark.parametrize("name", ["stephenson-2-binary", "stephenson-3-crank", "rapid-return"])
 def test_a_trial_plan_names_itself_in_each_of_its_steps_and_each_point_that_it_finds(name):
     """What is tried is said first, with why; each point that two lines find has its reason."""
     said = told_of(name).said

@@ -49,7 +49,11 @@ def test_files_are_short_and_say_first_what_they_hold():
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page[0])
 def test_remarks_are_left_out_and_nothing_else(page):
     told = joined(page).splitlines()
-    written = [line.strip() for name in page for line in part(name).splitlines()]
+    lines = [line.strip() for name in page for line in part(name).splitlines()]
+    written = [scripts.REMARK.sub("", line) for line in lines]
     assert [line for line in written if line in set(told)] == told
+    for line, short in zip(lines, written, strict=True):
+        assert line == short or line.removeprefix(short).lstrip().startswith("// ")
+        assert short.count('"') == line.count('"'), line
     assert all(not line or line.startswith(scripts.REMARKS) for line in set(written) - set(told))
     assert together(page) == f'(() => {{\n"use strict";\n{joined(page)}\n}})();'

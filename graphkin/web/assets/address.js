@@ -9,7 +9,8 @@ function remember() {
 
 function keep() {
   if (location.hash !== address) return; // it leads elsewhere meanwhile
-  const x = moved() ? `&x=${Number(state.x.toFixed(4))}` : "";
+  const set = changed_figures().map(({ key, k }) => `${key}:${Number(state.figures[k].toFixed(4))}`).join();
+  const x = (moved() ? `&x=${Number(state.x.toFixed(4))}` : "") + (set && `&set=${encodeURIComponent(set)}`);
   try {
     history.replaceState(null, "", `#step=${state.step}${x}`);
   } catch { /* a page shown inside another may not */ }
@@ -22,6 +23,11 @@ function follow_address() {
   const said = new URLSearchParams(address.slice(1));
   const x = Number.parseFloat(said.get("x"));
   const step = Number.parseInt(said.get("step"), 10) || 0;
+  if (motion) reset_figures();
+  for (const [key, value] of (said.get("set") ?? "").split(",").map(one => one.split(":"))) {
+    const k = motion?.figures.findIndex(one => one.key === key) ?? -1;
+    if (k >= 0 && Number.isFinite(Number(value))) keep_figure(k, Number(value));
+  }
   if (motion) drive(Number.isFinite(x) ? x : motion.start);
   show(step);
 }

@@ -3,6 +3,7 @@ const STILL = matchMedia("(prefers-reduced-motion:reduce)");
 const SWEEP = 5000; // milliseconds of it
 const ghosts = data.ghosts.map(k => byId(`m0-${k}`));
 sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
+if (motion) make_figures();
 let ghost = 0, shown_once = false;
 
 /** Show it where the page begins, and take it off elsewhere. */

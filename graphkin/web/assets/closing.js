@@ -3,12 +3,24 @@
 const y = new Float64Array(data.size), x = new Float64Array(data.inputs);
 let reckoned = NaN, closes = false;
 
+// The numbers of the data that can be changed; `led` tells that one is not as drawn.
+const figures = data.figures ?? [];
+let led = false;
+for (const { place, start } of figures) x[place] = start;
+const figure = (k, value) => {
+  x[figures[k].place] = value;
+  led = figures.some(({ place, start }) => x[place] !== start);
+  reckoned = NaN;
+};
+
 const reckon = (at) => {
   if (at !== reckoned) {
     reckoned = at;
     x[0] = at;
     count();
-    closes = closeAll() && (run(x, y), data.closed.every((i) => Number.isFinite(y[i])));
+    const closed = closeAll();
+    run(x, y);
+    closes = closed && data.closed.every((i) => Number.isFinite(y[i]));
   }
   return closes;
 };
@@ -42,8 +54,33 @@ const closedNear = (state) => {
     return secant(missed, start, step) || secant(missed, start, -step);
   });
 };
+// Where figures are changed, the way through the range holds no more: the last closure is carried on.
+const STAGES = 12;
+let carried = null;
+const carriedOn = () => {
+  const goal = x.slice(), from = carried, { states, turn } = data.course, end = 1 + states[0].length;
+  const ways = goal.map((number, i) => number - from[i]);
+  if (turn) ways[0] -= turn * Math.round(ways[0] / turn);
+  let state = [...from.slice(1, end)];
+  for (let k = 1; k <= STAGES; k++) {
+    ways.forEach((way, i) => { if (i === 0 || i >= end) x[i] = k < STAGES ? from[i] + way * k / STAGES : goal[i]; });
+    if (!closedNear(state)) {
+      goal.forEach((number, i) => { x[i] = number; });
+      return false;
+    }
+    state = [...x.slice(1, end)];
+  }
+  carried = x.slice();
+  return true;
+};
 const closeAll = () => {
   if (!closings.length) return true;
+  if (led) return carriedOn();
+  const good = closedHere();
+  if (good) carried = x.slice();
+  return good;
+};
+const closedHere = () => {
   const { at, states, turn } = data.course;
   const place = turn ? at[0] + ((((x[0] - at[0]) % turn) + turn) % turn) : x[0];
   let k = 1;

@@ -1,7 +1,6 @@
 // The driver, and with it all that follows.
 const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // sines of crossings below which no hand can tell where; those of far centres and poles
-const driver = motion && byId("driver"), datum = motion && byId("datum");
-const given = [...(datum?.childNodes ?? [])];
+const driver = motion && byId("driver");
 const notes = motion ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
   const one = document.createElement("small");
   one.className = "moved-note";
@@ -108,12 +107,14 @@ function clear_off(all, flat) {
 
 /** Say beside drawings and data where the driver now is, and what they were given and checked for. */
 function note(shown) {
-  const { name, moved: words } = byId("read").dataset, start = `${name} = ${place_of(motion.start)}`;
-  const here = `${name} = ${shown}`; // markup of a symbol, escaped where it was made
+  const { name, moved: words } = byId("read").dataset, changed = changed_figures();
+  const own = state.x !== motion.start || !changed.length;
+  const list = (place, told) => [...(own ? [`${name} = ${place}`] : []), ...changed.map(one => `${one.name} = ${told(one)}`)].join(", "); // markup of symbols, escaped where it was made
+  const here = list(shown, ({ k }) => knob(k).told());
+  const start = list(place_of(motion.start), one => plain(motion.drawn[one.k]) + one.unit);
   for (const one of notes) {
     one.innerHTML = words.replace("{place}", here).replace("{start}", start);
     one.hidden = !moved();
   }
-  if (datum && moved()) datum.innerHTML = here;
-  else datum?.replaceChildren(...given);
+  tell_figures();
 }

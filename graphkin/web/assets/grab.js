@@ -10,9 +10,9 @@ const grips = motion ? motion.grips.map(grips_of) : [];
 function grips_of(pins, sheet) {
   const [{ svg }] = sheets[sheet].fields, group = svg.appendChild(document.createElementNS(SVG, "g")), found = [];
   group.setAttribute("class", "grips");
-  for (const [id, name, driven] of [...pins].sort((p, q) => q[2] - p[2])) {
-    const way = way_of(id), pin = byId(id);
-    if (way && !found.some(other => same(other.pin, pin))) found.push(grip(svg, group, { id, name, driven, pin, way }));
+  for (const [id, name, driven, k] of [...pins].sort((p, q) => q[2] - p[2])) {
+    const by = knob(k), way = way_of(id, by), pin = byId(id);
+    if (way && !found.some(other => same(other.pin, pin))) found.push(grip(svg, group, { id, name, driven, by, pin, way }));
   }
   if (found.length) svg.setAttribute("role", "group"); // no mere picture
   return found;
@@ -24,9 +24,8 @@ function same(one, other) {
 }
 
 /** Where a pin is at places all over the range; nothing of one that hardly moves. */
-function way_of(id) {
-  const { low, high } = motion;
-  const way = Array.from({ length: SAMPLES + 1 }, (_, i) => motion.place(id, low + (high - low) * i / SAMPLES));
+function way_of(id, { low, high, at }) {
+  const way = Array.from({ length: SAMPLES + 1 }, (_, i) => at(id, low + (high - low) * i / SAMPLES));
   const known = way.filter(Boolean), reach = axis => Math.max(...known.map(at => at[axis])) - Math.min(...known.map(at => at[axis]));
   return known.length > 1 && Math.hypot(reach(0), reach(1)) > LEAST_WAY ? way : null;
 }
@@ -34,20 +33,20 @@ function way_of(id) {
 /** Give a pin its handle. */
 function grip(svg, group, one) {
   const handle = group.appendChild(document.createElementNS(SVG, "circle"));
-  const { low, high } = motion, words = byId("move").dataset;
+  const { low, high } = one.by, words = byId("move").dataset;
   const told = { class: one.driven ? "grip driven" : "grip", tabindex: 0, role: "slider", "aria-label": words.pin.replace("{pin}", one.name), "aria-valuemin": low, "aria-valuemax": high };
   for (const [name, value] of Object.entries(told)) handle.setAttribute(name, value);
   handle.addEventListener("pointerdown", event => take(event, svg, { ...one, handle }));
-  handle.addEventListener("keydown", event => nudge(event));
+  handle.addEventListener("keydown", event => nudge(event, one.by));
   return { ...one, handle };
 }
 
 /** Put the handles of the sheet in sight where their pins are. */
 function follow_pins() {
-  for (const { pin, handle } of grips[here()] ?? []) {
+  for (const { pin, handle, by } of grips[here()] ?? []) {
     for (const axis of ["cx", "cy"]) handle.setAttribute(axis, pin.getAttribute(axis));
-    handle.setAttribute("aria-valuenow", Number(state.x.toFixed(4)));
-    handle.setAttribute("aria-valuetext", place_of(state.x));
+    handle.setAttribute("aria-valuenow", Number(by.now().toFixed(4)));
+    handle.setAttribute("aria-valuetext", by.told());
     handle.toggleAttribute("hidden", pin.matches(".later,.void,[visibility]"));
   }
 }
@@ -61,12 +60,14 @@ function take(event, svg, one) {
   one.handle.setPointerCapture(event.pointerId);
   page.classList.add("grabbing");
   rest_from_travel();
+  if (one.by.k >= 0 || changed_figures().length) one.way = way_of(one.id, one.by) ?? one.way;
   let pointer = [event.clientX, event.clientY], off = null;
   const [u, v] = paper_at({ svg }, ...pointer), slip = ["cx", "cy"].map((axis, k) => Number(one.pin.getAttribute(axis)) - [u, v][k]);
   const pull = () => {
     const [across, down] = paper_at({ svg }, ...pointer), x = nearest(one, across + slip[0], down + slip[1]);
-    if (x !== state.x) way_on = Math.sign(x - state.x) * (Math.abs(x - state.x) > (motion.high - motion.low) / 2 ? -1 : 1);
-    move(x);
+    const went_on = x - one.by.now();
+    if (went_on) way_on = Math.sign(went_on) * (Math.abs(went_on) > (one.by.high - one.by.low) / 2 ? -1 : 1);
+    one.by.put(x);
   };
   const went = moved => {
     off ??= pointer;
@@ -84,26 +85,26 @@ function take(event, svg, one) {
 }
 
 /** Move by keys. */
-function nudge(event) {
+function nudge(event, one) {
   const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
-  const x = { Home: motion.low, End: motion.high }[event.key] ?? (steps && state.x + steps * motion.step * (event.shiftKey ? LEAPS : 1));
+  const x = { Home: one.low, End: one.high }[event.key] ?? (steps && one.now() + steps * one.step * (event.shiftKey ? LEAPS : 1));
   if (x === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
   event.preventDefault();
   event.stopPropagation();
   rest_from_travel();
-  move(x);
+  one.put(x);
 }
 
 /** The place of the driver at which a pin is nearest a place of its field, found downhill from where it is. */
-function nearest({ id, way }, u, v) {
-  const { low, high, whole } = motion, part = (high - low) / SAMPLES;
+function nearest({ id, way, by }, u, v) {
+  const { low, high, whole, at: place, now } = by, part = (high - low) / SAMPLES;
   const turned = i => (whole ? (i % SAMPLES + SAMPLES) % SAMPLES : i);
   const off = at => (at ? Math.hypot(at[0] - u, at[1] - v) : Infinity), far = i => off(way[turned(i)]);
-  let i = Math.round((state.x - low) / part);
+  let i = Math.round((now() - low) / part);
   const downhill = sense => far(i + sense) < far(i);
   const sense = [way_on, -way_on].find(downhill) ?? 0;
   while (sense && downhill(sense)) i += sense;
-  const clamped = at => (whole ? at : Math.min(Math.max(at, low), high)), miss = at => off(motion.place(id, at));
+  const clamped = at => (whole ? at : Math.min(Math.max(at, low), high)), miss = at => off(place(id, at));
   let [from, to] = [clamped(low + (i - 1) * part), clamped(low + (i + 1) * part)];
   for (let k = 0; k < SHARPER; k++) {
     const near = to - GOLDEN * (to - from), farther = from + GOLDEN * (to - from);

@@ -43,6 +43,7 @@ if (motion) {
   byId("back").addEventListener("click", () => {
     rest_from_travel();
     sheets.forEach(({ fields }) => fields.forEach(one => see(one, null)));
+    reset_figures();
     drive(motion.start, true);
   });
 }

@@ -1,6 +1,7 @@
 // The labels of the sheet in sight while all moves: each keeps its side of what it names as long as it
 // stands free there, fades where it does not, and comes back where there is room for it.
 const APART = 0.3, CLEAR = 1.5; // mm that one is off others, and one that comes back in motion
+const HANGS = [0, 0.4]; // mm that letters reach beyond their box above and below
 const HUSH = 160; // milliseconds that one stays away
 const LEAP = 11; // dots that one may go while the driver goes by one step
 const standing = new Map(); // of each label the side where it is, whether it is seen, since when, and where it was
@@ -26,7 +27,7 @@ function letter(one, labels, gone, found) {
       Object.assign(was, { seen: false, since: -Infinity, spot: null });
       continue;
     }
-    const box = half.map(size => size * one.lettering), at = spots[was.side];
+    const box = half.map((size, axis) => (size + HANGS[axis]) * one.lettering), at = spots[was.side];
     const free = ([u, v], air) => !placed.some(([x, z, w, h]) => Math.abs(u - x) < w + box[0] + air && Math.abs(v - z) < h + box[1] + air);
     if (state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far) Object.assign(was, { seen: false, since: now });
     else if (was.seen && !free(at, APART)) Object.assign(was, { seen: false, since: now });

@@ -80,8 +80,9 @@ const shapes = {
   },
   t: (o, d, a, b, u, v) => shifted(middles.t(o, d, a, b), u, v),
   b: (o, d, a, b, u, v, ...box) => shifted(middles.b(o, d, a, b, u, v, ...box), u, v),
-  o: () => (Math.abs(reckoned - data.start) < 1e-9 ? {} : null),
+  o: () => (asDrawn() ? {} : null),
 };
+const asDrawn = () => !led && Math.abs(reckoned - data.start) < 1e-9;
 const middles = {
   t: (o, d, a, b) => laid(o, d, a, b),
   b: (o, d, a, b, u, v, width, height, room) => {
@@ -152,7 +153,7 @@ const free = (record, [across, down], placed) => {
 };
 const arranged = () => {
   const found = new Map();
-  if (Math.abs(reckoned - data.start) < 1e-9) return found;
+  if (asDrawn()) return found;
   for (const { labels } of data.fields.flat()) {
     const placed = [];
     for (const label of labels) {
@@ -230,7 +231,14 @@ const labels = (sheet, side) => data.fields[sheet][side].labels.map(([i, across,
 
 // Where the circle of a record stands at a place of the driver; null where nothing closes.
 const circles = new Map(data.marks.flatMap(([id, kind, , ...rest]) => (kind === "m" ? [[id, rest]] : [])));
-const place = (id, at) => (circles.has(id) && reckon(at) ? laid(...circles.get(id)) : null);
+const place = (id, at, k = -1, value = 0) => {
+  if (k < 0) return circles.has(id) && reckon(at) ? laid(...circles.get(id)) : null;
+  const own = x[figures[k].place];
+  figure(k, value);
+  const found = place(id, at);
+  figure(k, own);
+  return found;
+};
 
 const settled = (found) => {
   // what is only rounding beside the largest of its kind is nought
@@ -242,7 +250,8 @@ const settled = (found) => {
 
 return {
   name: data.name, unit: data.unit, low: data.low, high: data.high, start: data.start, whole: data.whole, step: data.step,
-  sense: data.sense, grips: data.grips, set: draw, extent, labels, place, named: (i) => data.marks[i][0],
+  sense: data.sense, grips: data.grips, figures, derived: data.derived, figure, read: (i, at) => (reckon(at), y[i]), stands: data.stands,
+  drawn: figures.map(({ shows }) => (reckon(data.start), y[shows])), set: draw, extent, labels, place, named: (i) => data.marks[i][0],
   values: (at) => (reckon(at) ? settled({}) : {}),
   margins: (at) => (reckon(at) ? Object.fromEntries(data.margins.map(([step, i]) => [step, y[i]])) : {}),
 };

@@ -5,7 +5,7 @@ const data = JSON.parse(byId("run").textContent);
 const motion = typeof graphkinMotion === "undefined" ? null : graphkinMotion;
 const last = data.bounds.at(-1)[1];
 const SMALL = matchMedia("(max-width:40rem),(max-height:34rem)"); // as in page.css
-const state = { step: 0, x: motion ? motion.start : 0, over: null, dead: false, going: false };
+const state = { step: 0, x: motion ? motion.start : 0, over: null, dead: false, going: false, figures: (motion?.figures ?? []).map(({ start }) => start) };
 
 page.classList.add("js");
 motion?.set(motion.start, byId); // what moves may add marks
@@ -16,7 +16,7 @@ for (const [step, at] of Object.entries(data.at)) own[at].push(step);
 
 /** Whether the driver has left the drawn position. */
 function moved() {
-  return motion !== null && state.x !== motion.start;
+  return motion !== null && (state.x !== motion.start || state.figures.some((value, k) => value !== motion.figures[k].start));
 }
 
 /** Copies of what an element holds. */

@@ -33,7 +33,10 @@ const action_name = action => byId("palette").querySelector(`[data-action=${acti
 
 function begin_turn() {
   pause();
-  if (motion && moved()) drive(motion.start);
+  if (motion && moved()) {
+    reset_figures();
+    drive(motion.start);
+  }
   const from = state.step;
   turn = { done: new Set(ORDER.filter(step => moves[step].at < from)), from, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
   page.classList.add("turning");

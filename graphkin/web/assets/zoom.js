@@ -113,7 +113,7 @@ function all_the_way(sheet, side) {
   const one = sheets[sheet].fields[side];
   if (one.motion === undefined) {
     const { low, high } = motion, at = Array.from({ length: PLACES + 1 }, (_, i) => low + (high - low) * i / PLACES);
-    const found = at.map(x => motion.extent(x, sheet, side)).filter(Boolean), pins = side ? [] : grips[sheet].flatMap(({ way }) => way).filter(Boolean);
+    const found = at.map(x => motion.extent(x, sheet, side)).filter(Boolean), pins = side ? [] : grips[sheet].flatMap(({ by, way }) => by.k < 0 ? way : []).filter(Boolean);
     const end = (k, sign) => {
       const ends = found.map(box => sign * (sign < 0 ? box[k] : box[k] + box[k + 2])).sort((p, q) => p - q);
       const edge = one.whole[k] + (sign < 0 ? 0 : one.whole[k + 2]) + sign * MOST * one.whole[k + 2];

@@ -1,0 +1,126 @@
+// The figures: numbers of the data that are dragged, or led by keys; all that hangs on them follows.
+const PULL = 5; // dots by which one is led by a step
+const led_by = []; // the elements that show each
+
+/** What leads: the driver itself, or the time, as number -1, or a figure. */
+function knob(k) {
+  const one = motion?.figures[k];
+  if (!one) return { k, low: motion.low, high: motion.high, step: motion.step, whole: motion.whole, now: () => state.x, put: move, told: () => place_of(state.x), at: (id, x) => motion.place(id, x) };
+  const shown = () => written(motion.read(one.shows, state.x), one.moves < 0 ? 1 : places_of(one.step)) + one.unit;
+  return { k, ...one, whole: false, now: () => state.figures[k], put: value => set_figure(k, value), told: shown, at: (id, value) => motion.place(id, state.x, k, value) };
+}
+
+/** The places after the mark that a step has. */
+function places_of(step) {
+  return Math.min(String(Number(step.toFixed(2))).split(".")[1]?.length ?? 0, 2);
+}
+
+/** Write one down, within its range; nothing follows yet. */
+function keep_figure(k, value) {
+  const { low, high, start, step } = motion.figures[k], next = Math.min(Math.max(value, low), high);
+  state.figures[k] = Math.abs(next - start) < 1e-6 * step ? start : next;
+  motion.figure(k, state.figures[k]);
+}
+
+/** Change one; where it tells the place of the driver, that goes along. */
+function set_figure(k, value) {
+  const { moves } = motion.figures[k];
+  keep_figure(k, value);
+  move(moves > 0 && motion.stands >= 0 ? motion.read(motion.stands, state.x) : state.x);
+}
+
+/** All as they are drawn. */
+function reset_figures() {
+  motion?.figures.forEach(({ start }, k) => keep_figure(k, start));
+}
+
+/** A number that is dragged, to be put beside its name. */
+function dragged_number(k) {
+  const one = knob(k), number = document.createElement("span");
+  const words = { class: "figure", role: "slider", tabindex: 0, "aria-valuemin": one.low, "aria-valuemax": one.high };
+  for (const [name, value] of Object.entries(words)) number.setAttribute(name, value);
+  number.addEventListener("pointerdown", event => pull(event, one, number));
+  number.addEventListener("keydown", event => nudge(event, one));
+  (led_by[k + 1] ??= []).push(number);
+  return number;
+}
+
+/** Drag one: to the right, or up, it grows. */
+function pull(event, one, number) {
+  if (event.button) return;
+  event.preventDefault();
+  number.focus({ preventScroll: true });
+  number.setPointerCapture(event.pointerId);
+  rest_from_travel();
+  const from = one.now(), went = moved => {
+    const steps = Math.round((moved.clientX - event.clientX - moved.clientY + event.clientY) / PULL);
+    next_frame(number.follow = () => one.put(from + steps * one.step));
+  };
+  number.addEventListener("pointermove", went);
+  for (const name of ["pointerup", "pointercancel"]) {
+    number.addEventListener(name, () => number.removeEventListener("pointermove", went), { once: true });
+  }
+}
+
+/** The places where one of the data is said: in the task, and below the drawings. */
+function said_of(datum) {
+  return ["#brief ul:last-of-type li", "#given li"].map(list => document.querySelectorAll(list)[datum]).filter(Boolean);
+}
+
+/** Put the figure of a name into an element. */
+function write_figure(element, name, k) {
+  element.innerHTML = `${name} = `; // markup of a symbol, escaped where it was made
+  const number = dragged_number(k);
+  number.setAttribute("aria-label", element.textContent.slice(0, -3));
+  element.append(number);
+  return element;
+}
+
+const one_told = []; // what each shows
+let rewritten = 0; // how many were changed when the others were last written
+let derived = []; // elements that tell what follows from figures, as drawn, and how they are written elsewhere
+
+/** Make every number that can be changed one that is dragged. */
+function make_figures() {
+  const own = byId("datum");
+  if (own) for (const element of said_of([...own.parentElement.children].indexOf(own))) write_figure(element, byId("read").dataset.name, -1);
+  motion.figures.forEach(({ name, datum }, k) => {
+    byId("figures").append(write_figure(document.createElement("span"), name, k));
+    for (const element of said_of(datum)) write_figure(element, name, k);
+  });
+  derived = motion.derived.flatMap(([datum, name, place, unit]) => said_of(datum).filter(one => !one.querySelector(".figure"))
+    .map(element => ({ element, drawn: [...element.childNodes], name, place, unit })));
+  tell_figures();
+}
+
+/** Write them as they are. */
+function tell_figures() {
+  led_by.forEach((numbers, i) => {
+    const one = knob(i - 1), told = one.told();
+    if (one_told[i] === told) return;
+    one_told[i] = told;
+    for (const number of numbers) {
+      number.textContent = told;
+      number.setAttribute("aria-valuenow", Number(one.now().toFixed(4)));
+      number.setAttribute("aria-valuetext", told);
+    }
+  });
+  const changed = changed_figures().length;
+  if (!changed && !rewritten) return;
+  rewritten = changed;
+  for (const { element, drawn, name, place, unit } of derived) {
+    if (changed) element.innerHTML = `${name} = ${plain(motion.read(place, state.x))}${unit}`;
+    else element.replaceChildren(...drawn);
+  }
+}
+
+/** A number with no more places than it needs. */
+function plain(number) {
+  const short = Number(number.toPrecision(5));
+  return Number.isFinite(short) ? written(short, String(short).split(".")[1]?.length ?? 0) : "?";
+}
+
+/** Those that are not as drawn. */
+function changed_figures() {
+  return (motion?.figures ?? []).map((one, k) => ({ ...one, k })).filter(({ k, start }) => state.figures[k] !== start);
+}

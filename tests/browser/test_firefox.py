@@ -1,0 +1,122 @@
+"""The page that draws itself in Firefox: three sizes, every look, keys, mouse and finger."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphkin.mechanism import load
+from graphkin.web.step_page import step_page
+from tests.browser.firefox import LOOKS, Firefox, _no_errors, firefox  # noqa: F401
+from tests.browser.opening import missing
+from tests.documents.sheet_tools import mechanism_named
+
+SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (820, 1180): 0.45}
+"""The least part of a window's height that the drawings take."""
+PLACE = """const box = document.querySelector(arguments[0]).getBoundingClientRect();
+return [box.x + box.width / 2, box.y + box.height / 2];"""
+DRIVEN = ".sheet:not([hidden]) .grip.driven"
+TOLD = f"""return [...document.querySelectorAll('{DRIVEN}')]
+  .map(one => one.getAttribute('aria-valuetext'))"""
+GRIP = "#sheet-0 .grip.driven"
+DRIVER = "return Number(document.getElementById('driver').value)"
+COUNT = "return document.getElementById('count').textContent"
+FIELD = "return document.querySelector('#sheet-0 .view').clientHeight / innerHeight"
+AXE = """const done = arguments[arguments.length - 1];
+axe.run(document).then(({ violations }) => done(
+  violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html.slice(0, 120))])));"""
+QUERIES = {
+    "light": "(prefers-color-scheme:light)",
+    "dark": "(prefers-color-scheme:dark)",
+    "forced": "(forced-colors:active)",
+    "still": "(prefers-reduced-motion:reduce)",
+}
+RIGHT, LEFT, HOME = "\ue014", "\ue012", "\ue011"
+
+
+@pytest.fixture(scope="module")
+def pump(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The pump's page."""
+    path = tmp_path_factory.mktemp("firefox") / "pump.html"
+    path.write_text(step_page(load("pump"), "en"), encoding="utf-8")
+    return path
+
+
+def barred(window: Firefox) -> list[Any]:
+    """What axe finds against the page."""
+    try:
+        import axe_playwright_python
+    except ImportError:
+        missing("axe-playwright-python is not installed")
+    axe = Path(axe_playwright_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
+    found: list[Any] = window.later(f"{axe};{AXE}")
+    return found
+
+
+@pytest.mark.parametrize("look", LOOKS)
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
+def test_it_shows_every_step_with_nothing_against_it(firefox, pump, size, look):  # noqa: F811
+    firefox.open(pump, "#step=9", size, look)
+    assert firefox.run("return matchMedia(arguments[0]).matches", QUERIES[look])
+    assert firefox.run(COUNT) == "Step 9 of 42"
+    assert firefox.run(FIELD) >= SIZES[size]
+    assert firefox.run("return document.documentElement.scrollWidth <= innerWidth")
+    firefox.press(RIGHT)
+    assert firefox.run(COUNT) == "Step 10 of 42"
+    firefox.run("return Promise.all(document.getAnimations().map(each => each.finished))")
+    assert barred(firefox) == []
+
+
+@pytest.mark.parametrize("kind", ["mouse", "touch"])
+def test_the_crank_is_dragged(firefox, pump, kind):  # noqa: F811
+    firefox.open(pump, "#step=9", (1440, 900), "still")
+    before = firefox.run(DRIVER)
+    x, y = firefox.run(PLACE, GRIP)
+    firefox.drag((x, y), (x - 60, y - 30), kind)
+    assert firefox.run(DRIVER) > before + 3
+
+
+def test_pins_and_figures_are_led_by_keys(firefox, pump):  # noqa: F811
+    firefox.open(pump, "#step=9", (1440, 900), "still")
+    before = firefox.run(DRIVER)
+    firefox.run("document.querySelector(arguments[0]).focus()", GRIP)
+    firefox.press(RIGHT)
+    assert firefox.run(DRIVER) == pytest.approx(before + 1)
+    firefox.run("document.querySelector('#figures .figure').focus()")
+    firefox.press(RIGHT, RIGHT, LEFT)
+    assert firefox.run("return document.querySelector('#figures .figure').textContent") == "8"
+    assert firefox.run(DRIVER) == pytest.approx(before + 2)  # φ = 30 + 2n
+    firefox.press(HOME)
+    assert firefox.run("return document.querySelector('#figures .figure').textContent") == "1"
+
+
+def test_a_figure_is_dragged_and_all_goes_back(firefox, pump):  # noqa: F811
+    firefox.open(pump, "#step=20", (1440, 900), "still")
+    x, y = firefox.run(PLACE, "#figures .figure")
+    firefox.drag((x, y), (x + 25, y))
+    assert firefox.run("return document.querySelector('#figures .figure').textContent") == "12"
+    firefox.run("document.getElementById('back').click()")
+    assert firefox.run("return document.querySelector('#figures .figure').textContent") == "7"
+    assert firefox.run("return document.getElementById('driven').textContent") == "44.0°"
+
+
+def test_a_turn_begins_and_helps_itself(firefox, pump):  # noqa: F811
+    firefox.open(pump, "#step=5", (1440, 900), "still")
+    firefox.run("document.getElementById('turn').click()")
+    for _ in range(3):
+        firefox.run("document.getElementById('draw-it').click()")
+    firefox.run("document.getElementById('turn-score').click()")
+    assert firefox.run("return document.querySelectorAll('#score li').length") == 3
+    assert barred(firefox) == []
+
+
+def test_each_of_two_drivers_has_its_handle(firefox, tmp_path):  # noqa: F811
+    path = tmp_path / "five-bar.html"
+    path.write_text(step_page(mechanism_named("five-bar"), "en"), encoding="utf-8")
+    firefox.open(path, "#step=9", (1440, 900), "still")
+    assert firefox.run(TOLD) == ["115.0°", "50.0°"]
+    firefox.run(f"document.querySelectorAll('{DRIVEN}')[1].focus()")
+    firefox.press(RIGHT)
+    assert firefox.run(TOLD) == ["115.0°", "51.0°"]

@@ -1,0 +1,83 @@
+"""Figures that are changed on a page: it then draws what Python draws of the scene so changed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from msgspec.structs import replace
+
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.quantity import expression
+from graphkin.web.figures import figures
+from tests.documents.sheet_tools import FOLDER, mechanism_named
+from tests.web.laid import laid
+from tests.web.test_moving import LABS, compared, named, page_of
+
+PARAMETERS = (
+    ("pump", {"n": 12}),
+    ("pump-collinear", {"r": 28}),
+    ("offset-slider-crank", {"n": 9, "r": 55}),
+    ("slotted-lever", {"n": 10, "r": 100}),
+    ("crank-rocker", {"L": 95}),
+    ("gears-planet", {"n": 20}),
+    ("roller", {"v": 550, "a": 250}),
+)
+DRIVERS = ("five-bar", "excavator-relative", "excavator-absolute", "jumper", "gears-planet")
+DRIVERS += ("belts-arm", "roller-plates")
+LED = 4
+"""Degrees, or parts of a hundred of its way, that a driver is led."""
+
+
+def changed(name: str, settings: dict[str, Any]) -> Mechanism:
+    """A mechanism with other parameters."""
+    if name in LABS:
+        return load(name, **settings)
+    return load(str(FOLDER / f"{name}.toml"), **settings)
+
+
+def led(mechanism: Mechanism, number: int, way: float) -> Mechanism:
+    """A mechanism of which one driver stands farther by so much, in degrees or its unit."""
+    scene = mechanism.scene
+    drivers = list(scene.drivers)
+    place = drivers[number].position
+    one = 3.141592653589793 / 180 if place.unit == "rad" else 1
+    farther = expression(f"({place.text}) + {way * one!r}", place.unit, place.place)
+    drivers[number] = drivers[number]._replace(position=farther)
+    return Mechanism(replace(scene, drivers=tuple(drivers)))
+
+
+@pytest.mark.parametrize(("name", "settings"), PARAMETERS)
+def test_a_page_draws_other_parameters_as_python_does(name, settings):
+    _, found = page_of(name)
+    other = changed(name, settings)
+    marks = laid(found, found.driven.start, {f"figure {k}": v for k, v in settings.items()})
+    assert marks is not None
+    assert not list(compared(name, found.driven.start, dict(marks), other))
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+def test_each_of_several_drivers_is_led_alone(name):
+    _, found = page_of(name)
+    own = [each for each in found.driven.figures if each.driver is not None]
+    assert len(own) == len(named(name).scene.drivers) > 1
+    for number, figure in enumerate(own):
+        way = LED if figure.unit == "deg" else (figure.high - figure.low) * LED / 100
+        marks = laid(found, found.driven.start, {figure.name: way})
+        assert marks is not None
+        other = led(named(name), number, way)
+        assert not list(compared(name, found.driven.start, dict(marks), other)), figure.name
+
+
+@pytest.mark.parametrize("name", DRIVERS)
+def test_every_driver_that_moves_a_pin_has_a_handle_of_its_own(name):
+    _, found = page_of(name)
+    drivers = {k for k, each in enumerate(found.driven.figures) if each.driver is not None}
+    handles = {number for _, _, _, number in found.data["grips"][0] if number >= 0}
+    assert handles <= drivers
+    assert handles == drivers or name == "roller-plates"  # plates have no pins
+
+
+def test_a_parameter_by_which_only_a_driver_stands_is_the_drivers_own_slider():
+    assert [each.name for each in figures(named("pump"))] == ["figure n"]
+    assert not figures(mechanism_named("stephenson-3"))
