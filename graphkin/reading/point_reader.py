@@ -31,6 +31,7 @@ class PointReader(PointSearch):
         super().__init__(sheet, ink, pencil)
         self.bad: set[int] = set()
         self.noted: set[int] = set()
+        self.vaguely: set[int] = set()
         self.readings: dict[int, PointReading] = {}
 
     def read(self) -> tuple[PointReading, ...]:
@@ -143,10 +144,13 @@ class PointReader(PointSearch):
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
                 ask = ask or apart < OFF or not self.bad & behind & self.readings.keys()
+                ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
             else:
                 verdict, ask = "wrong", True
         if verdict in ("wrong", "missing", "unread"):
             self.bad.add(number)
+            if best is None or best.count < 2 or self.agreement(number, best.place) < DRAWN:
+                self.vaguely.add(number)
         return PointReading(
             self.sheet.exact.program.steps[number].name,
             number,
