@@ -1,4 +1,4 @@
-"""What the program gives is what is committed: a fifth of it here, all by the command."""
+"""What the program gives is what is committed: an eighth of it here, all by the command."""
 
 import re
 
@@ -7,13 +7,13 @@ import pytest
 from tests.golden.kept import STORE, changed, differences, kept, read
 from tests.golden.works import CLASSES, outputs, works
 
-PERIOD = 5
+PERIOD = 8
 SLOW = ("scene-rapid-return", "scene-rod-and-wheel", "scene-stephenson-2-binary")
 """Groups of higher class of which a page that moves takes ten seconds."""
 
 
 def share() -> list[tuple[str, str]]:
-    """Of every kind of work each fifth subject, from another one on for the next kind."""
+    """Of every kind of work each eighth subject, from another one on for the next kind."""
     kinds: dict[str, list[str]] = {}
     for subject, names in works().items():
         for work in names:
