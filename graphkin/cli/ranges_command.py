@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from msgspec.structs import replace
 
 from graphkin.cli.console import complain
 from graphkin.cli.options import FolderType, force_option, tell
@@ -14,11 +13,6 @@ from graphkin.cli.options import FolderType, force_option, tell
 if TYPE_CHECKING:
     from graphkin.classroom.lab.fair_ranges import FairRanges
     from graphkin.classroom.lab.lab_model import Lab
-
-CLASS = 60
-"""Students of the class on which the proposal is tried."""
-APART = 0.5
-"""Most that another's right values may earn, where the lab says nothing."""
 
 
 @click.command()
@@ -61,33 +55,23 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
 def formula_lines(lab: Lab) -> list[str]:
     """To which numbers a formula is unfair, why, and what mends that."""
     from graphkin.classroom.lab.fair_ranges_words import mending_lines
-    from graphkin.classroom.lab.formula_mending import mended
-    from graphkin.classroom.lab.lab_trial import tried
+    from graphkin.classroom.lab.proposed_ranges import formula_faults
 
-    trial = tried(lab)
-    unfair = {
-        number: "; ".join(map(str, trial.fairness.faults(i)))
-        for i, number in enumerate(trial.names)
-        if not trial.fairness.fair[i]
-    }
-    return mending_lines(unfair, mended(lab, trial) if unfair else None)
+    found = formula_faults(lab)
+    return mending_lines(found.unfair, found.mending)
 
 
 def proposed(lab: Lab, found: FairRanges) -> list[str]:
     """The ranges as text, and how many students they keep apart."""
-    from graphkin.classroom.lab.fair_ranges_words import proposal
-    from graphkin.classroom.lab.lab_model import Ranges
-    from graphkin.classroom.roster.student import Student
-    from graphkin.classroom.variants.assign import assigned
+    from graphkin.classroom.lab.fair_ranges_words import variants_lines
+    from graphkin.classroom.lab.proposed_ranges import proposed_ranges
 
-    if found.ranges is None:
+    new = proposed_ranges(lab, found)
+    if new is None:
         complain("no ranges were found in which all is fair")
         return []
-    course = lab.rule.course if isinstance(lab.rule, Ranges) else "mechanics 2026"
-    apart = lab.fair.apart if lab.fair.apart is not None else APART
-    new = replace(lab, rule=Ranges(course, found.ranges), fair=replace(lab.fair, apart=apart))
-    students = [Student(i, f"{i:04d}", i) for i in range(1, CLASS + 1)]
-    kept = sum(each.fair for each in assigned(new, students))
-    room = f"{kept} of {CLASS} students" if kept < CLASS else f"all {CLASS} students of a class"
-    told = f"# {found.count} different data; at apart = {apart:g} they keep {room} apart"
-    return [told, *proposal(found, course)]
+    room = f"{new.kept} of {new.of} students"
+    if new.kept == new.of:
+        room = f"all {new.of} students of a class"
+    told = f"# {new.count} different data; at apart = {new.apart:g} they keep {room} apart"
+    return [told, *variants_lines(new.ranges, new.course)]

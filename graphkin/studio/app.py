@@ -23,7 +23,18 @@ KINDS = {
     ".woff2": "font/woff2",
 }
 JSON = "application/json"
-WORK = ("look", "build", "picture", "write", "save", "sheets")
+WORK = (
+    "look",
+    "build",
+    "picture",
+    "write",
+    "save",
+    "sheets",
+    "trial",
+    "ranges",
+    "student",
+    "begin",
+)
 """What the page asks the desk to do."""
 
 

@@ -45,6 +45,27 @@ class Folder:
             raise SceneError(Problem("file", problem or "leads out of the folder", expected))
         return target
 
+    def lab_path(self, name: str) -> Path:
+        """The lab.toml beside a scene, by the scene's name.
+
+        Raises SceneError where the scene is not called scene.toml, or the file leads elsewhere.
+        """
+        scene = self.path(name)
+        if scene.name != SCENE:
+            expected = f"a folder with its scene and its rules, such as {stem_of(name)}/{SCENE}"
+            raise SceneError(Problem("file", f"{scene.name} has no {scene_files.LAB}", expected))
+        path = scene.with_name(scene_files.LAB)
+        if not path.resolve().is_relative_to(self.root):
+            found = f"the {scene_files.LAB} beside it leads out of the folder"
+            raise SceneError(Problem("file", found, "a file within this folder"))
+        return path
+
+    def rules(self, name: str) -> str:
+        """The text of the lab.toml beside a scene.toml; empty where there is none."""
+        if name.rpartition("/")[2] != SCENE or not self.lab_path(name).is_file():
+            return ""
+        return decoded(read_bytes(self.lab_path(name)))
+
     def scenes(self) -> list[str]:
         """The names of the scenes here and in the folders here, in alphabetical order."""
         found = [*self.root.glob(f"*{ENDING}"), *self.root.glob(f"*/{SCENE}")]
@@ -64,6 +85,10 @@ class Folder:
         if not path.is_file():
             raise SceneError(Problem("file", f"there is no file {name} here", "one that is listed"))
         return decoded(read_bytes(path))
+
+    def name_as_written(self, path: Path) -> str:
+        """The name of a path that was made from one."""
+        return path.relative_to(self.root).as_posix()
 
     def name_of(self, path: Path) -> str:
         """The name of a file by its path. Raises SceneError for one that lies elsewhere."""
@@ -127,3 +152,9 @@ def shipped_text(name: str) -> str:
     if name not in scene_files.names():
         raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(scene_files.names())))
     return decoded(read_bytes(scene_files.shelf() / name / SCENE))
+
+
+def shipped_rules(name: str) -> str:
+    """The text of the lab.toml of a shipped lab; empty where it has none."""
+    path = scene_files.shelf() / name / scene_files.LAB
+    return decoded(read_bytes(path)) if path.is_file() else ""

@@ -23,7 +23,7 @@ POLICY = "; ".join(
         "script-src 'self'",
         "style-src 'self'",
         "font-src 'self'",
-        "img-src 'self'",
+        "img-src 'self' blob:",  # the sheets of students, as the page was given them
         "connect-src 'self'",
         "base-uri 'none'",
         "form-action 'none'",

@@ -46,7 +46,11 @@ class PageRequest:
 
     def scene(self) -> str:
         """The text of a scene; one too large is for the reader of scenes to refuse."""
-        return self.text("text", MOST_BYTES)
+        return self.long_text("text")
+
+    def long_text(self, key: str) -> str:
+        """A text as long as a scene may be."""
+        return self.text(key, MOST_BYTES)
 
     def flag(self, key: str) -> bool:
         """Whether something is so; not where it is not given."""

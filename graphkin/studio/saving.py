@@ -15,6 +15,7 @@ from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
+from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
@@ -32,38 +33,66 @@ MOST_LINES = 12
 class Saved(Struct, frozen=True):
     """What became of it: the names of the files written, or of those that are in the way.
 
-    ``mark`` identifies the content that was written; ``changes`` are the lines in which a scene
-    that is in the way differs from the text to be saved, as `difflib` writes them.
+    ``mark`` identifies the content of the scene that was written, ``rules_mark`` that of its
+    lab.toml; ``changes`` are the lines in which texts that are in the way differ from those to be
+    saved, as `difflib` writes them.
     """
 
     files: tuple[str, ...] = ()
     exist: tuple[str, ...] = ()
     mark: str = ""
+    rules_mark: str = ""
     changes: tuple[str, ...] = ()
 
 
-def save_scene(folder: Folder, name: str, text: str, mark: str, *, replace: bool) -> Saved:
-    """Write the text of a scene; not over a file that is there, unless told to.
+class OwnRules(Struct, frozen=True):
+    """The text of a lab.toml, and what identifies the content that the page last read or saved."""
+
+    text: str
+    mark: str = ""
+
+
+def save_scene(
+    folder: Folder,
+    name: str,
+    text: str,
+    mark: str,
+    *,
+    replace: bool,
+    rules: OwnRules | None = None,
+) -> Saved:
+    """Write the text of a scene, and its lab.toml with it, both or neither; not over files that are
+    there, unless told to.
 
     ``mark`` identifies the content that the page last read or saved under this name: a file that
     still holds it is replaced without asking. Raises SceneError for a name that leads elsewhere,
-    PageError where nothing can be written.
+    or of a scene that can have no lab.toml, PageError where nothing can be written.
     """
-    path = folder.path(name)
-    data = text.encode("utf-8")
-    if os.path.lexists(path) and not replace and mark_of_file(path) != mark:
-        return Saved(exist=(name,), changes=changes(folder, name, text))
-    write_all(path.parent, {path.name: data}, force=True)
-    return Saved(files=(name,), mark=mark_of(data))
+    texts = {folder.path(name): (text, mark)}
+    if rules:
+        texts[folder.lab_path(name)] = (rules.text, rules.mark)
+    exist = [
+        path
+        for path, (_, own) in texts.items()
+        if os.path.lexists(path) and mark_of_file(path) != own
+    ]
+    if exist and not replace:
+        lines = [line for path in exist for line in changes(path, texts[path][0])]
+        return Saved(exist=tuple(map(folder.name_as_written, exist)), changes=tuple(lines))
+    data = {path.name: written.encode("utf-8") for path, (written, _) in texts.items()}
+    write_all(folder.path(name).parent, data, force=True)
+    own = [*map(mark_of, data.values()), ""]
+    files = tuple(map(folder.name_as_written, texts))
+    return Saved(files, mark=own[0], rules_mark=own[1])
 
 
-def changes(folder: Folder, name: str, text: str) -> tuple[str, ...]:
-    """The lines that saving a text would take from a scene (-) and put into it (+), the first ones.
+def changes(path: Path, text: str) -> tuple[str, ...]:
+    """The lines that saving a text would take from a file (-) and put into it (+), the first ones.
 
     None for a file that cannot be read.
     """
     try:
-        before = folder.read(name)
+        before = decoded(read_bytes(path))
     except SceneError:
         return ()
     lines = list(unified_diff(before.splitlines(), text.splitlines(), lineterm="", n=0))[2:]

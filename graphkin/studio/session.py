@@ -11,12 +11,24 @@ from typing import Any
 
 from msgspec import Struct, to_builtins
 
-from graphkin.classroom.lab.new_lab import START
+from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.construction.core.quantities import SHEETS
+from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import tables_of
+from graphkin.scene.read_scene import read_text
 from graphkin.studio.building import KINDS, Act, built
-from graphkin.studio.folder import ENDING, Folder, completed, shipped, shipped_text, stem_of
+from graphkin.studio.folder import (
+    ENDING,
+    Folder,
+    completed,
+    shipped,
+    shipped_rules,
+    shipped_text,
+    stem_of,
+)
+from graphkin.studio.lab_panel import lab_advice, lab_report
+from graphkin.studio.lab_work import LabProblems, LabTexts, beside, proposal_of, trial_of
 from graphkin.studio.look import Sight, look, spoken_in, told
 from graphkin.studio.page_requests import PageRequest, PageRequestError
 from graphkin.studio.panels import Memory, StaleError
@@ -24,6 +36,7 @@ from graphkin.studio.problem_places import marked
 from graphkin.studio.saving import (
     FORMATS,
     VIEWS,
+    OwnRules,
     Saved,
     WantedSheets,
     mark_of_file,
@@ -51,11 +64,14 @@ class Opened(Struct, frozen=True):
     """A text to begin with, and the name of the file as which it would be saved.
 
     ``mark`` identifies the content of that file; it is empty for a text that is in no file here.
+    ``rules`` are the text of the lab.toml that belongs to it, ``rules_mark`` the same of that.
     """
 
     name: str
     text: str
     mark: str = ""
+    rules: str = ""
+    rules_mark: str = ""
 
 
 class Session:
@@ -78,15 +94,17 @@ class Session:
         return spoken_in(chosen or self.language or language_of(text))
 
     def address_of(self, name: str) -> dict[str, str]:
-        """How the page is told what to open: a shipped lab, or a scene of the folder, by its path.
+        """How the page is told what to open: a shipped lab, or a scene of the folder, by its path;
+        for what is named as a lab, its rules as well.
 
         Raises SceneError for what is neither, or lies outside the folder.
         """
         if not name:
             return {}
+        lab = {"rules": "yes"} if scene_files.folder(name) else {}
         if name in scene_files.names() and not Path(name).exists():
-            return {"lab": name}
-        return {"scene": self.folder.name_of(scene_files.find(name))}
+            return {"lab": name, **lab}
+        return {"scene": self.folder.name_of(scene_files.find(name)), **lab}
 
     def open(self, scene: str, lab: str, *, empty: bool = False) -> Opened:
         """The text of a scene here, of a shipped lab, one to start from, or an empty field.
@@ -94,12 +112,14 @@ class Session:
         Raises SceneError for a name that is none.
         """
         if lab:
-            return Opened(f"{lab}{ENDING}", shipped_text(lab))
+            return Opened(f"{lab}{ENDING}", shipped_text(lab), rules=shipped_rules(lab))
         if empty:
             return Opened(f"new{ENDING}", EMPTY)
         if scene:
-            text = self.folder.read(scene)
-            return Opened(scene, text, mark_of_file(self.folder.path(scene)))
+            text, mark = self.folder.read(scene), mark_of_file(self.folder.path(scene))
+            rules = self.folder.rules(scene)
+            own = mark_of_file(self.folder.lab_path(scene)) if rules else ""
+            return Opened(scene, text, mark, rules, own)
         return Opened(f"new{ENDING}", start_text())
 
     def listed(self) -> dict[str, Any]:
@@ -166,6 +186,57 @@ class Session:
         """What a page last saw."""
         return self.memories.setdefault(tab, Memory())
 
+    def trial(self, order: PageRequest) -> dict[str, Any]:
+        """A lab tried on a thousand variants and a class of thirty."""
+        return self.of_lab(order, trial_of, lambda found, _, words: lab_report(found, words))
+
+    def ranges(self, order: PageRequest) -> dict[str, Any]:
+        """The ranges in which a lab is fair, and what mends its formula."""
+        return self.of_lab(order, proposal_of, lab_advice)
+
+    def of_lab(
+        self,
+        order: PageRequest,
+        work: Callable[[LabTexts], Any],
+        told_of: Callable[[Any, LabTexts, Words], Struct],
+    ) -> dict[str, Any]:
+        """What comes of a lab's texts in a process beside this one, as it is told on the page."""
+        tab, number = f"{order.text('tab')} lab", order.number("number")
+        texts = LabTexts(order.scene(), order.long_text("rules"), stem_of(order.text("name")))
+        words = spoken_in(order.choice("language", LANGUAGES))
+        self.arrived(tab, number)
+        try:
+            found = beside(work, texts, lambda: self.still_wanted(tab, number))
+        except StaleError:
+            return {"stale": True, "number": number}
+        if isinstance(found, LabProblems):
+            wrong = [told(mark) for mark in marked(found.rules, texts.rules)]
+            return {"problems": wrong, "scene_wrong": bool(found.scene), "number": number}
+        known = to_builtins(told_of(found, texts, words))
+        return {"problems": [], "scene_wrong": False, "number": number, **known}
+
+    def student(self, order: PageRequest) -> dict[str, Any]:
+        """The sheets of one student, or why they cannot be drawn."""
+        text, name = order.scene(), completed(order.text("name"))
+        language, view = order.choice("language", LANGUAGES), order.choice("view", VIEWS)
+        wanted = WantedSheets(text, name, order.settings(), language, view, ("svg",))
+        try:
+            with self.drawing():
+                sheets = sheets_of(self.folder, wanted)
+        except GraphkinError as error:
+            problems = [told(mark) for mark in marked(error.problems, text)]
+            return {"sheets": [], "problems": problems}
+        return {"sheets": [data.decode("utf-8") for data in sheets.values()], "problems": []}
+
+    def begin(self, order: PageRequest) -> dict[str, Any]:
+        """A lab.toml to start from, for any scene; or why there can be none."""
+        text = order.scene()
+        try:
+            rules = rules_for(Mechanism(read_text(text, stem_of(order.text("name")))))
+        except GraphkinError as error:
+            return {"rules": "", "problems": [told(mark) for mark in marked(error.problems, text)]}
+        return {"rules": rules, "problems": []}
+
     def write(self, order: PageRequest) -> dict[str, Any]:
         """The changes of a text that put the values of the sliders into it, or why they cannot."""
         text, settings = order.scene(), order.settings()
@@ -211,10 +282,12 @@ class Session:
         """Save the text of a scene, whatever is wrong with it."""
         name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
         text, whole = order.scene(), completed(name)
+        written = order.long_text("rules")
+        rules = OwnRules(written, order.text("rules_mark")) if written else None
 
         def saved() -> Saved:
             with self.writing:
-                return save_scene(self.folder, whole, text, mark, replace=replace)
+                return save_scene(self.folder, whole, text, mark, replace=replace, rules=rules)
 
         return self.saving(saved, text)
 

@@ -27,6 +27,7 @@ def draw(folder: Path) -> None:
         draw_page(browser.new_page(viewport=SIZE), folder / "pump-n7-page.png")
         draw_turn(browser.new_page(viewport=SIZE), folder / "pump-n7-your-turn.png")
         draw_studio(browser.new_page(viewport=SIZE), folder / "studio.png")
+        draw_class(browser.new_page(viewport=SIZE), folder / "studio-class.png")
         browser.close()
 
 
@@ -68,6 +69,20 @@ def draw_studio(page: Any, path: Path) -> None:
         page.fill("#value-n", "12")
         page.press("#value-n", "Enter")
         page.wait_for_selector("#slider-n[aria-valuetext='12']")
+        page.wait_for_timeout(500)
+        page.screenshot(path=path)
+
+
+def draw_class(page: Any, path: Path) -> None:
+    """The studio with the pump's class in English, one student's sheets drawn."""
+    session = desk_in(Path(tempfile.mkdtemp()))
+    session.language = "en"
+    with running(serve(session)) as served:
+        page.goto(f"{served.address}?lab=pump&rules=yes")
+        page.click("#lab")
+        page.click("#students tbody tr:nth-child(3) button")
+        page.wait_for_selector("#student-pages img")
+        page.locator("#class").evaluate("part => part.scrollTo(0, 0)")
         page.wait_for_timeout(500)
         page.screenshot(path=path)
 

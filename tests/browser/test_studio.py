@@ -117,15 +117,15 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     assert page.inner_text("#count") == "No mistakes."
     write(page, "A-B = 40", "A-B = forty")
     assert page.inner_text("#count") == "1 mistake"
-    assert page.locator("#gutter .wrong").all_inner_texts() == ["24"]
-    assert page.inner_text("#under mark") == "forty"
+    assert page.locator("#scene-part .gutter .wrong").all_inner_texts() == ["24"]
+    assert page.inner_text("#scene-part .under mark") == "forty"
     assert page.is_visible("#old")
     page.click("#problems button")
     assert selection(page) == "forty"
     page.keyboard.type("40")
     page.wait_for_selector("#count:not(.wrong)")
     assert page.inner_text("#count") == "No mistakes."
-    assert page.locator("#gutter .wrong").count() == 0
+    assert page.locator("#scene-part .gutter .wrong").count() == 0
     assert not page.is_visible("#old")
 
 

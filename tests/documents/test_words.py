@@ -13,6 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.classroom.grading.feedback_rows import SLIPS
+from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import Moved
@@ -182,7 +183,14 @@ def test_no_sentence_is_left_in_english(language):
     english, others = words("en").sentences, words(language).sentences
     same = {key for key in english if english[key] == others[key]}
     long = {key for key in same if re.search(r"[a-z]{4,}", re.sub(r"\{.*?\}", "", english[key]))}
-    assert long <= {"page.constant", "table.segment", "calculation.vector_mark", "desk.verdict"}
+    assert long <= {
+        "page.constant",
+        "table.segment",
+        "calculation.vector_mark",
+        "desk.verdict",
+        "studio.student",
+        "studio.limit_segment",
+    }
 
 
 def test_every_key_in_the_code_has_a_sentence():
@@ -213,6 +221,7 @@ def test_every_sentence_is_used():
     unused = words("en").sentences.keys() - USED - literals() - {*SLIPS.values()} - palette_keys()
     unused -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
     unused -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
+    unused -= {f"studio.limit_{limit}" for limit in LIMITS}
     assert not unused, " ".join(sorted(unused))
 
 

@@ -60,7 +60,7 @@ def test_the_address_that_is_printed_answers_until_it_is_stopped(tmp_path, argum
         assert process.stdout is not None
         address = urlsplit(process.stdout.readline().strip())
         assert address.hostname == "127.0.0.1"
-        assert address.query in ("scene=one.toml", "lab=pump")
+        assert address.query in ("scene=one.toml", "lab=pump&rules=yes")
         line = HTTPConnection("127.0.0.1", address.port or 0)
         line.request("GET", f"{address.path}?{address.query}")
         page = line.getresponse().read().decode()

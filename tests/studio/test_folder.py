@@ -208,9 +208,9 @@ def test_a_scene_outside_the_folder_is_not_opened(place, monkeypatch):
     monkeypatch.chdir(place)
     session = desk_in(place)
     assert session.address_of("") == {}
-    assert session.address_of("pump") == {"lab": "pump"}
+    assert session.address_of("pump") == {"lab": "pump", "rules": "yes"}
     assert session.address_of("one.toml") == {"scene": "one.toml"}
-    assert session.address_of("lab") == {"scene": "lab/scene.toml"}
+    assert session.address_of("lab") == {"scene": "lab/scene.toml", "rules": "yes"}
     for name in ("../secret.toml", str(place.parent / "secret.toml"), "link.toml"):
         with pytest.raises(SceneError, match="lies outside this folder"):
             session.address_of(name)

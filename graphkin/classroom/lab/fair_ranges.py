@@ -20,7 +20,7 @@ from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.lab_model import Lab, Range, ValueList
 from graphkin.classroom.lab.rules import Settings
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import Parameter
+from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import plain
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
@@ -108,11 +108,7 @@ def fair_ranges(lab: Lab) -> FairRanges:
     Raises SceneError where no parameter of the scene has both ends.
     """
     mechanism = Mechanism(read_scene(lab.scene))
-    every = {name: ends(each) for name, each in mechanism.scene.parameters.items()}
-    space = {name: values for name, values in every.items() if values is not None}
-    if not space:
-        found, wanted = "no parameter has min and max", "n = { value = …, min = …, max = … }"
-        raise SceneError(Problem("scene.toml: parameters", found, wanted))
+    space = space_of(mechanism.scene)
     tried = trial(mechanism, lab, space, whole_box(space))
     alone = tuple(name for name in mechanism.scene.parameters if name not in space)
     if tried.complete and len(space) == 1:
@@ -124,6 +120,19 @@ def fair_ranges(lab: Lab) -> FairRanges:
     ranges = [in_box(mechanism, lab, space, box, worst, tried.share == 1) for box in boxes]
     good = [each for each in ranges if each is not None]
     return FairRanges(tried, max(good, key=how_many, default=None), alone)
+
+
+def space_of(scene: Scene) -> dict[str, Range]:
+    """All values that a scene allows to its parameters, of those that have both ends.
+
+    Raises SceneError where none has.
+    """
+    every = {name: ends(each) for name, each in scene.parameters.items()}
+    space = {name: values for name, values in every.items() if values is not None}
+    if not space:
+        found, wanted = "no parameter has min and max", "n = { value = …, min = …, max = … }"
+        raise SceneError(Problem("scene.toml: parameters", found, wanted))
+    return space
 
 
 def between(whole: Box, peeled: Box | None) -> Iterator[Box]:

@@ -48,12 +48,10 @@ def value_lines(found: FairRanges, name: str) -> list[str]:
     return table(("value", "fair, %", ""), rows)
 
 
-def proposal(found: FairRanges, course: str) -> list[str]:
-    """``[variants]`` to be pasted; nothing where no ranges are fair."""
-    if found.ranges is None:
-        return []
+def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
+    """``[variants]`` that draws from some ranges."""
     lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
-    return lines + [f"{name} = {as_toml(values)}" for name, values in found.ranges.items()]
+    return lines + [f"{name} = {as_toml(values)}" for name, values in ranges.items()]
 
 
 def as_toml(values: Range | ValueList) -> str:

@@ -42,7 +42,8 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     )
     yield from labelled("spread", spread)
     yield from labelled("scales", scale_lines(fairness, trial.names, who))
-    yield from labelled("apart", apart_lines(trial.neighbours, trial.compared, who))
+    compared = [each.student.id for each in trial.compared]
+    yield from labelled("apart", apart_lines(trial.neighbours, compared, who))
     yield from labelled("pencil", pencil_lines(trial.neighbours))
     yield from labelled("marks", list(mark_lines(trial)))
 

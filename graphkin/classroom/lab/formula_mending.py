@@ -28,9 +28,11 @@ FIXED = re.compile(r"\s*(on|turn|slide|roll|against|rolls|belt|wheel|wheels|slid
 
 
 class Mending(Struct, frozen=True):
-    """A number of a scene in its line, what it may become, and by how many percent that differs."""
+    """A number of a scene in its line, from 1, and column, from 0, what it may become, and by how
+    many percent that differs."""
 
     line: int
+    column: int
     text: str
     old: str
     new: str
@@ -79,5 +81,5 @@ def candidates(text: str, change: float) -> Iterator[tuple[Mending, str]]:
                 start = len(key) + 1 + number.start()
                 changed = line[:start] + new + line[start + len(old) :]
                 percent = 100 * (float(new) / float(old) - 1)
-                mending = Mending(row + 1, line.partition("#")[0].strip(), old, new, percent)
+                mending = Mending(row + 1, start, line.partition("#")[0].strip(), old, new, percent)
                 yield mending, "\n".join([*lines[:row], changed, *lines[row + 1 :]])

@@ -12,7 +12,7 @@ from graphkin.classroom.lab.items import asked_fields, items
 from graphkin.classroom.lab.lab_model import Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.variants.assign import assigned, neighbours_of
+from graphkin.classroom.variants.assign import Assigned, assigned, neighbours_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
@@ -40,7 +40,7 @@ class LabTrial(Struct, frozen=True):
     fairness: Fairness
     unasked: tuple[str, ...] = ()
     unmarked: tuple[str, ...] = ()
-    compared: tuple[str, ...] = ()
+    compared: tuple[Assigned, ...] = ()
     neighbours: Neighbours | None = None
     too_near: int = 0
 
@@ -91,7 +91,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         fairness,
         tuple(unasked if sound else ()),
         tuple(unmarked),
-        tuple(each.student.id for each in drawn_at_all),
+        tuple(drawn_at_all),
         neighbours_of(lab, drawn_at_all),
         sum(fault.limit in ("apart", "pencil") for each in every for fault in each.faults),
     )

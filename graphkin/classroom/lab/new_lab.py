@@ -5,7 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from graphkin.classroom.lab.fair_ranges import space_of
+from graphkin.classroom.lab.fair_ranges_words import variants_lines
+from graphkin.classroom.lab.items import asked_fields
 from graphkin.classroom.lab.meanings import fields_of, slips
+from graphkin.classroom.lab.proposed_ranges import COURSE
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import Problem, SceneError
@@ -31,6 +35,21 @@ def new_lab(name: str, folder: Path, *, force: bool = False) -> list[Path]:
     )
     files = {file: text.replace("NAME", name).encode("utf-8") for file, text in texts.items()}
     return write_all(folder / name, files, force)
+
+
+def rules_for(mechanism: Mechanism) -> str:
+    """Rules to start from for any scene: data from all that its parameters allow, the usual limits,
+    a point for each field that is asked.
+
+    Raises SceneError where no parameter of the scene has both ends.
+    """
+    start = (START / "lab.toml").read_text(encoding="utf-8")
+    limits, rubric = start.index("[fair]"), start.index("[marks]")
+    first = start.index("\n", rubric) + 1
+    more = start.index("# What is not asked", first)
+    head = ["graphkin = 1", "", *variants_lines(space_of(mechanism.scene), COURSE), "", ""]
+    fields = "".join(f"{name} = 1\n" for name in asked_fields(mechanism))
+    return explained("\n".join(head) + start[limits:first] + fields + start[more:], mechanism)
 
 
 def explained(text: str, mechanism: Mechanism) -> str:

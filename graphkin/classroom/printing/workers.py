@@ -16,7 +16,7 @@ from concurrent.futures import (
 )
 from contextlib import contextmanager
 from itertools import islice
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from graphkin.text.errors import PageError, Problem
 
@@ -68,13 +68,18 @@ def engine(jobs: int, address: str = "") -> Iterator[tuple[Executor | None, int]
 
 def processes(jobs: int) -> ProcessPoolExecutor:
     """Worker processes that begin afresh, so that they share no threads, locks or files with us."""
+    return ProcessPoolExecutor(jobs, mp_context=fresh_processes(), initializer=begin)
+
+
+def fresh_processes() -> Any:
+    """How processes are started that begin afresh."""
     from multiprocessing import get_all_start_methods, get_context
 
     server = "forkserver" in get_all_start_methods()
     context = get_context("forkserver" if server else "spawn")
     if server:
         context.set_forkserver_preload(list(PRELOADED))
-    return ProcessPoolExecutor(jobs, mp_context=context, initializer=begin)
+    return context
 
 
 def begin() -> None:

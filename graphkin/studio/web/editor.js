@@ -1,146 +1,154 @@
-// The text of the scene: its lines numbered, mistakes marked where they stand.
+// A text with its lines numbered and its mistakes marked where they stand: the scene, and its lab.
 
 import { counted, matter, whereabouts } from "./mistakes.js";
 import { find, onSpeaking } from "./talk.js";
 
-const text = find("text");
-const gutter = find("gutter");
-const under = find("under");
-const count = find("count");
-const list = find("problems");
-let shown = ""; // the problems that are shown
+/** The editor in a part of the page. */
+export function editorOf(part) {
+  const text = part.querySelector("textarea");
+  const gutter = part.querySelector(".gutter");
+  const under = part.querySelector(".under");
+  const count = part.querySelector(".count");
+  const list = part.querySelector(".problems");
+  let shown = ""; // the problems that are shown
 
-/** The text as it is written. */
-export const written = () => text.value;
+  /** The text as it is written. */
+  const written = () => text.value;
 
-let wrote = () => {};
+  let wrote = () => {};
 
-/** Call back whenever the text changes, with what goes on as one change: typing, or deleting. */
-export function onWriting(work) {
-  wrote = work;
-}
-
-text.addEventListener("input", ({ inputType = "" }) => {
-  forget();
-  wrote(inputType === "insertText" ? "typing" : inputType.startsWith("deleteContent") ? "deleting" : "");
-});
-
-/** Number the lines, those with mistakes marked; each number is as high as its line, wrapped. */
-function number(wrong = new Set()) {
-  gutter.replaceChildren(
-    ...text.value.split("\n").map((_, i) => {
-      const line = document.createElement("span");
-      line.textContent = String(i + 1);
-      if (wrong.has(i + 1)) line.className = "wrong";
-      return line;
-    }),
-  );
-  measure();
-}
-
-/** Let the text beneath wrap where the written one does, and the numbers stand at its lines. */
-function measure() {
-  under.style.width = `${text.clientWidth}px`;
-  const heights = [...under.children].map((line) => line.getBoundingClientRect().height);
-  [...gutter.children].forEach((line, i) => (line.style.height = `${heights[i]}px`));
-  follow();
-}
-
-/** Take the underlining away while it may stand in the wrong place. */
-function forget() {
-  underline([]);
-  number();
-}
-
-/** Keep numbers and underlining beside their lines. */
-function follow() {
-  gutter.style.transform = `translateY(${-text.scrollTop}px)`;
-  under.style.transform = `translateY(${-text.scrollTop}px)`;
-}
-
-/** Show every problem: in the gutter, under its key, and in the list. */
-export function showProblems(problems) {
-  if (JSON.stringify(problems) === shown && under.querySelectorAll("mark").length) return;
-  shown = JSON.stringify(problems);
-  underline(problems);
-  number(new Set(problems.map((each) => each.line)));
-  text.setAttribute("aria-invalid", String(problems.length > 0));
-  const said = counted(problems.length);
-  if (count.textContent !== said) count.textContent = said;
-  count.classList.toggle("wrong", problems.length > 0);
-  list.replaceChildren(...problems.map(item));
-}
-
-/** The same text beneath, transparent, line by line, with what is wrong underlined. */
-function underline(problems) {
-  let start = 0;
-  const lines = text.value.split("\n").map((words) => {
-    const line = document.createElement("span");
-    let at = 0;
-    for (const problem of problems) {
-      const [from, to] = [problem.start - start, problem.end - start];
-      if (!problem.line || from < at || from > words.length) continue;
-      const mark = document.createElement("mark");
-      mark.textContent = words.slice(from, to) || " ";
-      line.append(words.slice(at, from), mark);
-      at = to;
-    }
-    line.append(words.slice(at));
-    start += words.length + 1;
-    return line;
-  });
-  under.replaceChildren(...lines);
-}
-
-/** One problem of the list; where it has a place, a button that goes there. */
-function item(problem) {
-  const entry = document.createElement("li");
-  const body = document.createElement(problem.line ? "button" : "div");
-  const where = document.createElement("strong");
-  where.textContent = whereabouts(problem);
-  const words = document.createElement("span");
-  words.textContent = matter(problem);
-  words.lang = "en";
-  body.append(where, " ", words);
-  if (problem.line) {
-    body.type = "button";
-    body.addEventListener("click", () => go(problem));
+  /** Call back whenever the text changes, with what goes on as one change: typing, or deleting. */
+  function onWriting(work) {
+    wrote = work;
   }
-  entry.append(body);
-  return entry;
-}
 
-/** Go to a problem: its key selected, its line in the middle. */
-function go({ line, start, end }) {
-  text.focus();
-  text.setSelectionRange(start, end);
-  const number = gutter.children[line - 1];
-  const middle = number.offsetTop + number.offsetHeight / 2;
-  text.scrollTop = middle - text.clientHeight / 2;
-  follow();
-}
+  text.addEventListener("input", ({ inputType = "" }) => {
+    forget();
+    wrote(inputType === "insertText" ? "typing" : inputType.startsWith("deleteContent") ? "deleting" : "");
+  });
 
-/** Change pieces of the text, the last first, as one change. */
-export function change(edits) {
-  text.focus();
-  for (const { start, end, text: words } of edits) text.setRangeText(words, start, end, "end");
+  /** Number the lines, those with mistakes marked; each number is as high as its line, wrapped. */
+  function number(wrong = new Set()) {
+    gutter.replaceChildren(
+      ...text.value.split("\n").map((_, i) => {
+        const line = document.createElement("span");
+        line.textContent = String(i + 1);
+        if (wrong.has(i + 1)) line.className = "wrong";
+        return line;
+      }),
+    );
+    measure();
+  }
+
+  /** Let the text beneath wrap where the written one does, and the numbers stand at its lines. */
+  function measure() {
+    under.style.width = `${text.clientWidth}px`;
+    const heights = [...under.children].map((line) => line.getBoundingClientRect().height);
+    [...gutter.children].forEach((line, i) => (line.style.height = `${heights[i]}px`));
+    follow();
+  }
+
+  /** Take the underlining away while it may stand in the wrong place. */
+  function forget() {
+    underline([]);
+    number();
+  }
+
+  /** Keep numbers and underlining beside their lines. */
+  function follow() {
+    gutter.style.transform = `translateY(${-text.scrollTop}px)`;
+    under.style.transform = `translateY(${-text.scrollTop}px)`;
+  }
+
+  /** Show every problem: in the gutter, under its key, and in the list. */
+  function showProblems(problems) {
+    if (JSON.stringify(problems) === shown && under.querySelectorAll("mark").length) return;
+    shown = JSON.stringify(problems);
+    underline(problems);
+    number(new Set(problems.map((each) => each.line)));
+    text.setAttribute("aria-invalid", String(problems.length > 0));
+    const said = counted(problems.length);
+    if (count.textContent !== said) count.textContent = said;
+    count.classList.toggle("wrong", problems.length > 0);
+    list.replaceChildren(...problems.map(item));
+  }
+
+  /** The same text beneath, transparent, line by line, with what is wrong underlined. */
+  function underline(problems) {
+    let start = 0;
+    const lines = text.value.split("\n").map((words) => {
+      const line = document.createElement("span");
+      let at = 0;
+      for (const problem of problems) {
+        const [from, to] = [problem.start - start, problem.end - start];
+        if (!problem.line || from < at || from > words.length) continue;
+        const mark = document.createElement("mark");
+        mark.textContent = words.slice(from, to) || " ";
+        line.append(words.slice(at, from), mark);
+        at = to;
+      }
+      line.append(words.slice(at));
+      start += words.length + 1;
+      return line;
+    });
+    under.replaceChildren(...lines);
+  }
+
+  /** One problem of the list; where it has a place, a button that goes there. */
+  function item(problem) {
+    const entry = document.createElement("li");
+    const body = document.createElement(problem.line ? "button" : "div");
+    const where = document.createElement("strong");
+    where.textContent = whereabouts(problem);
+    const words = document.createElement("span");
+    words.textContent = matter(problem);
+    words.lang = "en";
+    body.append(where, " ", words);
+    if (problem.line) {
+      body.type = "button";
+      body.addEventListener("click", () => go(problem));
+    }
+    entry.append(body);
+    return entry;
+  }
+
+  /** Go to a problem: its key selected, its line in the middle. */
+  function go({ line, start, end }) {
+    text.focus();
+    text.setSelectionRange(start, end);
+    const number = gutter.children[line - 1];
+    const middle = number.offsetTop + number.offsetHeight / 2;
+    text.scrollTop = middle - text.clientHeight / 2;
+    follow();
+  }
+
+  /** Change pieces of the text, the last first, as one change. */
+  function change(edits) {
+    text.focus();
+    for (const { start, end, text: words } of edits) text.setRangeText(words, start, end, "end");
+    forget();
+    wrote("");
+  }
+
+  /** Put another text in place of this one, as one change of what differs. */
+  function replace(words) {
+    const before = text.value;
+    const least = Math.min(before.length, words.length);
+    let start = 0;
+    while (start < least && before[start] === words[start]) start++;
+    let same = 0;
+    while (same < least - start && before.at(-1 - same) === words.at(-1 - same)) same++;
+    const [end, stop] = [before.length - same, words.length - same];
+    if (start !== end || start !== stop) change([{ start, end, text: words.slice(start, stop) }]);
+  }
+
+  text.addEventListener("scroll", follow, { passive: true });
+  new ResizeObserver(measure).observe(text);
+  onSpeaking(() => (shown = ""));
   forget();
-  wrote("");
+
+  return { text, written, onWriting, showProblems, change, replace };
 }
 
-/** Put another text in place of this one, as one change of what differs. */
-export function replace(words) {
-  const before = text.value;
-  const least = Math.min(before.length, words.length);
-  let start = 0;
-  while (start < least && before[start] === words[start]) start++;
-  let same = 0;
-  while (same < least - start && before.at(-1 - same) === words.at(-1 - same)) same++;
-  const [end, stop] = [before.length - same, words.length - same];
-  if (start !== end || start !== stop) change([{ start, end, text: words.slice(start, stop) }]);
-}
-
-text.addEventListener("scroll", follow, { passive: true });
-new ResizeObserver(measure).observe(text);
-onSpeaking(() => (shown = ""));
-forget();
+/** The text of the scene. */
+export const { written, onWriting, showProblems, change, replace } = editorOf(find("scene-part"));

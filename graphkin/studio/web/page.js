@@ -5,6 +5,7 @@ import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
 import { change, onWriting, replace, showProblems, written } from "./editor.js";
 import { historyOf } from "./history.js";
+import { inClass, labOf, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
 import { counted, sentence } from "./mistakes.js";
 import { forgetMoves, held as isHeld, markSliders, onMoving, setMoves, settings, showSliders, writing } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
@@ -15,8 +16,9 @@ const REST = 200; // ms without a move before labels find their places
 const TO_TEXT = "to-text"; // where the next page has its focus
 const file = find("file");
 const drawings = find("drawings");
-let safe = written(); // the text as it was opened or last saved
-let held = { name: file.value, mark: document.body.dataset.mark }; // the file as it was opened or saved
+const { mark, rulesMark } = document.body.dataset;
+let held = { name: file.value, mark, rulesMark, lab: Boolean(rulesMark) }; // as it was opened or saved
+let safe = ""; // the texts as they were opened or last saved
 let number = 0; // of the newest request
 let shown = 0; // of the newest answer
 let moving = false; // a move is on its way
@@ -86,7 +88,8 @@ function soon() {
   timer = setTimeout(() => look(false), PAUSE);
 }
 
-const isSafe = () => written() === safe;
+const texts = () => JSON.stringify([written(), writtenRules()]);
+const isSafe = () => texts() === safe;
 
 /** Something else is done: what had failed is said no longer. */
 function state() {
@@ -103,7 +106,7 @@ function draft() {
 
 /** Keep what is not saved over a reload, with the file from which it was written. */
 function keep() {
-  const kept = { text: written(), mark: held.mark, name: held.name };
+  const kept = { text: written(), rules: writtenRules(), held };
   if (isSafe()) sessionStorage.removeItem(draft());
   else sessionStorage.setItem(draft(), JSON.stringify(kept));
 }
@@ -112,9 +115,10 @@ function keep() {
  * that has changed since is still not replaced unasked. */
 function recall() {
   const kept = JSON.parse(sessionStorage.getItem(draft()) ?? "null");
-  if (!kept || kept.name !== held.name || kept.text === written()) return;
-  held = { name: kept.name, mark: kept.mark };
+  if (!kept?.held || kept.held.name !== held.name) return;
+  held = kept.held;
   replace(kept.text);
+  replaceRules(kept.rules);
 }
 
 /** Say at the top whether something is not saved, but for what has just failed. */
@@ -130,7 +134,7 @@ function unsaved() {
 async function go(address) {
   if (!isSafe() && !(await agreed(say("studio.leave"), say("studio.go_on")))) return;
   sessionStorage.removeItem(draft());
-  safe = written();
+  safe = texts();
   sessionStorage.setItem(TO_TEXT, "yes");
   location.assign(chosen ? `${address}${address === "?" ? "" : "&"}lang=${chosen}` : address);
 }
@@ -161,19 +165,20 @@ async function save() {
   try {
     const values = await settled();
     if (values === null) return;
-    const text = written();
+    const now = texts();
     const name = file.value.trim();
-    const mark = name === held.name ? held.mark : "";
-    const answer = await saved("save", { text, name, mark });
+    const own = name === held.name ? held : { mark: "", rulesMark: "" };
+    const rules = held.lab ? { rules: writtenRules(), rules_mark: own.rulesMark } : {};
+    const answer = await saved("save", { text: written(), name, mark: own.mark, ...rules });
     if (!answer) return;
     if (answer.problems.length) {
       tell(answer.problems.map(sentence).join(" "), "wrong");
       return;
     }
     sessionStorage.removeItem(draft());
-    safe = text;
+    safe = now;
     file.value = answer.files[0];
-    held = { name: file.value, mark: answer.mark };
+    held = { ...held, name: file.value, mark: answer.mark, rulesMark: answer.rules_mark };
     state();
     tellSaved(answer.files, values);
     address(`scene=${encodeURIComponent(file.value)}`);
@@ -234,11 +239,12 @@ async function intoText() {
 }
 
 const changes = historyOf(
-  () => ({ text: written(), moved: settings() }),
+  () => ({ text: written(), rules: writtenRules(), moved: settings() }),
   (state) => {
     setMoves(state.moved);
     back = true;
     replace(state.text);
+    replaceRules(state.rules);
     back = false;
     look(false);
   },
@@ -247,6 +253,12 @@ onWriting((kind) => {
   if (!back) changes.note(kind);
   state();
   soon();
+  trySoon();
+});
+onWritingRules((kind) => {
+  if (!back) changes.note(kind);
+  state();
+  trySoon();
 });
 onMoving((quick, name) => {
   changes.note(name && `slider ${name}`);
@@ -255,11 +267,13 @@ onMoving((quick, name) => {
 });
 for (const which of ["undo", "redo"]) {
   find(which).addEventListener("click", () => changes[which]());
-  find("text").addEventListener("beforeinput", (event) => {
-    if (event.inputType !== `history${which[0].toUpperCase()}${which.slice(1)}`) return;
-    event.preventDefault();
-    changes[which]();
-  });
+  for (const text of [find("text"), find("rules")]) {
+    text.addEventListener("beforeinput", (event) => {
+      if (event.inputType !== `history${which[0].toUpperCase()}${which.slice(1)}`) return;
+      event.preventDefault();
+      changes[which]();
+    });
+  }
 }
 onChoosing(() => look(false));
 file.addEventListener("input", state);
@@ -308,15 +322,30 @@ addEventListener("keydown", (event) => {
 addEventListener("beforeunload", (event) => {
   if (!isSafe()) event.preventDefault();
 });
+/** A lab is a folder with its scene and its rules. */
+function asLab() {
+  held = { ...held, lab: true };
+  const stem = file.value.trim().replace(/^.*\//, "").replace(/\.toml$/, "");
+  if (!/(^|\/)scene\.toml$/.test(file.value.trim())) file.value = `${stem}/scene.toml`;
+  state();
+}
+
+safe = texts();
 recall();
-onBuilding(() => look(false));
-if (new URLSearchParams(location.search).has("empty")) building(true);
+labOf(scene, asLab);
+onBuilding(() => {
+  if (inClass()) showClass(false);
+  look(false);
+});
+const query = new URLSearchParams(location.search);
+if (query.has("empty")) building(true);
 else look(false);
-if (new URLSearchParams(location.search).has("gallery")) {
+if (query.has("rules")) showRules().catch((error) => tell(error.message, "wrong"));
+if (query.has("gallery")) {
   choose(go).catch((error) => tell(error.message, "wrong"));
 }
 find("language").value = language;
-if (new URLSearchParams(location.search).get("lang") === language) chosen = language;
+if (query.get("lang") === language) chosen = language;
 if (sessionStorage.getItem(TO_TEXT)) {
   sessionStorage.removeItem(TO_TEXT);
   find("text").focus();

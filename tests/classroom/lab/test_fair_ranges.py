@@ -12,10 +12,11 @@ from msgspec.structs import replace
 
 from graphkin.classroom.lab import fair_ranges as module
 from graphkin.classroom.lab.fair_ranges import fair_ranges, halton, round_step, runs_of
-from graphkin.classroom.lab.fair_ranges_words import as_toml, proposal
+from graphkin.classroom.lab.fair_ranges_words import as_toml, variants_lines
 from graphkin.classroom.lab.formula_mending import candidates, is_fair, mended
 from graphkin.classroom.lab.lab_model import Range, ValueList
 from graphkin.classroom.lab.lab_trial import tried
+from graphkin.classroom.lab.proposed_ranges import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.cli.main import app
 from graphkin.text.errors import SceneError
@@ -109,7 +110,7 @@ def test_where_nothing_is_fair_nothing_is_proposed(lab, monkeypatch):
     judging(monkeypatch, lambda each: False)
     found = fair_ranges(lab)
     assert found.ranges is None
-    assert proposal(found, "mechanics") == []
+    assert proposed_ranges(lab, found) is None
 
 
 def test_a_scene_without_ends_is_told(lab):
@@ -127,7 +128,7 @@ def test_the_proposal_is_a_fair_lab(lab, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "DRAWS", 1500)
     found = fair_ranges(lab)
     rest = RULE[RULE.index("[marks]") :]
-    text = "\n".join(["graphkin = 1", *proposal(found, "mechanics"), rest])
+    text = "\n".join(["graphkin = 1", *variants_lines(found.ranges, "mechanics"), rest])
     (tmp_path / "lab.toml").write_text(text, encoding="utf-8")
     trial = tried(read_lab(tmp_path), 500)
     assert trial.unfair == 0

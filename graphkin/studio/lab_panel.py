@@ -1,0 +1,263 @@
+"""What the page shows of a lab that was tried: fairness, neighbours, students, what is proposed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import isnan
+
+import tomlkit
+from msgspec import Struct, field
+
+from graphkin.classroom.lab.fair_ranges_words import variants_lines
+from graphkin.classroom.lab.fairness import Fault
+from graphkin.classroom.lab.fairness_words import some
+from graphkin.classroom.lab.formula_mending import Mending
+from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
+from graphkin.classroom.lab.proposed_ranges import APART
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.variants.assign import Assigned
+from graphkin.drawing.columns import Row
+from graphkin.drawing.scale import ratio
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.studio.lab_work import LabProposal, LabTexts
+from graphkin.studio.problem_places import units
+from graphkin.studio.result_panel import table
+from graphkin.studio.scene_edits import Edit
+from graphkin.text import Words
+
+OF_KEYS = ("apart", "pencil")
+"""The limits that only keys tell, of a class alone."""
+UNITS = {
+    "crossing": (1, "°"),
+    "segment": (1, " mm"),
+    "triangle": (1, ""),
+    "apart": (100, " %"),
+    "pencil": (100, " %"),
+}
+"""By what the value of a limit is multiplied, and in which unit it is told."""
+
+
+class StudentRow(Struct, frozen=True):
+    """A student of the class: who, the data, what is unfair, and what makes the sheet hard.
+
+    ``earns`` is the largest share, in percent, that another's right values earn on this sheet, and
+    ``whose`` they are; ``settings`` draw the sheet.
+    """
+
+    name: str
+    data: str
+    settings: Mapping[str, str]
+    faults: str
+    flattest: str
+    shortest: str
+    earns: str
+    whose: str
+
+
+class LabReport(Struct, frozen=True):
+    """A lab as it was tried: how many are fair, tables in tags, the students, and of each two the
+    percent that one's right values earn on the other's sheet, a row for each sheet (-1 for itself);
+    more than ``apart`` is too much.
+    """
+
+    fair: int = 0
+    count: int = 0
+    tables: str = ""
+    students: list[StudentRow] = field(default_factory=list)
+    shares: list[list[int]] = field(default_factory=list)
+    apart: int = 0
+    closest: str = ""
+
+
+def lab_report(trial: LabTrial, words: Words) -> LabReport:
+    """What is shown of a trial, in the language of the page."""
+    count, near = len(trial.many), trial.neighbours
+    shares = [] if near is None else [[percent(share) for share in row] for row in near.exact]
+    names = [each.student.id for each in trial.compared]
+    closest = ""
+    if near is not None:
+        own, other = near.closest()
+        gaps = {"own": names[own], "other": names[other], "share": str(shares[own][other])}
+        closest = words("studio.closest", **gaps)
+    rows = [student_row(i, each, shares, names, words) for i, each in enumerate(trial.compared)]
+    tables = "".join(trial_tables(trial, words))
+    limit = trial.lab.fair.apart
+    apart = percent(APART if limit is None else limit)
+    return LabReport(count - trial.unfair, count, tables, rows, shares, apart, closest)
+
+
+def percent(share: float) -> int:
+    """A share in percent; -1 for a sheet beside itself."""
+    return -1 if isnan(share) else round(100 * share)
+
+
+def student_row(
+    index: int, each: Assigned, shares: Sequence[Sequence[int]], names: Sequence[str], words: Words
+) -> StudentRow:
+    """A student of the class that was tried."""
+    most = max(range(len(names)), key=lambda other: shares[index][other]) if shares else None
+    settings = {name: exact_text(value) for name, value in each.settings.items()}
+    return StudentRow(
+        each.student.id,
+        ", ".join(f"{name} = {value}" for name, value in settings.items()),
+        settings,
+        "; ".join(fault_words(fault, words) for fault in each.faults),
+        "" if each.flattest is None else f"{words.fixed(each.flattest, 1)}°",
+        "" if each.shortest is None else f"{words.fixed(each.shortest, 1)} mm",
+        "" if most is None else f"{shares[index][most]} %",
+        "" if most is None else names[most],
+    )
+
+
+def fault_words(fault: Fault, words: Words, where: Callable[[str], str] = str) -> str:
+    """A limit that is broken, where, with the value and the bound; ``where`` writes its name."""
+    what = f"{words(f'studio.limit_{fault.limit}')} {where(fault.where)}".strip()
+    if isnan(fault.value):
+        return what
+    factor, unit = UNITS[fault.limit]
+    side = "<" if fault.value < fault.bound else ">"
+    value, bound = (words.decimal(f"{factor * each:.3g}") for each in (fault.value, fault.bound))
+    return f"{what}: {value}{unit} {side} {bound}{unit}"
+
+
+def trial_tables(trial: LabTrial, words: Words) -> Iterator[str]:
+    """The tables of a trial: what is unfair, how far variants spread, at which scales."""
+    head = tuple(map(words, ("studio.limit_broken", "studio.times", "studio.whose")))
+    yield table(words("studio.unfair"), head, list(unfair_rows(trial, words)))
+    head = tuple(map(words, ("studio.on_sheets", "studio.least", "studio.half", "studio.most")))
+    yield table(words("studio.spread"), head, list(spread_rows(trial, words)))
+    head = (words("studio.scale"), "*m*", "*m′*", words("studio.times"))
+    yield table(words("studio.scales"), head, list(scale_rows(trial)))
+
+
+def unfair_rows(trial: LabTrial, words: Words) -> Iterator[Row]:
+    """Each limit that is broken somewhere: the worst, how often, by whom."""
+    every = [(name, trial.fairness.faults(i)) for i, name in enumerate(trial.names)]
+    every += [
+        (each.student.id, tuple(fault for fault in each.faults if fault.limit in OF_KEYS))
+        for each in trial.compared
+    ]
+    found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
+    for name, faults in every:
+        for fault in faults:
+            where = "" if fault.limit == "apart" else fault.where
+            found.setdefault((fault.limit, where), []).append((name, fault))
+    for broken in found.values():
+        _, worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
+        names = [name for name, _ in broken]
+        yield Row((fault_words(worst, words, symbol), str(len(names)), some(names)))
+
+
+def spread_rows(trial: LabTrial, words: Words) -> Iterator[Row]:
+    """The least, the middle and the most of what makes sheets hard, or alike."""
+    fairness, near = trial.fairness, trial.neighbours
+    drawn = fairness.closes & fairness.fits
+    spread = [
+        ("studio.flattest", "°", fairness.flattest[drawn]),
+        ("studio.flattest_rays", "°", fairness.flattest_rays[drawn]),
+        ("studio.shortest", " mm", fairness.shortest[drawn]),
+    ]
+    if near is not None:
+        spread += [
+            ("studio.key_earns", " %", 100 * near.exact.ravel()),
+            ("studio.drawing_earns", " %", 100 * near.drawn.ravel()),
+            ("studio.pencil_error", " %", 100 * near.pencil),
+        ]
+    for key, unit, values in spread:
+        if found := quantiles(values):
+            yield Row((words(key), *(f"{words.fixed(each, 1)}{unit}" for each in found[::2])))
+
+
+def scale_rows(trial: LabTrial) -> Iterator[Row]:
+    """The scales of the sheets, and how many students have which, the most first."""
+    fairness = trial.fairness
+    drawn = (fairness.closes & fairness.fits).nonzero()[0]
+    columns = (fairness.kL, fairness.larger, fairness.larger_still)
+    found = Counter(tuple(float(column[i]) for column in columns) for i in drawn)
+    for (kL, m, again), times in found.most_common():
+        yield Row((ratio(kL), f"{m:.4g}", f"{again:.4g}", str(times)))
+
+
+class ParameterShares(Struct, frozen=True):
+    """The fair share, in percent, by the values of a parameter; how much of fairness it decides."""
+
+    name: str
+    decides: int
+    parts: list[tuple[str, int]]
+
+
+class LabAdvice(Struct, frozen=True):
+    """What is proposed to a lab: its fair share by parameters, new ranges, a mended formula.
+
+    ``shares`` tell of each parameter the part of fairness that it decides and the fair share by its
+    values; ``ranges`` is the text of the proposal and ``rules`` the whole lab.toml with it;
+    ``mending`` is an edit of the scene.
+    """
+
+    fair: str
+    shares: list[ParameterShares]
+    ranges: str = ""
+    rules: str = ""
+    kept: str = ""
+    formula: str = ""
+    mending: Edit | None = None
+
+
+def lab_advice(proposal: LabProposal, texts: LabTexts, words: Words) -> LabAdvice:
+    """What is shown of a search for fair ranges, in the language of the page."""
+    tried, new = proposal.found.tried, proposal.proposed
+    guilt = sorted(((tried.guilt(name), name) for name in tried.space), reverse=True)
+    shares = [
+        ParameterShares(name, percent(decides), list(value_shares(proposal, name)))
+        for decides, name in guilt
+    ]
+    fair = words("studio.fair_share", share=percent(tried.share), count=len(tried.places))
+    formula, mending = formula_words(proposal, texts.scene, words)
+    if new is None:
+        return LabAdvice(
+            fair, shares, kept=words("studio.no_ranges"), formula=formula, mending=mending
+        )
+    lines = variants_lines(new.ranges, new.course)
+    gaps = {"count": new.count, "apart": f"{100 * new.apart:g}", "kept": new.kept, "of": new.of}
+    rules = with_variants(texts.rules, lines)
+    kept = words("studio.kept_apart", **gaps)
+    return LabAdvice(fair, shares, "\n".join(lines), rules, kept, formula, mending)
+
+
+def value_shares(proposal: LabProposal, name: str) -> Iterator[tuple[str, int]]:
+    """The fair share by the values of a parameter."""
+    for first, last, share, _ in proposal.found.tried.by_value(name):
+        ends = exact_text(first) if last == first else f"{exact_text(first)} … {exact_text(last)}"
+        yield ends, percent(share)
+
+
+def with_variants(rules: str, lines: Sequence[str]) -> str:
+    """The text of a lab.toml with other [variants]; all else stays as it is written."""
+    document = tomlkit.parse(rules)
+    document["variants"] = tomlkit.parse("\n".join([*lines, "", ""]))["variants"]
+    return tomlkit.dumps(document)
+
+
+def formula_words(proposal: LabProposal, scene: str, words: Words) -> tuple[str, Edit | None]:
+    """To which numbers a formula is unfair and what mends that, in words and as an edit."""
+    found = proposal.formula
+    if found is None:
+        return "", None
+    if not found.unfair:
+        return words("studio.formula_fair"), None
+    unfair = words("studio.formula_unfair", names=some([*found.unfair]))
+    mending = found.mending
+    if mending is None:
+        return f"{unfair} {words('studio.no_mending')}", None
+    gaps = {"line": mending.line, "text": mending.text, "old": mending.old, "new": mending.new}
+    change = edit_of(mending, scene)
+    return f"{unfair} {words('studio.mending', **gaps)}", change
+
+
+def edit_of(mending: Mending, scene: str) -> Edit:
+    """The change of a scene's line as an edit of its text."""
+    lines = scene.split("\n")
+    start = sum(len(line) + 1 for line in lines[: mending.line - 1]) + mending.column
+    end = start + len(mending.old)
+    return Edit(units(scene[:start]), units(scene[:end]), mending.new, before=mending.old)

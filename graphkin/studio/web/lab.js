@@ -1,0 +1,254 @@
+// A lab beside its scene: its rules as a text, the class that they make, ranges that are proposed.
+
+import { change, editorOf, written } from "./editor.js";
+import { sentence } from "./mistakes.js";
+import { ask, find, language, onSpeaking, say, tell } from "./talk.js";
+
+const REST = 500; // ms without a sign before the lab is tried anew
+const SVG = "http://www.w3.org/2000/svg";
+const rules = editorOf(find("rules-part"));
+const toggle = find("lab");
+const room = find("class");
+const advice = find("advice");
+let scene = () => ({}); // the scene as the page sends it
+let begun = () => {};
+let number = 0; // of the newest request
+let timer = 0;
+let students = [];
+let chosen = ""; // the student whose sheets are shown
+let tried = ""; // the texts of which the report is shown
+
+/** The text of lab.toml; empty where there is none. */
+export const writtenRules = () => rules.written();
+export const { onWriting: onWritingRules, replace: replaceRules } = rules;
+
+/** Whether the class is shown instead of the drawings. */
+export const inClass = () => toggle.getAttribute("aria-pressed") === "true";
+
+/** Tell the lab of the scene, and what to do when a lab.toml is begun. */
+export function labOf(fields, work) {
+  scene = fields;
+  begun = work;
+}
+
+/** Show the rules beside the scene, and how fair they are. */
+export async function showRules() {
+  if (!find("rules-part").hidden) return;
+  find("rules-part").hidden = find("fairness").hidden = false;
+  if (!writtenRules()) await begin();
+  begun();
+  trySoon(0);
+}
+
+/** Show the class or the drawings. */
+export async function showClass(open) {
+  toggle.setAttribute("aria-pressed", String(open));
+  room.hidden = !open;
+  find("seeing").classList.toggle("classroom", open);
+  if (open) await showRules();
+}
+
+/** Begin a lab.toml for a scene that has none. */
+async function begin() {
+  const answer = await ask("begin", scene());
+  if (answer.problems.length) fairness(answer.problems.map(sentence).join(" "), true);
+  else rules.replace(answer.rules);
+}
+
+function fairness(words, wrong = false) {
+  find("fairness").textContent = words;
+  find("fairness").classList.toggle("wrong", wrong);
+}
+
+/** Try the lab when nothing is written for a while. */
+export function trySoon(pause = REST) {
+  clearTimeout(timer);
+  if (find("rules-part").hidden || !writtenRules()) return;
+  room.classList.toggle("old", tried !== texts());
+  timer = setTimeout(() => attempt().catch((error) => fairness(error.message, true)), pause);
+}
+
+const texts = () => JSON.stringify([scene().text, writtenRules(), language]);
+
+/** Ask something of the lab; nothing for an answer that is not wanted any more. */
+async function asked(what) {
+  const own = ++number;
+  const answer = await ask(what, { ...scene(), rules: writtenRules(), settings: {}, number: own });
+  if (answer.stale || own !== number) return null;
+  rules.showProblems(answer.problems);
+  if (answer.scene_wrong) fairness(say("studio.scene_first"), true);
+  else if (answer.problems.length) fairness("");
+  return answer.scene_wrong || answer.problems.length ? null : answer;
+}
+
+async function attempt() {
+  const now = texts();
+  if (now === tried) return;
+  fairness(say("studio.trying"));
+  const report = await asked("trial");
+  if (!report) return;
+  tried = now;
+  room.classList.remove("old");
+  fairness(say("studio.fair_of", report), report.fair < report.count);
+  find("class-tables").innerHTML = report.tables;
+  students = report.students;
+  map(report);
+  list();
+  const shown = students.find(({ name }) => name === chosen);
+  if (shown) await sheets(shown);
+}
+
+/** What each student's right values earn on each other's sheet, as a map that can be pointed at. */
+function map({ shares, closest, apart }) {
+  const figure = find("neighbours");
+  figure.hidden = !shares.length;
+  const svg = figure.querySelector("svg");
+  const size = shares.length;
+  svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
+  find("closest").textContent = closest;
+  svg.replaceChildren(
+    ...shares.flatMap((row, y) =>
+      row.map((share, x) => {
+        const cell = document.createElementNS(SVG, "rect");
+        const look = { x: x + 0.04, y: y + 0.04, width: 0.92, height: 0.92 };
+        for (const [key, value] of Object.entries(look)) cell.setAttribute(key, value);
+        cell.setAttribute("fill-opacity", share < 0 ? 0 : 0.06 + (0.94 * share) / 100);
+        if (share > apart) cell.classList.add("over");
+        Object.assign(cell.dataset, { own: y, other: x, share });
+        return cell;
+      }),
+    ),
+  );
+}
+
+find("neighbours").addEventListener("pointerover", ({ target }) => {
+  const { own, other, share } = target.dataset;
+  if (!(share >= 0)) return;
+  const gaps = { own: students[own].name, other: students[other].name, share };
+  find("pointed").textContent = say("studio.earns_of", gaps);
+});
+find("neighbours").addEventListener("click", ({ target }) => {
+  if (target.dataset.own) choose(students[target.dataset.own]);
+});
+
+function element(name, words, look = "") {
+  const made = document.createElement(name);
+  made.textContent = words;
+  made.className = look;
+  return made;
+}
+
+/** The students of the class; each opens its sheets. */
+function list() {
+  find("students").hidden = !students.length;
+  find("students").tBodies[0].replaceChildren(
+    ...students.map((student) => {
+      const row = document.createElement("tr");
+      row.classList.toggle("chosen", student.name === chosen);
+      const head = document.createElement("th");
+      head.scope = "row";
+      const button = element("button", student.name);
+      button.type = "button";
+      button.addEventListener("click", () => choose(student));
+      head.append(button);
+      const earns = student.earns && `${student.earns} (${student.whose})`;
+      const { data, faults, flattest, shortest } = student;
+      const cells = [data, faults, flattest, shortest, earns].map((words) => element("td", words));
+      cells[1].className = "faults";
+      row.append(head, ...cells);
+      return row;
+    }),
+  );
+}
+
+function choose(student) {
+  chosen = student.name;
+  list();
+  sheets(student).catch((error) => tell(error.message, "wrong"));
+  find("student-sheets").scrollIntoView({ block: "nearest" });
+}
+
+/** Show the sheets of a student, in the language of the page. */
+async function sheets(student) {
+  const part = find("student-sheets");
+  part.hidden = false;
+  find("student").textContent = say("studio.sheet_of", student);
+  part.setAttribute("aria-busy", "true");
+  const view = find("student-view").value;
+  const answer = await ask("student", { ...scene(), settings: student.settings, view });
+  if (student.name !== chosen) return;
+  part.removeAttribute("aria-busy");
+  const pages = find("student-pages");
+  for (const old of pages.querySelectorAll("img")) URL.revokeObjectURL(old.src);
+  pages.replaceChildren(...answer.problems.map((each) => element("p", sentence(each), "wrong")));
+  for (const text of answer.sheets) {
+    const page = document.createElement("img");
+    page.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }));
+    page.alt = say("studio.sheet_of", student);
+    page.addEventListener("click", () => page.classList.toggle("large"));
+    pages.append(page);
+  }
+}
+
+/** Find fair ranges, and offer to put them into the text. */
+async function propose() {
+  clearTimeout(timer);
+  find("find-ranges").disabled = true;
+  advice.hidden = false;
+  advice.replaceChildren(element("p", say("studio.searching")));
+  try {
+    const found = await asked("ranges");
+    if (found) showAdvice(found);
+    else advice.hidden = true;
+  } catch (error) {
+    advice.replaceChildren(element("p", error.message, "wrong"));
+  } finally {
+    find("find-ranges").disabled = false;
+    trySoon(0);
+  }
+}
+
+function button(words, work) {
+  const made = element("button", words);
+  made.type = "button";
+  made.addEventListener("click", () => {
+    advice.hidden = true;
+    work();
+  });
+  const tools = element("div", "", "tools");
+  tools.append(made);
+  return tools;
+}
+
+function showAdvice({ fair, shares, ranges, rules: after, kept, formula, mending }) {
+  const parts = [element("p", fair)];
+  const charts = element("div", "", "charts");
+  if (formula) parts.push(element("p", formula, mending ? "faults" : ""));
+  if (mending) parts.push(button(say("studio.mend_scene"), () => change([mending])));
+  for (const { name, decides, parts: values } of shares) {
+    const bars = element("div", "", "bars");
+    bars.append(element("h3", say("studio.decides", { name, share: decides })));
+    for (const [ends, share] of values) {
+      const bar = document.createElement("meter");
+      Object.assign(bar, { max: 100, value: share });
+      bar.setAttribute("aria-label", `${name} ${ends}`);
+      bars.append(element("span", ends), bar, element("span", `${share} %`));
+    }
+    charts.append(bars);
+  }
+  parts.push(charts);
+  if (ranges) parts.push(element("pre", ranges));
+  parts.push(element("p", kept));
+  if (ranges) parts.push(button(say("studio.put_ranges"), () => rules.replace(after)));
+  advice.replaceChildren(...parts);
+}
+
+toggle.addEventListener("click", () =>
+  showClass(!inClass()).catch((error) => tell(error.message, "wrong")),
+);
+find("find-ranges").addEventListener("click", propose);
+find("student-view").addEventListener("change", () => {
+  const shown = students.find(({ name }) => name === chosen);
+  if (shown) choose(shown);
+});
+onSpeaking(() => trySoon(0));

@@ -1,0 +1,102 @@
+"""A lab in the studio: its rules beside its scene, a class that follows what is written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from graphkin.classroom.lab.read_lab import read_lab
+from graphkin.studio.server import Served, serve
+from tests.browser.opening import barred
+from tests.studio.pump import desk_in, running
+
+LONG = 60_000
+"""Milliseconds after which nothing more is waited for."""
+
+
+@pytest.fixture
+def served(tmp_path) -> Iterator[Served]:
+    """A studio in an empty folder, in English."""
+    session = desk_in(tmp_path)
+    session.language = "en"
+    with running(serve(session)) as found:
+        yield found
+
+
+@pytest.fixture
+def page(chromium: Any, served: Served) -> Iterator[Any]:
+    """The pump's class; fails on any error that the page tells."""
+    context = chromium.new_context(viewport={"width": 1440, "height": 900})
+    page = context.new_page()
+    wrong: list[str] = []
+    page.on("console", lambda m: wrong.append(m.text) if m.type in ("error", "warning") else 0)
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.goto(f"{served.address}?lab=pump&rules=yes")
+    fairness(page, 29)
+    page.click("#lab")
+    yield page
+    context.close()
+    assert not wrong
+
+
+def fairness(page: Any, fair: int, count: int = 30) -> None:
+    """Wait until so many of the variants are told to be fair."""
+    words = f"{fair} of {count} variants are fair."
+    page.locator("#fairness", has_text=re.compile(f"^{words}$")).wait_for(timeout=LONG)
+
+
+def test_a_formula_is_mended_and_the_lab_saved(page, tmp_path):
+    """What is written in either text is followed; one undo goes through both."""
+    rules, scene = page.input_value("#rules"), page.input_value("#text")
+    page.fill("#rules", rules.replace("0.05, 4", "0.04, 4"))
+    fairness(page, 30)
+    page.click("#rules")
+    page.keyboard.press("Control+z")
+    fairness(page, 29)
+    page.click("#find-ranges")
+    page.locator("#advice button").first.click(timeout=LONG)
+    assert page.input_value("#text") == scene.replace("B-C = 25", "B-C = 25.2")
+    fairness(page, 30)
+    assert page.input_value("#file") == "pump/scene.toml"
+    page.click("#save")
+    page.locator("#status", has_text="Saved: pump/scene.toml, pump/lab.toml").wait_for()
+    saved = read_lab(tmp_path / "pump")
+    assert saved.text == rules
+    assert "25.2" in (tmp_path / "pump" / "scene.toml").read_text(encoding="utf-8")
+    page.reload()
+    assert page.input_value("#rules") == rules
+
+
+def test_students_are_looked_at(page):
+    """The map tells who is near to whom, and the sheets of each are drawn."""
+    page.hover("#neighbours rect[data-own='1'][data-other='0']")
+    assert page.inner_text("#pointed") == "1’s right values earn 80 % on the sheet of 2"
+    assert page.inner_text("#closest") == "Closest: 1’s right values earn 80 % on the sheet of 2."
+    page.click("#students tbody tr:nth-child(5) button")
+    page.wait_for_selector("#student-pages img", timeout=LONG)
+    assert page.inner_text("#student") == "Student 5: n = 5"
+    pages = page.locator("#student-pages img")
+    assert pages.count() == 2
+    wide = "image => image.decode().then(() => image.naturalWidth / image.naturalHeight)"
+    assert pages.first.evaluate(wide) == pytest.approx(420 / 297, abs=0.01)
+    assert not barred(page)
+
+
+def test_a_lab_is_begun_beside_any_scene(page, served):
+    page.goto(f"{served.address}?empty=yes")
+    page.click("#lab")
+    told = page.locator("#fairness.wrong", has_text="expected")
+    told.wait_for(timeout=LONG)
+    page.goto(f"{served.address}")
+    page.wait_for_selector("body[data-settled=true]")
+    page.click("#lab")
+    page.locator("#fairness", has_text="of 1000 variants are fair").wait_for(timeout=LONG)
+    assert "[variants.draw]" in page.input_value("#rules")
+    assert page.input_value("#file") == "new/scene.toml"
+    assert page.inner_text("#rules-count") == "No mistakes."
+    page.fill("#rules", page.input_value("#rules").replace("segment = 5", "segment = -5"))
+    page.locator("#rules-part .gutter .wrong").wait_for(timeout=LONG)
+    assert page.inner_text("#rules-part .under mark") == "segment = -5"
