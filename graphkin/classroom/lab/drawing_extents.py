@@ -67,8 +67,11 @@ class VariantSheet(Struct, frozen=True, dict=True):
     @cached_property
     def plan_box(self) -> Extent:
         """The box of the plan once as large as its vectors on the mechanism, in metres."""
+        import numpy as np
+
         scale = self.plan_seconds
-        points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
+        with np.errstate(all="ignore"):  # what does not close has no plan
+            points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
         return boxes(points, len(self.seconds))
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -23,6 +23,8 @@ NUMBER = re.compile(r"(?<![\w.\"-])\d+(?:\.\d+)?(?![\w.])")
 SECTION = re.compile(r"\s*\[+\s*(\w+)")
 CHANGED = ("frame", "links", "drivers")
 """The tables whose numbers are lengths, places and laws of the driver."""
+VALUE = re.compile(r"\s*(?:\{\s*value\s*=\s*)?[\d.]+")
+"""The value of a parameter as far as it is a plain number."""
 FIXED = re.compile(r"\s*(on|turn|slide|roll|against|rolls|belt|wheel|wheels|slides)\s*=")
 """Keys whose numbers name links, or count teeth."""
 
@@ -48,7 +50,7 @@ def mended(lab: Lab, trial: LabTrial) -> Mending | None:
     with TemporaryDirectory() as folder:
         path = Path(folder) / lab.scene.name
         for change in CHANGES:
-            for mending, changed in candidates(text, change):
+            for mending, changed in candidates(text, change, lab.rule.settings):
                 path.write_text(changed, encoding="utf-8")
                 if is_fair(replace(lab, scene=path), trial):
                     return mending
@@ -63,16 +65,24 @@ def is_fair(lab: Lab, trial: LabTrial) -> bool:
         return False
 
 
-def candidates(text: str, change: float) -> Iterator[tuple[Mending, str]]:
-    """Every scene with one of its numbers larger or smaller by some percent."""
+def candidates(
+    text: str, change: float, given: Collection[str] = ()
+) -> Iterator[tuple[Mending, str]]:
+    """Every scene with one of its numbers larger or smaller by some percent; also of parameters
+    that are not ``given`` to each student the value that all have.
+    """
     lines, section = text.split("\n"), ""
     for row, line in enumerate(lines):
         if found := SECTION.match(line):
             section = found[1]
         key, equals, value = line.partition("=")
-        if section not in CHANGED or not equals or FIXED.match(line):
+        shared = section == "parameters" and key.strip() not in given
+        if not (section in CHANGED or shared) or not equals or FIXED.match(line):
             continue
         stated = value.partition("#")[0]
+        if shared:
+            found = VALUE.match(stated)
+            stated = found[0] if found else ""
         for number in NUMBER.finditer(stated):
             for factor in (1 + change / 100, 1 - change / 100):
                 old, new = number[0], f"{float(number[0]) * factor:.3g}"

@@ -175,6 +175,19 @@ def test_one_number_that_is_changed_mends_the_pump(tmp_path):
     assert not is_fair(lab, trial)
 
 
+def test_a_length_that_all_students_share_as_a_parameter_is_mended_as_well(tmp_path):
+    """But not the one that the formula gives; its new value stands on the parameter's steps."""
+    pump = read_lab("pump")
+    text = pump.scene.read_text(encoding="utf-8").replace("B-C = 25", 'B-C = "bc"')
+    shared = "[parameters]\nbc = { value = 25, min = 22, max = 29, step = 0.5 }"
+    path = tmp_path / "scene.toml"
+    path.write_text(text.replace("[parameters]", shared), encoding="utf-8")
+    lab = replace(pump, scene=path)
+    found = mended(lab, tried(lab))
+    assert found is not None
+    assert (found.old, found.new, found.text) == ("25", "25.5", shared.partition("\n")[2])
+
+
 def test_the_command_tells_proposes_and_draws(lab, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "DRAWS", 300)
     out = tmp_path / "out"
