@@ -34,10 +34,11 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
 
     Opens, for this computer alone, a page with the text of SCENE, its mistakes marked where they
     stand, a slider for each parameter, the mechanism, both plans, results, flattest crossings and
-    the independent check; all of it follows what is written and moved. Scenes and sheets are saved
-    into the current folder, and nothing outside it is read or written. Of a lab, its lab.toml stands
-    beside the scene, and how fair it is to a class is followed as well. Without SCENE it begins with
-    a choice of what to start from: pictures of the labs and of the scenes here, or an empty field.
+    the independent check; all of it follows what is written and moved. Of a lab, its lab.toml
+    stands below the scene, and how fair it is to a class is followed as well. Scenes and sheets are
+    saved into the current folder, and nothing outside it is read or written. Without SCENE it
+    begins with a choice of what to start from: pictures of the labs and of the scenes here, or an
+    empty field.
 
     The page's address holds a token that nobody else knows; it ends with this command (Ctrl+C).
 
