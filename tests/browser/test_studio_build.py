@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from PIL import Image, ImageDraw
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
@@ -227,6 +229,41 @@ def test_a_pin_dragged_onto_another_is_joined_with_it_or_told_why_not(hand):
     assert hand.text == joined
     hand.settled(lambda: hand.page.click("#undo"))
     assert "A-C" in hand.text
+
+
+def test_a_figure_is_traced_at_its_scale(hand, tmp_path):
+    """A crank of 60 mm and a rod of 200 mm are traced over a picture of theirs, on whose crank its
+    length is laid; the picture goes into no text and into no file."""
+    page, shapes = hand.page, {"O1": (100, 300), "A": (220, 180), "B": (660, 300)}
+    figure = Image.new("RGB", (800, 500), "white")
+    ImageDraw.Draw(figure).line([*shapes.values()], fill="black", width=4)
+    figure.save(tmp_path / "figure.png")
+    page.set_input_files("#picture-file", tmp_path / "figure.png")
+    page.wait_for_selector("#canvas image")
+
+    def seen(name: str) -> complex:
+        lower, upper = (page.locator("#canvas image").get_attribute(key) for key in ("y", "x"))
+        one = float(page.locator("#canvas image").get_attribute("width")) / 800
+        x, y = shapes[name]
+        return complex(float(upper) + x * one, -float(lower) - y * one)
+
+    hand.take("scale")
+    page.fill("#span", "60")
+    hand.drag("scale", seen("O1"), seen("A"))
+    assert abs(seen("A") - seen("O1")) == pytest.approx(60, rel=0.01)
+    hand.drag("shift", seen("O1"), 0)
+    assert abs(seen("O1")) < 1
+    hand.pivot(seen("O1"))
+    hand.bar("O1", seen("A"))
+    hand.bar("A", seen("B"))
+    assert "O1-A = 60" in hand.text
+    rod = abs(complex(440, 120)) / abs(complex(120, 120)) * 60
+    stated = float(re.search(r"A-B = ([\d.]+)", hand.text)[1])
+    assert stated == pytest.approx(rod, abs=5)
+    page.click("#no-picture")
+    assert page.locator("#canvas image").count() == 0
+    assert "image" not in hand.text
+    assert not barred(page)
 
 
 def test_what_is_impossible_is_told_at_the_pointer(hand):

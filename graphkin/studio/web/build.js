@@ -2,14 +2,15 @@
 
 import { replace, written } from "./editor.js";
 import { sentence } from "./mistakes.js";
-import { ask, find, onSpeaking, say } from "./talk.js";
+import { ask, find, onSpeaking, say, tell } from "./talk.js";
+import { corners, onPicture, scale, shift, under } from "./underlay.js";
 
 const canvas = find("canvas");
 const svg = canvas.querySelector("svg");
 const told = find("told");
 const toggle = find("build");
 const NEAR = 10; // px within which a pin or a bar is meant
-const WIDE = 160; // steps of the grid across an empty field
+const WIDE = 160; // steps of the grid across an empty field, and up it
 const ROOM = 0.2; // of the mechanism's size around it
 const PIN = 6; // px
 const LETTER = 15; // px
@@ -54,21 +55,23 @@ export function building(open) {
 /** How much of the scene a pixel is. */
 const pixel = () => view.width / svg.clientWidth;
 
-/** Let all points be seen; a view that holds them stays. */
-function fit() {
-  const at = [...Object.values(sketch.points), ...sketch.ghosts.map((ghost) => ghost.at)];
+/** Let all points be seen; a view that holds them stays, unless it is to be drawn anew. */
+function fit(anew = false) {
+  const ghosts = sketch.ghosts.map((ghost) => ghost.at);
+  const at = [...Object.values(sketch.points), ...ghosts, ...corners()];
   const [width, height] = [svg.clientWidth || 1, svg.clientHeight || 1];
   const steep = height / width;
-  if (!view) view = { x: (-WIDE * sketch.grid) / 2, y: (-WIDE * sketch.grid * steep) / 2, width: WIDE * sketch.grid };
+  const wide = WIDE * sketch.grid * Math.max(1, 1 / steep);
+  view ??= { x: -wide / 2, y: (-wide * steep) / 2, width: wide };
   const edge = (3 * PIN * view.width) / width;
   const [right, lower] = [view.x + view.width, view.y + view.width * steep];
   const inside = ([x, y]) =>
     x > view.x + edge && x < right - edge && -y > view.y + edge && -y < lower - edge;
-  if (at.every(inside)) return;
+  if (!anew && at.every(inside)) return;
   const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
   const middle = (all) => (Math.min(...all) + Math.max(...all)) / 2;
   const size = (all) => (Math.max(...all) - Math.min(...all)) * (1 + 2 * ROOM);
-  const across = Math.max(size(xs), size(ys) / steep, (WIDE * sketch.grid) / 4, view.width);
+  const across = Math.max(size(xs), size(ys) / steep, (WIDE * sketch.grid) / 4, anew ? 0 : view.width);
   view = { x: middle(xs) - across / 2, y: middle(ys) - (across * steep) / 2, width: across };
 }
 
@@ -147,7 +150,7 @@ function draw(shift = {}, drawn = []) {
   const points = { ...sketch.points, ...shift };
   svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
   const marks = marksOf(sketch, points, one);
-  svg.replaceChildren(...marks, ...drawn);
+  svg.replaceChildren(...under(), ...marks, ...drawn);
 }
 
 /** Where a pointer is in the scene. */
@@ -245,7 +248,7 @@ svg.addEventListener("pointerdown", (event) => {
   if (!sketch || event.button) return;
   tellAt(event, "");
   const at = spot(event);
-  press = { at, point: pointAt(at), link: linkAt(at), ghost: ghostAt(at), tool: tool() };
+  press = { at, point: pointAt(at), link: linkAt(at), ghost: ghostAt(at), tool: tool(), last: at };
   svg.setPointerCapture(event.pointerId);
 });
 
@@ -256,8 +259,13 @@ svg.addEventListener("pointermove", (event) => {
     const goal = pointAt(at, press.point);
     draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
   }
-  if (!["bar", "plate", "block", "wheel"].includes(press.tool)) return;
-  const from = sketch.points[press.point] ?? press.at;
+  if (press.tool === "shift") {
+    shift([at[0] - press.last[0], at[1] - press.last[1]]);
+    press.last = at;
+    draw();
+  }
+  if (!["bar", "plate", "block", "wheel", "scale"].includes(press.tool)) return;
+  const from = (press.tool !== "scale" && sketch.points[press.point]) || press.at;
   const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
   const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
   const angle = Math.round((Math.atan2(dy, dx) * 360) / Math.PI) / 2;
@@ -279,7 +287,15 @@ svg.addEventListener("pointerup", (event) => {
   const dragged = away(at, from.at) > 3 * pixel();
   const end = pointAt(at);
   draw();
-  if (from.tool === "pivot") act(event, "pivot", [], at);
+  if (from.tool === "shift" && dragged) return;
+  if (from.tool === "scale" && dragged) {
+    const length = Number(find("span").value);
+    if (length > 0) {
+      scale(from.at, at, length);
+      fit(true);
+    } else tellAt(event, say("studio.how_scale"));
+    draw();
+  } else if (from.tool === "pivot") act(event, "pivot", [], at);
   else if (from.tool === "move" && from.point && dragged) {
     const goal = pointAt(at, from.point);
     if (goal) act(event, "join", [from.point, goal], at);
@@ -324,10 +340,21 @@ svg.addEventListener(
 function explain() {
   find("how").textContent = say(`studio.how_${tool()}`);
   find("driven").hidden = tool() !== "driver";
+  find("spanned").hidden = tool() !== "scale";
+  if (sketch) find("span-unit").textContent = sketch.unit;
 }
 
 find("tools").addEventListener("change", explain);
 find("tools").addEventListener("submit", (event) => event.preventDefault());
+onPicture(
+  (error) => {
+    if (error) tell(error.message, "wrong");
+    if (find("picture-tools").hidden && ["shift", "scale"].includes(tool())) find("tools").reset();
+    explain();
+    draw();
+  },
+  () => ({ ...view, height: svg.clientHeight * pixel() }),
+);
 toggle.addEventListener("click", () => building(!isBuilding()));
 new ResizeObserver(() => draw()).observe(svg);
 onSpeaking(explain);
