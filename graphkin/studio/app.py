@@ -9,6 +9,7 @@ from typing import Any
 
 from graphkin.drawing.glyphs import FILES
 from graphkin.drawing.glyphs import FOLDER as FONTS
+from graphkin.studio.guard import FRAMED
 from graphkin.studio.page_requests import MOST_BYTES, PageRequest, PageRequestError
 from graphkin.studio.session import Session
 from graphkin.studio.studio_page import page
@@ -34,6 +35,7 @@ WORK = (
     "ranges",
     "student",
     "begin",
+    "motion",
 )
 """What the page asks the desk to do."""
 
@@ -45,6 +47,7 @@ def application(session: Session) -> Any:
     app = Bottle()
     app.config["catchall"] = False  # a fault is told where the studio was started
     app.route("/", "GET", lambda: start_page(session))
+    app.route("/moving/<key:re:[a-zA-Z0-9_-]+>", "GET", lambda key: moving_page(session, key))
     app.route("/scenes", "GET", lambda: record(session.listed()))
     app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", static)
     for name in WORK:
@@ -84,6 +87,17 @@ def start_page(session: Session) -> Any:
         return answer(404, "text/plain", f"{error}\n".encode())
     words = session.words(opened.text, language if language in LANGUAGES else "")
     return answer(200, "text/html", page(opened, words).encode())
+
+
+def moving_page(session: Session, key: str) -> Any:
+    """A page that moves by itself, to stand within the page."""
+    from bottle import HTTPResponse
+
+    found = session.moving.get(key)
+    if found is None:
+        return answer(404, "text/plain", b"no such page\n")
+    headers = {"Content-Type": "text/html; charset=utf-8", **dict(FRAMED)}
+    return HTTPResponse(found.encode(), 200, headers)
 
 
 def static(name: str) -> Any:

@@ -25,12 +25,29 @@ POLICY = "; ".join(
         "font-src 'self'",
         "img-src 'self' blob:",  # the sheets of students, as the page was given them
         "connect-src 'self'",
+        "frame-src 'self'",
         "base-uri 'none'",
         "form-action 'none'",
         "frame-ancestors 'none'",
     )
 )
 """What a browser may load with the page: nothing from outside, nothing written into it."""
+OWN_POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'unsafe-inline'",
+        "style-src 'unsafe-inline'",
+        "img-src data:",
+        "font-src data:",
+        "sandbox allow-scripts",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'self'",
+    )
+)
+"""What a page that moves by itself may do within the page: run, without a name of its own, so that
+it reaches neither the page around it nor the server."""
+FRAMED = (("Content-Security-Policy", OWN_POLICY), ("X-Frame-Options", "SAMEORIGIN"))
 HEADERS = (
     ("Content-Security-Policy", POLICY),
     ("Cache-Control", "no-store"),
@@ -67,7 +84,9 @@ class Guard:
         """Answer a request, or refuse it."""
 
         def guarded(status: str, headers: list[tuple[str, str]], *rest: Any) -> Any:
-            return start(status, [*headers, *HEADERS], *rest)
+            known = {name for name, _ in headers}
+            own = [header for header in HEADERS if header[0] not in known]
+            return start(status, [*headers, *own], *rest)
 
         path = self.path(environ)
         if path is None:

@@ -12,6 +12,7 @@ from typing import Any
 from msgspec import Struct, to_builtins
 
 from graphkin.classroom.lab.new_lab import START, rules_for
+from graphkin.classroom.page_documents import hand_out_page
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -27,6 +28,7 @@ from graphkin.studio.folder import (
     shipped_text,
     stem_of,
 )
+from graphkin.studio.guard import new_token
 from graphkin.studio.lab_panel import lab_advice, lab_report
 from graphkin.studio.lab_work import LabProblems, LabTexts, beside, proposal_of, trial_of
 from graphkin.studio.look import Sight, look, spoken_in, told
@@ -60,6 +62,25 @@ FIRST = "graphkin ="
 """How the first line of a scene begins."""
 
 
+def with_curves(mechanism: Mechanism, stem: str, language: str) -> str:
+    """The page of a cycle: mechanism, plans and curves that move together."""
+    from graphkin.motion.cycle import cycle
+    from graphkin.web.frames import motion
+    from graphkin.web.player import player_page
+
+    spoken = spoken_in(language)
+    return player_page(motion(cycle(mechanism), spoken), spoken)
+
+
+def step_by_step(mechanism: Mechanism, stem: str, language: str) -> str:
+    """The page that draws itself, whose pins are dragged."""
+    return hand_out_page(mechanism, stem, stem, language=language)
+
+
+MOVING_PAGES = {"curves": with_curves, "steps": step_by_step}
+MOVING = tuple(MOVING_PAGES)
+
+
 class Opened(Struct, frozen=True):
     """A text to begin with, and the name of the file as which it would be saved.
 
@@ -88,6 +109,7 @@ class Session:
         self.busy = False
         self.newest: OrderedDict[str, int] = OrderedDict()
         self.memories: dict[str, Memory] = {}
+        self.moving: OrderedDict[str, str] = OrderedDict()
 
     def words(self, text: str, chosen: str = "") -> Words:
         """The words of the page: those chosen on it or at the start, else the scene's own."""
@@ -227,6 +249,23 @@ class Session:
             problems = [told(mark) for mark in marked(error.problems, text)]
             return {"sheets": [], "problems": problems}
         return {"sheets": [data.decode("utf-8") for data in sheets.values()], "problems": []}
+
+    def motion(self, order: PageRequest) -> dict[str, Any]:
+        """Where the page of a mechanism that moves is found: with curves, or step by step."""
+        text, stem = order.scene(), stem_of(order.text("name"))
+        language, kind = order.choice("language", LANGUAGES), order.choice("page", MOVING)
+        try:
+            mechanism = Mechanism(read_text(text, stem, None, order.settings()))
+            with self.drawing():
+                page = MOVING_PAGES[kind](mechanism, stem, language)
+        except GraphkinError as error:
+            problems = [told(mark) for mark in marked(error.problems, text)]
+            return {"page": "", "problems": problems}
+        key = new_token()
+        self.moving[key] = page
+        while len(self.moving) > TABS:
+            self.moving.popitem(last=False)
+        return {"page": f"moving/{key}", "problems": []}
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
         """A lab.toml to start from, for any scene; or why there can be none."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from html import escape
+from math import inf
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
@@ -251,7 +252,7 @@ def record(
     driven, sweep = moved.driven, motion.cycle.sweep
     low, high = moved.reach.low, moved.reach.high
     if not moved.reach.whole:
-        shift = driven.start - place_in(motion.cycle, motion.low, motion.high) / driven.metres
+        shift = shift_of(motion, moved)
         low = max(low, motion.low / driven.metres + shift)
         high = min(high, motion.high / driven.metres + shift)
     unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
@@ -270,7 +271,34 @@ def record(
         "vectors": [[*map(placed_label, names)] for names in named],
         "panes": [panes(set_up, sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
         "senses": worded(sheets, words),
+        "notable": [*notable(motion, words, driven.metres, shift_of(motion, moved))],
     }
+
+
+def shift_of(motion: FrameSequence, moved: Moving) -> float:
+    """How far a place of the driver as the page tells it lies from that of the cycle."""
+    place = place_in(motion.cycle, motion.low, motion.high)
+    return moved.driven.start - place / moved.driven.metres
+
+
+def notable(
+    motion: FrameSequence, words: Words, metres: float, shift: float
+) -> Iterator[tuple[float, str]]:
+    """Where the driver stands in dead and change points, those at the ends included, and where in
+    what is shown a follower turns back.
+
+    A driver that turns without end comes there once in each turn.
+    """
+    from graphkin.motion.follower_limits import followers
+
+    cycle, whole = motion.cycle, motion.cycle.path.whole
+    low, high = (-inf, inf) if whole else (motion.low, motion.high)
+    told = [(each.at, words(f"animation.{each.kind}")) for each in cycle.singulars]
+    for each in followers(cycle):
+        back = words("animation.turns_back", name=each.name)
+        told += [(limit.at, back) for limit in each.limits if low <= limit.at <= high]
+    for at, said in sorted(told):
+        yield round(at / metres + shift, 6), said
 
 
 def worded(sheets: Sequence[ScreenSheet], words: Words) -> dict[str, Sequence[str]]:

@@ -432,3 +432,25 @@ def test_axe_finds_nothing_against_the_page(studio):
     page.keyboard.press("Escape")
     page.click("#sheets")
     assert not barred(page)
+
+
+def test_the_mechanism_is_moved_within_the_page(studio):
+    """Played by its driver beside its curves, led to a dead point, and dragged step by step; what
+    is written is followed."""
+    page = studio()
+    page.click("#move")
+    moving = page.frame_locator("#moving")
+    dead = moving.locator("#notable button").first
+    dead.click(timeout=LONG)
+    assert dead.get_attribute("title").startswith("−32.6°: dead point")
+    low = moving.locator("#told").inner_text()
+    moving.locator("#play").click()
+    page.wait_for_timeout(300)
+    moving.locator("#play").click()
+    assert moving.locator("#told").inner_text() != low
+    page.fill("#text", page.input_value("#text").replace('"Pump mechanism"', '"Pump of mine"'))
+    moving.locator("h1", has_text="Pump of mine").wait_for(timeout=LONG)
+    page.check("#motion-kind [value=steps]")
+    moving.locator("#turn").wait_for(timeout=LONG)
+    page.click("#move")
+    assert page.locator("#mechanism").is_visible()

@@ -222,6 +222,7 @@ def test_every_sentence_is_used():
     unused -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
     unused -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
     unused -= {f"studio.limit_{limit}" for limit in LIMITS}
+    unused -= {f"animation.{kind}" for kind in ("dead", "change")}
     assert not unused, " ".join(sorted(unused))
 
 

@@ -143,6 +143,26 @@ def test_no_other_file_comes(served, path):
     assert b"root:" not in data
 
 
+@pytest.mark.parametrize("page", ["curves", "steps"])
+def test_a_page_that_moves_stands_within_the_page_and_reaches_nothing(served, page):
+    """It runs in a sandbox without a name of its own, in no other page, and loads nothing."""
+    order = json.dumps({"text": PUMP, "name": "pump.toml", "page": page})
+    found = json.loads(asked(served, "POST", "motion", order, **JSON)[1])
+    answer, data = asked(served, "GET", found["page"])
+    assert answer.status == 200
+    assert b"<html" in data
+    policy = answer.headers["Content-Security-Policy"].split("; ")
+    assert len(answer.headers.get_all("Content-Security-Policy")) == 1
+    assert {"default-src 'none'", "sandbox allow-scripts", "frame-ancestors 'self'"} <= {*policy}
+    assert answer.headers["X-Frame-Options"] == "SAMEORIGIN"
+    assert answer.headers["Cache-Control"] == "no-store"
+    assert asked(served, "GET", "moving/other")[0].status == 404
+    answer, _ = asked(served, "GET", f"/{found['page']}")
+    assert answer.status == 403
+    broken = json.dumps({"text": PUMP.replace("O1-A = 30", "O1-A = 300"), "page": page})
+    assert json.loads(asked(served, "POST", "motion", broken, **JSON)[1])["problems"]
+
+
 def test_a_request_that_is_too_large_is_refused(served):
     line = HTTPConnection(HOME, served.port, timeout=30)
     line.putrequest("POST", urlsplit(served.address).path + "look")

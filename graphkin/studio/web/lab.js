@@ -12,6 +12,7 @@ const room = find("class");
 const advice = find("advice");
 let scene = () => ({}); // the scene as the page sends it
 let begun = () => {};
+let opened = () => {};
 let number = 0; // of the newest request
 let timer = 0;
 let students = [];
@@ -25,10 +26,11 @@ export const { onWriting: onWritingRules, replace: replaceRules } = rules;
 /** Whether the class is shown instead of the drawings. */
 export const inClass = () => toggle.getAttribute("aria-pressed") === "true";
 
-/** Tell the lab of the scene, and what to do when a lab.toml is begun. */
-export function labOf(fields, work) {
+/** Tell the lab of the scene, and what to do when a lab.toml is begun, and when the class is opened. */
+export function labOf(fields, beginning, opening) {
   scene = fields;
-  begun = work;
+  begun = beginning;
+  opened = opening;
 }
 
 /** Show the rules beside the scene, and how fair they are. */
@@ -45,7 +47,9 @@ export async function showClass(open) {
   toggle.setAttribute("aria-pressed", String(open));
   room.hidden = !open;
   find("seeing").classList.toggle("classroom", open);
-  if (open) await showRules();
+  if (!open) return;
+  opened();
+  await showRules();
 }
 
 /** Begin a lab.toml for a scene that has none. */

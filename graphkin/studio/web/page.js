@@ -1,12 +1,13 @@
 // The page: what is written or moved is asked of the studio, and what it answers is shown.
 
-import { building, onBuilding, placesFields, showSketch } from "./build.js";
+import { building, isBuilding, onBuilding, placesFields, showSketch } from "./build.js";
 import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
 import { change, onWriting, replace, showProblems, written } from "./editor.js";
 import { historyOf } from "./history.js";
 import { inClass, labOf, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
 import { counted, sentence } from "./mistakes.js";
+import { inMotion, motionOf, moveSoon, showMotion } from "./motion.js";
 import { forgetMoves, held as isHeld, markSliders, onMoving, setMoves, settings, showSliders, writing } from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
 
@@ -53,6 +54,7 @@ async function look(quick) {
     document.body.dataset.shown = String(own);
     if (own === number && !timer) document.body.dataset.settled = String(!quick);
     unsaved();
+    if (!quick) moveSoon();
     return true;
   } catch (error) {
     tell(error.message, "wrong");
@@ -332,9 +334,14 @@ function asLab() {
 
 safe = texts();
 recall();
-labOf(scene, asLab);
+labOf(scene, asLab, () => inMotion() && showMotion(false));
+motionOf(scene, () => {
+  if (inClass()) showClass(false);
+  if (isBuilding()) building(false);
+});
 onBuilding(() => {
   if (inClass()) showClass(false);
+  if (inMotion()) showMotion(false);
   look(false);
 });
 const query = new URLSearchParams(location.search);

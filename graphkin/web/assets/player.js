@@ -197,6 +197,17 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
   act();
 });
+// The dead points and turning points beneath the slider: each leads to its place, or as near as is shown.
+for (const [at, words] of data.notable) {
+  const turned = data.degrees && !data.back ? data.low + ((((at - data.low) % 360) + 360) % 360) : at;
+  const place = Math.min(Math.max(turned, data.low), data.high);
+  const tick = document.createElement("button");
+  tick.title = `${written(turned, span > 50 ? 1 : 2)}${data.unit}: ${words}`;
+  tick.setAttribute("aria-label", tick.title);
+  tick.style.setProperty("--part", (place - data.low) / span);
+  tick.addEventListener("click", () => rest(place));
+  byId("notable").append(tick);
+}
 slider.min = data.low;
 slider.max = data.high;
 slider.step = span / 720;

@@ -1,0 +1,67 @@
+// The mechanism as it moves, with its curves or step by step: a page of its own within the page.
+
+import { sentence } from "./mistakes.js";
+import { ask, find, onSpeaking, say } from "./talk.js";
+
+const LAST = 1e6; // a step beyond all: everything is drawn
+const REST = 500; // ms without a change before the page is drawn anew
+const toggle = find("move");
+const frame = find("moving");
+const told = find("motion-told");
+let scene = () => ({}); // the scene as the page sends it
+let timer = 0;
+let number = 0; // of the newest request
+let shown = ""; // of what the page is shown
+
+/** Whether the motion is shown instead of the drawings. */
+export const inMotion = () => toggle.getAttribute("aria-pressed") === "true";
+
+/** Tell the motion of the scene, and what to do when it is opened. */
+export function motionOf(fields, opened) {
+  scene = fields;
+  toggle.addEventListener("click", () => {
+    if (!inMotion()) opened();
+    showMotion(!inMotion());
+  });
+}
+
+/** Show the motion or the drawings. */
+export function showMotion(open) {
+  toggle.setAttribute("aria-pressed", String(open));
+  find("motion").hidden = !open;
+  find("seeing").classList.toggle("moved", open);
+  if (open) moveSoon(0);
+}
+
+/** Draw the motion when nothing has changed for a while. */
+export function moveSoon(pause = REST) {
+  clearTimeout(timer);
+  if (inMotion()) timer = setTimeout(moving, pause);
+}
+
+async function moving() {
+  const fields = { ...scene(), page: find("motion-kind").elements.page.value };
+  const now = JSON.stringify(fields);
+  if (now === shown) return;
+  const own = ++number;
+  told.textContent = say("studio.drawing_motion");
+  try {
+    const { page, problems } = await ask("motion", fields);
+    if (own !== number) return;
+    told.textContent = problems.map(sentence).join(" ");
+    if (!page) return;
+    frame.src = `${page}#step=${LAST}`;
+    frame.hidden = false;
+    shown = now;
+  } catch (error) {
+    told.textContent = error.message;
+  }
+}
+
+find("motion-kind").addEventListener("change", () => moveSoon(0));
+find("motion-kind").addEventListener("submit", (event) => event.preventDefault());
+onSpeaking(() => {
+  frame.title = say("studio.motion");
+  shown = "";
+  moveSoon(0);
+});
