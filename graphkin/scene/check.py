@@ -15,6 +15,7 @@ from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slid
 from graphkin.scene.quantity import shortest
 from graphkin.scene.read_cams import check_cams
 from graphkin.scene.read_profiles import check_profiles
+from graphkin.text.errors import Hint, Mend
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -156,7 +157,9 @@ def check_rolling(
         if rolling.belt is not None:
             expected = 'a wheel there: wheel = { centre = "P", radius = … }'
         wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
-        hint = f"did you mean on = {quoted(wheels[0])}?" if len(wheels) == 1 else ""
+        hint: Hint = ""
+        if len(wheels) == 1:
+            hint = Mend(f"on = {quoted(rolling.on)}", f"on = {quoted(wheels[0])}")
         findings.add(
             place,
             f"{named(rolling.on)} has no wheel to {'run' if rolling.belt else 'roll'} on",

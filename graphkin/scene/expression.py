@@ -14,6 +14,7 @@ from threading import Lock
 from typing import NamedTuple, NoReturn
 
 from graphkin.scene.findings import shown, visible
+from graphkin.text.errors import Hint, Mend
 
 FUNCTIONS = ("sqrt", "sin", "cos", "tan")
 """Functions of one number; sine, cosine and tangent take degrees."""
@@ -54,7 +55,7 @@ REST = re.compile(r"\bmod\b")
 class UnreadableError(ValueError):
     """An expression or a number that cannot be read: what was found, and a hint."""
 
-    def __init__(self, found: str, hint: str = "") -> None:
+    def __init__(self, found: str, hint: Hint = "") -> None:
         super().__init__(found)
         self.found = found
         self.hint = hint
@@ -115,14 +116,16 @@ def parse(text: str, *, counting: bool = False) -> Tree:
     return convert(body, flat, 0)
 
 
-def unit_hint(text: str) -> str:
+def unit_hint(text: str) -> Hint:
     """How to write a number that has a unit behind it; empty where it has none."""
     measured = MEASURED.fullmatch(text.strip())
     rest = measured[1].strip() if measured else ""
     if not measured or not rest or rest[-1] in "+-*/(":
         return ""
     hint = f"the unit is stated once in units: write {rest}"
-    return hint if len(measured[2]) > 1 or measured[2] == "°" else f"{hint}; a product has its *"
+    if len(measured[2]) > 1 or measured[2] == "°":
+        return Mend(text.strip(), rest, hint)
+    return f"{hint}; a product has its *"
 
 
 def refuse_foreign(text: str) -> None:
@@ -132,7 +135,11 @@ def refuse_foreign(text: str) -> None:
         raise UnreadableError(f"{shown(text.strip())} has a unit", hint)
     foreign = next((c for c in text if not (c.isascii() and c.isalnum()) and c not in MARKS), "")
     if foreign:
-        hints = {"^": "write a power as **", ",": "write a decimal point", "°": "leave out °"}
+        hints: dict[str, Hint] = {
+            "^": Mend("^", "**", "write a power as **"),
+            ",": Mend(",", ".", "write a decimal point"),
+            "°": Mend("°", "", "leave out °"),
+        }
         raise UnreadableError(f"{foreign!a} in an expression", hints.get(foreign, ""))
     if not text.strip():
         raise UnreadableError("an empty expression")

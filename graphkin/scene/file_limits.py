@@ -12,7 +12,7 @@ from graphkin.scene.expression import unit_hint
 from graphkin.scene.findings import visible
 from graphkin.scene.measures import FloatText
 from graphkin.scene.toml_faults import OPEN, UNCLOSED, advice, number_hint
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Hint, Mend, Problem, SceneError
 
 LARGEST = 256 * 1024
 """Bytes of a scene file."""
@@ -96,7 +96,7 @@ def syntax_problem(message: str, text: str) -> Problem:
         return Problem(
             f"line {line}", f"{name} is written twice", hint="write it under one heading"
         )
-    hint = ""
+    hint: Hint = ""
     if found.startswith("cannot overwrite") or "twice" in found:
         hint = "the same key or table is written above"
     lines = text.split("\n")
@@ -110,10 +110,12 @@ def syntax_problem(message: str, text: str) -> Problem:
     return Problem(f"line {line}", f"not TOML: {found}", hint=hint)
 
 
-def value_hint(line: str, at: int) -> str:
+def value_hint(line: str, at: int) -> Hint:
     """How to mend a value that TOML cannot read, from its line and the index of the fault."""
-    if re.search(r"=\s*-?\d+,\d", line):
-        return "numbers are written with a point: 37.5"
+    comma = re.search(r"=\s*(-?\d+,\d+)", line)
+    if comma:
+        pointed = comma[1].replace(",", ".")
+        return Mend(comma[1], pointed, "numbers are written with a point: 37.5")
     bare = re.sub(r'"[^"]*"|#.*', "", line)
     if any(quote in bare for quote in CURLED):
         return 'use straight quotes: "'
@@ -126,5 +128,10 @@ def value_hint(line: str, at: int) -> str:
     if re.fullmatch(r"[\d._ ]+", value):
         return ""
     if re.search(r"[\d*/+(^]|^-", value):
-        return unit_hint(value) or f'put the expression in quotes: "{visible(value)}"'
-    return number_hint(line[:begins]) or f'put the text in quotes: "{visible(value)}"'
+        return unit_hint(value) or in_quotes("expression", value)
+    return number_hint(line[:begins]) or in_quotes("text", value)
+
+
+def in_quotes(what: str, value: str) -> Mend:
+    """A value that is to stand in quotes."""
+    return Mend(value, f'"{value}"', f'put the {what} in quotes: "{visible(value)}"')

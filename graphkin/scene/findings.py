@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.text.errors import MOST, Problem, SceneError
+from graphkin.text.errors import MOST, Hint, Mend, Problem, SceneError
 
 LISTED = 12
 
 
 class Findings:
-    """All problems found so far in one scene."""
+    """All problems found so far in one scene, and the keys that each of its tables may have."""
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
+        self.known: dict[str, list[str]] = {}
 
-    def add(self, place: str, found: str, expected: str = "", hint: str = "") -> None:
+    def add(self, place: str, found: str, expected: str = "", hint: Hint = "") -> None:
         """Note one problem."""
         self.extend([Problem(place, found, expected, hint)])
 
@@ -47,7 +48,7 @@ class Table:
         self.place = place
         self.findings = findings
         self.raw = raw
-        self.known: list[str] = []
+        self.known = findings.known.setdefault(place, [])
 
     def __contains__(self, key: str) -> bool:
         return key in self.raw
@@ -117,13 +118,13 @@ def numbered(place: str, index: int, count: int) -> str:
     return f"{place}[{index}]" if count > 1 else place
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """A hint with the known name nearest to one that is not known, empty when none is near."""
+def nearest(name: str, known: Iterable[str]) -> Hint:
+    """The known name nearest to one that is not known as its mend; empty when none is near."""
     from difflib import get_close_matches
 
     folded = {candidate.lower(): candidate for candidate in known}
     close = get_close_matches(name[:60].lower(), folded, n=1, cutoff=0.5)
-    return f"did you mean {folded[close[0]]}?" if close else ""
+    return Mend(name, folded[close[0]]) if close else ""
 
 
 def listed(names: Iterable[str]) -> str:

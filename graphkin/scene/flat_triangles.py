@@ -9,6 +9,7 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import Angled, Apart, At, OnLine, Placing, Polar, Triangle
 from graphkin.scene.phrases import OnWords
 from graphkin.scene.quantity import Quantity, shortest
+from graphkin.text.errors import Mend
 
 CLOSE = 1e-12
 """Relative difference below which lengths that are not exact count as equal."""
@@ -119,12 +120,17 @@ class TriangleLayout:
         sizes = f"{shortest(far)} from {start}, and {a}-{b} is {shortest(base)}"
         end = b if start == a else a
         if words.beyond is None and far > base:
-            hint = f'did you mean "beyond {end} on {a}-{b}"?'
+            hint = instead(f"on {a}-{b}", f"beyond {end} on {a}-{b}")
             self.findings.add(length.place, f"{point} is {sizes}", f"at most {a}-{b}", hint)
         elif words.beyond == end and far < base:
-            hint = f'did you mean "on {a}-{b}"?'
+            hint = instead(f"beyond {end} on {a}-{b}", f"on {a}-{b}")
             self.findings.add(length.place, f"{point} is {sizes}", f"more than {a}-{b}", hint)
 
     def coincide(self, place: str, one: str, other: str) -> None:
         """Note two points that are one, where a line through them is meant."""
         self.findings.add(place, f"{one} and {other} lie at one spot", "a line through two points")
+
+
+def instead(old: str, new: str) -> Mend:
+    """Another phrase in place of one."""
+    return Mend(old, new, f'did you mean "{new}"?')

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
 from graphkin.scene.findings import Findings, listed, nearest, shown
 from graphkin.scene.quantity import Quantity, exact, expression
-from graphkin.text.errors import SceneError
+from graphkin.text.errors import Hint, SceneError
 
 Pair = tuple[Quantity, Quantity]
 LARGEST = 10**FARTHEST
@@ -110,7 +110,7 @@ class Measures:
             )
         return law and not unknown and TIME in self.values
 
-    def exists(self, read: Quantity, positive: bool = False, hint: str = "") -> bool:
+    def exists(self, read: Quantity, positive: bool = False, hint: Hint = "") -> bool:
         """Whether a quantity has a value now, and a positive one where it must."""
         try:
             value = read.number(self.values)

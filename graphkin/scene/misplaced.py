@@ -5,6 +5,7 @@ from __future__ import annotations
 from graphkin.scene.findings import Findings, listed, nearest
 from graphkin.scene.link_keys import LinkKeys
 from graphkin.scene.model import Side
+from graphkin.text.errors import Hint
 
 
 def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Findings) -> None:
@@ -24,7 +25,7 @@ def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Fi
         )
 
 
-def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, str]:
+def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, Hint]:
     """What one point lacks: found, expected and hint; empty when it only waits for another."""
     polar, words = sketch.polars.get(point), sketch.words.get(point)
     if polar is not None:
@@ -76,7 +77,7 @@ def bare_base(sketch: LinkKeys, point: str, placed: set[str]) -> str:
     return ""
 
 
-def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, str]:
+def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, Hint]:
     """What a point with a side or a line lacks."""
     words = sketch.words[point]
     ends = (words.first, words.second)
@@ -91,7 +92,9 @@ def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str
     return (f"{point} is on a line but nothing says how far", f"the length {' or '.join(bare)}", "")
 
 
-def unknown(sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str]) -> tuple[str, str, str]:
+def unknown(
+    sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str]
+) -> tuple[str, str, Hint]:
     """A point named in a placing that this link does not have."""
     for end in ends:
         if end not in sketch.points:

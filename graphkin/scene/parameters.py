@@ -11,7 +11,7 @@ from graphkin.scene.measures import quantity
 from graphkin.scene.model import Parameter
 from graphkin.scene.phrases import is_name
 from graphkin.scene.quantity import Quantity, exact, shortest
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Mend, Problem, SceneError
 
 MOST = 200
 
@@ -64,7 +64,7 @@ def rational(place: str, raw: object, findings: Findings) -> Quantity | None:
     except UnreadableError as error:
         found = "nothing" if raw is None else error.found
         comma = isinstance(raw, str) and "," in raw
-        hint = "write a decimal point" if comma else error.hint
+        hint = Mend(",", ".", "write a decimal point") if comma else error.hint
         findings.add(place, found, "a number", hint)
         return None
     except SceneError as error:

@@ -8,6 +8,7 @@ from msgspec import Struct
 
 from graphkin.scene.findings import Findings, nearest, shown, shown_key
 from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
+from graphkin.text.errors import Hint, Mend
 
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
@@ -132,7 +133,7 @@ def branch_words(text: str) -> Branch | None:
     return side_words(text)
 
 
-def branch_hint(raw: object) -> str:
+def branch_hint(raw: object) -> Hint:
     """How a phrase that is no branch may have been meant; empty where that cannot be told."""
     words = phrase(raw) if isinstance(raw, str) else []
     if not words:
@@ -140,7 +141,9 @@ def branch_hint(raw: object) -> str:
     ends = words[-1].split("-")
     for end in ends if len(words) == 3 and len(ends) == 2 else ():
         if re.fullmatch(r"0\w*", end) and is_name(f"O{end[1:]}"):
-            return f"{end} begins with a zero: did you mean O{end[1:]}, with the letter?"
+            meant = f"O{end[1:]}"
+            told = f"{end} begins with a zero: did you mean {meant}, with the letter?"
+            return Mend(end, meant, told)
     close = nearest(words[0], (*SIDES, *WAYS, "closure"))
     return close if words[0] not in (*SIDES, *WAYS, "closure") else ""
 

@@ -46,7 +46,7 @@ def read_driver(table: Table, measures: Measures) -> Driver | None:
         found = " and ".join(kinds) or "nothing driven"
         expected = "one of " + ", ".join(f"{kind} = LINK" for kind in KINDS)
         hints = [hint for key in table.raw if (hint := nearest(key, KINDS))]
-        measures.findings.add(table.place, found, expected, "" if kinds else " ".join(hints[:1]))
+        measures.findings.add(table.place, found, expected, "" if kinds or not hints else hints[0])
         return None
     kind = kinds[0]
     link = link_name(table.at(kind), table.take(kind), measures.findings)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ from graphkin.scene.read_joints import read_belts, read_rolls, read_slides, read
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.touching_profiles import normals
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import GraphkinError, Mend, Problem, SceneError
 
 FORMAT = 1
 """Version of the scene format that is read."""
@@ -60,7 +61,27 @@ def read_text(
     text: str, name: str, source: Path | None = None, settings: Mapping[str, object] = NO_SETTINGS
 ) -> Scene:
     """The scene in a TOML text, its parameters set; SceneError with every problem found."""
+    return read_into(Findings(), text, name, source, settings)
+
+
+def known_keys(text: str, name: str) -> dict[str, list[str]]:
+    """The keys that the reader knows in each table of a text, by the table's place, as far as the
+    text can be read: those that are written there and those that might be.
+    """
     findings = Findings()
+    with suppress(GraphkinError):
+        read_into(findings, text, name)
+    return findings.known
+
+
+def read_into(
+    findings: Findings,
+    text: str,
+    name: str,
+    source: Path | None = None,
+    settings: Mapping[str, object] = NO_SETTINGS,
+) -> Scene:
+    """The scene in a text, its problems noted; SceneError where there are any."""
     top = Table("", tables_of(text), findings)
     if not top.raw:
         found = "nothing but comments" if text.strip("\ufeff \t\r\n") else "the file is empty"
@@ -137,7 +158,7 @@ def read_units(table: Table, findings: Findings) -> dict[str, str]:
         elif raw is not None and raw != units[key]:
             spelt = str(raw).strip().lower()
             meant = SPELLINGS.get(spelt, spelt)
-            hint = f"did you mean {meant}?" if meant in choices else ""
+            hint = Mend(str(raw), meant) if meant in choices else ""
             findings.add(table.at(key), shown(raw), listed(choices), hint)
     table.finish()
     return units

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from graphkin.text.errors import Hint, Mend
+
 PARTS = "a line holds one heading in brackets, or one key = value, and a comment after #"
 VALUE = "a value is a number, a text in quotes, a list [ ] or a table { }"
 POINT = "a point has digits on both sides: 40.0, 0.5"
@@ -42,7 +44,7 @@ LAST = "'\\n'"
 """The sign that stands where a text is not closed on its line."""
 
 
-def advice(found: str, line: str, at: int, known: str = "") -> str:
+def advice(found: str, line: str, at: int, known: Hint = "") -> Hint:
     """What helps against a fault that is found in a line at an index; nothing where none is known.
 
     ``found`` is what the TOML reader says, its first letter small; ``known`` is a hint that comes
@@ -52,15 +54,16 @@ def advice(found: str, line: str, at: int, known: str = "") -> str:
     return certain(found, line, rest) or known or general(found, line[: max(at, 0)], rest)
 
 
-def certain(found: str, line: str, rest: str) -> str:
+def certain(found: str, line: str, rest: str) -> Hint:
     """What helps against a fault that can be nothing else; ``rest`` stands from the fault on."""
     if line.lstrip().startswith("[") and found.startswith("expected ']"):
         return HEADING
-    if rest.startswith(("//", ";")):
-        return COMMENT
+    comment = re.match(r"//|;", rest)
+    if comment:
+        return Mend(comment[0], "#", COMMENT)
     word = re.match(r"(True|TRUE|False|FALSE)\b", rest)
     if word:
-        return f"write {word[1].lower()}"
+        return Mend(word[1], word[1].lower(), f"write {word[1].lower()}")
     return DATE if found.startswith("invalid date") else ""
 
 

@@ -13,6 +13,7 @@ from threading import Lock
 from typing import Any, TypeVar
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges
 from graphkin.classroom.lab.lab_model import Formula, Lab
@@ -87,8 +88,8 @@ def answered(texts: LabTexts, work: Callable[[Lab], Found]) -> Found | LabProble
             return work(lab)
     except GraphkinError as error:
         parts = [(*split(problem.place), problem) for problem in error.problems]
-        own = [moved(problem, place) for file, place, problem in parts if file == LAB]
-        other = [moved(problem, place) for file, place, problem in parts if file != LAB]
+        own = [replace(problem, place=place) for file, place, problem in parts if file == LAB]
+        other = [replace(problem, place=place) for file, place, problem in parts if file != LAB]
         return LabProblems(tuple(own), tuple(other))
 
 
@@ -98,11 +99,6 @@ def split(place: str) -> tuple[str, str]:
     if colon and file in (LAB, SCENE):
         return file, rest
     return (place, "") if place in (LAB, SCENE) else ("", place)
-
-
-def moved(problem: Problem, place: str) -> Problem:
-    """A problem at another place."""
-    return Problem(place, problem.found, problem.expected, problem.hint)
 
 
 def beside(work: Callable[[LabTexts], Any], texts: LabTexts, go_on: Callable[[], None]) -> Any:

@@ -14,6 +14,7 @@ from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_text
+from graphkin.studio.editing_help import editing_help
 from graphkin.studio.panels import Memory, panels, style
 from graphkin.studio.problem_places import MarkedProblem, marked
 from graphkin.studio.result_panel import margins, results, verdict_words
@@ -47,6 +48,8 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
     ``go_on`` is called before each longer part, and may raise to end the work.
     """
     found: dict[str, Any] = {"problems": [], "sliders": []}
+    if not sight.quick:
+        found["help"] = to_builtins(editing_help(sight.text, sight.name))
     try:
         scene = read(sight)
         found["sliders"] = [to_builtins(each) for each in sliders(scene)]
@@ -129,7 +132,8 @@ def told(mark: MarkedProblem) -> dict[str, Any]:
         "place": problem.place,
         "found": problem.found,
         "expected": problem.expected,
-        "hint": problem.hint,
+        "hint": str(problem.hint),
+        "mend": mark.mend and to_builtins(mark.mend),
         "line": mark.line,
         "column": mark.column,
         "start": mark.start,

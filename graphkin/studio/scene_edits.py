@@ -5,30 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from msgspec import Struct
-
 from graphkin.scene.findings import Findings
 from graphkin.scene.parameters import plain, rational
 from graphkin.scene.quantity import shortest
-from graphkin.studio.problem_places import units
+from graphkin.studio.problem_places import Edit, units
 from graphkin.studio.toml_spans import values
 from graphkin.text.errors import SceneError
 
 LONGEST = 100
 """Signs of a value that is written."""
-
-
-class Edit(Struct, frozen=True):
-    """A piece of the text, counted as a browser does, and what comes in its place.
-
-    ``name`` is the parameter, ``before`` the value that stands there now.
-    """
-
-    start: int
-    end: int
-    text: str
-    name: str = ""
-    before: str = ""
 
 
 def edits(text: str, settings: Mapping[str, str]) -> list[Edit]:

@@ -7,13 +7,29 @@ from collections.abc import Iterable
 from msgspec import Struct
 
 
+class Mend(Struct, frozen=True):
+    """What should stand in a text instead of a piece of it; ``words`` say so in another way."""
+
+    old: str
+    new: str
+    words: str = ""
+
+    def __str__(self) -> str:
+        """Read as a question: did you mean …?"""
+        return self.words or f"did you mean {self.new}?"
+
+
+Hint = str | Mend
+"""What helps: in words, or as the change that mends it; the empty text is none."""
+
+
 class Problem(Struct, frozen=True):
     """One thing wrong at one place, in words that help to mend it."""
 
     place: str
     found: str
     expected: str = ""
-    hint: str = ""
+    hint: Hint = ""
 
     def __str__(self) -> str:
         """Read as one sentence: place: found; expected …; hint."""
@@ -21,7 +37,7 @@ class Problem(Struct, frozen=True):
         if self.expected:
             parts.append(f"expected {self.expected}")
         if self.hint:
-            parts.append(self.hint)
+            parts.append(str(self.hint))
         return "; ".join(parts)
 
 

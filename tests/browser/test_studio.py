@@ -454,3 +454,35 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     moving.locator("#turn").wait_for(timeout=LONG)
     page.click("#move")
     assert page.locator("#mechanism").is_visible()
+
+
+def test_what_is_written_is_completed_and_mended(studio):
+    """A key is offered as it is begun, a name within its quotes; what has a hint is mended with a
+    click; a mark of the mechanism leads to where it is written."""
+    page = studio()
+    before = page.input_value("#text")
+    page.locator("#mechanism .drawing [data-name='A']").last.click()
+    chosen = "text => text.value.slice(text.selectionStart, text.selectionEnd)"
+    assert page.locator("#text").evaluate(chosen) == "O1-A = 30"
+    page.keyboard.press("Control+End")
+    page.keyboard.type("[links.6]\nsl")
+    assert page.locator("#offered li").all_inner_texts() == ["slides"]
+    page.keyboard.press("Enter")
+    page.keyboard.type(" = { on = 0, thr")
+    page.keyboard.press("Tab")
+    page.keyboard.type(' = "O')
+    assert page.locator("#offered li").all_inner_texts() == ["O1", "O2"]
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    assert page.input_value("#text").endswith('slides = { on = 0, through = "O2')
+    page.fill("#text", before.replace("omega =", "omga =").replace("O1-A = 30", "O1-A = 30 cm"))
+    for _ in range(2):
+        page.locator(".mend").first.click(timeout=LONG)
+        page.wait_for_selector("body[data-settled=true]")
+    assert page.input_value("#text") == before
+    assert page.inner_text("#count") == "No mistakes."
+    colours = page.locator(".under span span").evaluate_all(
+        "all => new Set(all.map((each) => getComputedStyle(each).color)).size"
+    )
+    assert colours > 3
+    assert not barred(page)

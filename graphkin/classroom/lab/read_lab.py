@@ -30,7 +30,7 @@ from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import optional, out_of_range, plain, rational
 from graphkin.scene.quantity import Quantity, expression, shortest
 from graphkin.scene.read_scene import check_version, read_scene
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Mend, Problem, SceneError
 
 LAB, SCENE = scene_files.LAB, "scene.toml"
 USUAL, LIMITS = Rubric(), Fair()
@@ -157,7 +157,7 @@ def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
         return None
     strangers = sorted(read.uses() - {NUMBER})
     for name in strangers:
-        hint = f"did you mean {NUMBER}?"
+        hint = Mend(name, NUMBER)
         findings.add(place, f"{shown(read.text)} uses {name}", f"only {NUMBER}", hint)
     return None if strangers else read
 

@@ -89,8 +89,8 @@ class TableProblems(Findings):
 def cause_of(problem: Problem) -> tuple[str, ...]:
     """What problems share that differ in their rows and values alone."""
     if not ROW.search(problem.place):
-        return (problem.place, problem.found, problem.expected, problem.hint)
-    texts = (problem.found, problem.expected, problem.hint)
+        return (problem.place, problem.found, problem.expected, str(problem.hint))
+    texts = (problem.found, problem.expected, str(problem.hint))
     return (ROW.sub("", problem.place), *(VALUES.sub("", text) for text in texts))
 
 

@@ -23,6 +23,14 @@ export function onChoosing(work) {
   shown.addEventListener("change", work);
 }
 
+/** Call back with the name of a mark of the mechanism that is clicked. */
+export function onPointing(work) {
+  find("mechanism").addEventListener("click", ({ target }) => {
+    const mark = target.closest("#mechanism .drawing [data-name]");
+    if (mark) work(mark.dataset.name);
+  });
+}
+
 /** Put everything in its place; what cannot be drawn now stays as it was, and says so. */
 export function showDrawings(answer) {
   const drawn = answer.panels !== undefined;

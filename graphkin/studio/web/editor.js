@@ -1,7 +1,41 @@
 // A text with its lines numbered and its mistakes marked where they stand: the scene, and its lab.
 
 import { counted, matter, whereabouts } from "./mistakes.js";
-import { find, onSpeaking } from "./talk.js";
+import { find, onSpeaking, say } from "./talk.js";
+
+// What a line is made of: a comment, a text in quotes, a heading, a key, a number.
+const LOOKS = ["comment", "text", "heading", "key", "number"];
+const TOKEN =
+  /(#.*)|("(?:\\.|[^"\\])*"?|'[^']*'?)|(^\s*\[\[?[^\]#]*\]?\]?)|([\w-]+(?:\.[\w-]+)*(?=\s*=))|([+-]?\b\d[\w.]*|\b(?:true|false)\b)/g;
+
+/** The pieces of a line, each with its look; blanks and signs have none. */
+function pieces(line) {
+  const found = [];
+  let at = 0;
+  for (const match of line.matchAll(TOKEN)) {
+    if (match.index > at) found.push([line.slice(at, match.index), ""]);
+    found.push([match[0], LOOKS[match.slice(1).findIndex((part) => part !== undefined)]]);
+    at = match.index + match[0].length;
+  }
+  if (at < line.length) found.push([line.slice(at), ""]);
+  return found;
+}
+
+/** The nodes of a line from one place to another. */
+function coloured(line, from, to) {
+  const nodes = [];
+  let at = 0;
+  for (const [words, look] of pieces(line)) {
+    const part = words.slice(Math.max(from - at, 0), Math.max(to - at, 0));
+    at += words.length;
+    if (!part) continue;
+    const node = document.createElement("span");
+    node.className = look;
+    node.textContent = part;
+    nodes.push(look ? node : document.createTextNode(part));
+  }
+  return nodes;
+}
 
 /** The editor in a part of the page. */
 export function editorOf(part) {
@@ -73,7 +107,8 @@ export function editorOf(part) {
     list.replaceChildren(...problems.map(item));
   }
 
-  /** The same text beneath, transparent, line by line, with what is wrong underlined. */
+  /** The same text beneath, line by line, in its colours, with what is wrong underlined: it is this
+   * that is seen, and the text above that is written. */
   function underline(problems) {
     let start = 0;
     const lines = text.value.split("\n").map((words) => {
@@ -83,11 +118,12 @@ export function editorOf(part) {
         const [from, to] = [problem.start - start, problem.end - start];
         if (!problem.line || from < at || from > words.length) continue;
         const mark = document.createElement("mark");
-        mark.textContent = words.slice(from, to) || " ";
-        line.append(words.slice(at, from), mark);
+        mark.append(...coloured(words, from, to));
+        if (!mark.firstChild) mark.textContent = " ";
+        line.append(...coloured(words, at, from), mark);
         at = to;
       }
-      line.append(words.slice(at));
+      line.append(...coloured(words, at, words.length));
       start += words.length + 1;
       return line;
     });
@@ -109,13 +145,25 @@ export function editorOf(part) {
       body.addEventListener("click", () => go(problem));
     }
     entry.append(body);
+    if (problem.mend) {
+      const mend = document.createElement("button");
+      mend.type = "button";
+      mend.className = "mend";
+      const { before, text: after } = problem.mend;
+      mend.textContent = after
+        ? say("studio.write_instead", { before, after })
+        : say("studio.leave_out", { before });
+      mend.addEventListener("click", () => change([problem.mend]));
+      entry.append(mend);
+    }
     return entry;
   }
 
-  /** Go to a problem: its key selected, its line in the middle. */
-  function go({ line, start, end }) {
+  /** Go to a piece of the text: it is selected, its line in the middle. */
+  function go({ start, end }) {
     text.focus();
     text.setSelectionRange(start, end);
+    const line = text.value.slice(0, start).split("\n").length;
     const number = gutter.children[line - 1];
     const middle = number.offsetTop + number.offsetHeight / 2;
     text.scrollTop = middle - text.clientHeight / 2;
@@ -147,8 +195,28 @@ export function editorOf(part) {
   onSpeaking(() => (shown = ""));
   forget();
 
-  return { text, written, onWriting, showProblems, change, replace };
+  /** Where the writing mark stands: a rectangle on the screen. */
+  function caret() {
+    const before = text.value.slice(0, text.selectionStart);
+    const row = before.split("\n").length - 1;
+    const line = under.children[row];
+    let left = before.length - before.lastIndexOf("\n") - 1;
+    const walk = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
+    while (walk.nextNode()) {
+      if (left <= walk.currentNode.length) {
+        const range = document.createRange();
+        range.setStart(walk.currentNode, left);
+        return range.getBoundingClientRect();
+      }
+      left -= walk.currentNode.length;
+    }
+    return line.getBoundingClientRect();
+  }
+
+  return { text, written, onWriting, showProblems, change, replace, go, caret };
 }
 
+export const scene = editorOf(find("scene-part"));
+
 /** The text of the scene. */
-export const { written, onWriting, showProblems, change, replace } = editorOf(find("scene-part"));
+export const { written, onWriting, showProblems, change, replace, go } = scene;

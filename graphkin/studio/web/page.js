@@ -1,9 +1,10 @@
 // The page: what is written or moved is asked of the studio, and what it answers is shown.
 
 import { building, isBuilding, onBuilding, placesFields, showSketch } from "./build.js";
+import { showHelp } from "./completion.js";
 import { agreed, choose, saved, saveSheets } from "./dialogs.js";
-import { onChoosing, onMechanism, showDrawings } from "./drawings.js";
-import { change, onWriting, replace, showProblems, written } from "./editor.js";
+import { onChoosing, onMechanism, onPointing, showDrawings } from "./drawings.js";
+import { change, go as goTo, onWriting, replace, showProblems, written } from "./editor.js";
 import { historyOf } from "./history.js";
 import { inClass, labOf, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
 import { counted, sentence } from "./mistakes.js";
@@ -25,6 +26,7 @@ let shown = 0; // of the newest answer
 let moving = false; // a move is on its way
 let next = false; // another move has come since
 let timer = 0;
+let spots = {}; // where names stand in the text
 let back = false; // what is shown has been there before
 let wrong = []; // what is wrong with the scene as it was last looked at
 let chosen = ""; // the language, where it was chosen here
@@ -49,6 +51,8 @@ async function look(quick) {
       showSliders(answer.sliders);
     }
     markSliders(answer.problems);
+    showHelp(answer.help);
+    if (answer.help) spots = answer.help.spots;
     showDrawings(answer);
     showSketch(answer.sketch);
     document.body.dataset.shown = String(own);
@@ -278,6 +282,11 @@ for (const which of ["undo", "redo"]) {
   }
 }
 onChoosing(() => look(false));
+onPointing((name) => {
+  if (!spots[name]) return;
+  const [start, end] = spots[name];
+  goTo({ start, end });
+});
 file.addEventListener("input", state);
 find("new").addEventListener("click", () => {
   state();

@@ -1,0 +1,134 @@
+// What may be written next in a scene: keys of the table, names of points, links and parameters.
+
+import { scene } from "./editor.js";
+import { find } from "./talk.js";
+
+const MOST = 12; // that are offered at once
+const list = find("offered");
+const { text } = scene;
+let help = { keys: {}, points: [], links: [], parameters: [] };
+let begun = ""; // the part of the word that is written
+let chosen = 0;
+
+/** What is known of the text as it was last read. */
+export function showHelp(found) {
+  if (found?.points.length) help = found;
+  else if (found) help.keys = { ...found.keys, ...help.keys };
+}
+
+/** The table in which a line stands, as the reader calls it, and whether a list of tables. */
+function tableOf(lines) {
+  for (const line of lines.toReversed()) {
+    const heading = line.match(/^\s*\[\[?([^\]]+)\]/);
+    if (heading) return heading[1].replace(/["'\s]/g, "");
+  }
+  return "";
+}
+
+/** The keys that a table may have: those of one of its kind where it is a new one. */
+function keysOf(place) {
+  const plain = Object.entries(help.keys).map(([name, keys]) => [name.replace(/\[\d+\]/g, ""), keys]);
+  const same = plain.filter(([name]) => name === place).flatMap(([, keys]) => keys);
+  if (same.length) return same;
+  const [depth, first, last] = [place.split(".").length, place.split(".")[0], place.split(".").at(-1)];
+  const alike = plain.filter(([name]) => {
+    const parts = name.split(".");
+    return parts.length === depth && parts[0] === first && (depth < 3 || parts.at(-1) === last);
+  });
+  return alike.flatMap(([, keys]) => keys).filter((key) => /^[a-z]+$/.test(key));
+}
+
+/** What may stand at the writing mark: the words, and how much of one is written. */
+function offers() {
+  const before = text.value.slice(0, text.selectionStart);
+  const lines = before.split("\n");
+  const line = lines.pop();
+  const word = line.match(/[\w-]*$/)[0];
+  const ahead = line.slice(0, line.length - word.length);
+  if (/#/.test(ahead.replace(/"[^"]*"/g, ""))) return [word, []];
+  const within = ahead.match(/([\w.-]+)\s*=\s*\{[^}]*$/);
+  const inTable = within && !/=\s*[^,{]*$/.test(ahead.slice(ahead.lastIndexOf("{")));
+  if (inTable) return [word, keysOf([tableOf(lines), within[1]].filter(Boolean).join("."))];
+  if (/^\s*$/.test(ahead)) return [word, keysOf(tableOf(lines))];
+  if (/^\s*\[\[?$/.test(ahead)) return [word, keysOf("")];
+  if (!/=/.test(ahead)) return [word, []];
+  const part = word.match(/\w*$/)[0];
+  const quoted = (ahead.match(/"/g) ?? []).length % 2 === 1;
+  return quoted ? [part, [...help.points, ...help.parameters, ...help.links]] : [part, help.links];
+}
+
+/** Offer what begins as the word at the writing mark; all of it where it is asked for. */
+function offer(asked = false) {
+  const [word, known] = offers();
+  const low = word.toLowerCase();
+  const begins = known.filter((each) => each.toLowerCase().startsWith(low) && each !== word);
+  const found = [...new Set(begins)].slice(0, MOST);
+  if (!found.length || !(word || asked)) return close();
+  begun = word;
+  chosen = 0;
+  list.replaceChildren(
+    ...found.map((each, i) => {
+      const item = document.createElement("li");
+      item.role = "option";
+      item.id = `offered-${i}`;
+      item.textContent = each;
+      item.addEventListener("pointerdown", (event) => {
+        event.preventDefault();
+        chosen = i;
+        take();
+      });
+      return item;
+    }),
+  );
+  const at = scene.caret();
+  list.hidden = false;
+  list.style.left = `${Math.min(at.left, innerWidth - list.offsetWidth - 8)}px`;
+  const below = at.bottom + 2;
+  list.style.top = `${below + list.offsetHeight < innerHeight ? below : at.top - list.offsetHeight - 2}px`;
+  text.setAttribute("aria-controls", "offered");
+  mark();
+}
+
+function mark() {
+  [...list.children].forEach((item, i) => item.setAttribute("aria-selected", String(i === chosen)));
+  text.setAttribute("aria-activedescendant", `offered-${chosen}`);
+  list.children[chosen].scrollIntoView({ block: "nearest" });
+}
+
+function close() {
+  list.hidden = true;
+  text.removeAttribute("aria-activedescendant");
+}
+
+/** Write the chosen word in place of what was begun. */
+function take() {
+  const end = text.selectionStart;
+  const word = list.children[chosen].textContent;
+  close();
+  scene.change([{ start: end - begun.length, end, text: word }]);
+}
+
+text.addEventListener("input", ({ inputType }) => (inputType === "insertText" ? offer() : close()));
+text.addEventListener("blur", close);
+text.addEventListener("pointerdown", close);
+text.addEventListener("scroll", close, { passive: true });
+text.addEventListener("keydown", (event) => {
+  if (event.key === " " && event.ctrlKey) {
+    event.preventDefault();
+    offer(true);
+    return;
+  }
+  if (list.hidden) return;
+  const many = list.children.length;
+  const acts = {
+    ArrowDown: () => ((chosen = (chosen + 1) % many), mark()),
+    ArrowUp: () => ((chosen = (chosen + many - 1) % many), mark()),
+    Enter: take,
+    Tab: take,
+    Escape: close,
+  };
+  if (event.key in acts) {
+    event.preventDefault();
+    acts[event.key]();
+  } else if (["ArrowLeft", "ArrowRight", "Home", "End"].includes(event.key)) close();
+});

@@ -1,0 +1,111 @@
+"""What helps to write: keys that the reader knows, mends that mend, names where they stand."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from typing import Any
+
+import pytest
+
+from graphkin.studio.editing_help import editing_help, every_key
+from graphkin.studio.problem_places import Edit
+from graphkin.text.errors import Mend
+from tests.studio.test_places import PUMP, SCENES, mistakes, selected_span
+
+KINDS = re.compile(r"\[\d+\]")
+
+
+def tables(value: Any, place: str = "") -> list[tuple[str, set[str]]]:
+    """The tables of a tree by their places, each with its keys."""
+    if isinstance(value, list):
+        return [each for inner in value for each in tables(inner, place)]
+    if not isinstance(value, dict):
+        return []
+    found = [(place, set(value))]
+    for key, inner in value.items():
+        found += tables(inner, f"{place}.{key}" if place else key)
+    return found
+
+
+def kind_of(place: str) -> str:
+    """The place of a table of the same kind: that of any link, any parameter."""
+    parts = place.split(".")
+    if parts[0] in ("links", "parameters") and len(parts) > 1:
+        parts[1] = {"links": "1", "parameters": "n"}[parts[0]]
+    return ".".join(parts)
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_every_key_that_a_scene_uses_is_offered(path):
+    """But for names: of points, links, parameters, titles."""
+    known: dict[str, set[str]] = {}
+    for place, keys in every_key().items():
+        known.setdefault(kind_of(KINDS.sub("", place)), set()).update(keys)
+    names = ("links", "parameters", "branches", "names", "frame.", ".start", ".turns")
+    for place, keys in tables(tomllib.loads(path.read_text(encoding="utf-8"))):
+        words = {key for key in keys if re.fullmatch("[a-z]{2,}", key)}
+        if place in names or place.endswith(names) or place.startswith(("names.", "frame.")):
+            continue
+        assert words <= known[kind_of(place)], place
+
+
+WRONG = [
+    ("omega = [2", "omga = [2"),
+    ("O1-A = 30", "O1-A = 30 cm"),
+    ("O1-A = 30", "O1-A = 30,5"),
+    ("O1-A = 30", 'O1-A = "30,5"'),
+    ('"30 + 2*n"', '"30 + 2*n^2"'),
+    ('"30 + 2*n"', '"30 + 2*nn"'),
+    ('"30 + 2*n"', "30 + 2*n"),
+    ('"right of A-O2"', '"rigth of A-O2"'),
+    ('"right of A-O2"', '"right of A-02"'),
+    ('"cm"', '"centimetres"'),
+    ('velocity = ["D"]', 'velocity = ["d"]'),
+    ('through = "O1"', 'trough = "O1"'),
+    ("turn = 1", "turn = 11"),
+    ("# crank", "// crank"),
+    ('language = "ro"', 'language = "rom"'),
+]
+
+
+@pytest.mark.parametrize(("right", "wrong"), WRONG)
+def test_a_mend_leaves_its_mistake_behind(right, wrong):
+    """What is proposed, put into the text, takes the mistake away, and brings no other."""
+    text = PUMP.replace(right, wrong, 1)
+    before = mistakes(text)
+    mended = [mark for mark in before if mark.mend]
+    assert mended, [str(mark.problem) for mark in before]
+    after = applied(text, mended[0].mend)
+    left = {str(mark.problem) for mark in mistakes(after)}
+    assert left < {str(mark.problem) for mark in before}
+
+
+def applied(text: str, edit: Edit) -> str:
+    """A text after an edit, as a browser makes it."""
+    data = text.encode("utf-16-le")
+    return (data[: 2 * edit.start] + edit.text.encode("utf-16-le") + data[2 * edit.end :]).decode(
+        "utf-16-le"
+    )
+
+
+def test_no_change_is_offered_where_it_is_not_clear_which_piece_is_meant():
+    (mark,) = mistakes(PUMP.replace('"30 + 2*n"', '"nn + 2*nn"'))
+    assert isinstance(mark.problem.hint, Mend)
+    assert mark.mend is None
+
+
+def test_names_are_found_where_they_are_written():
+    found = editing_help(PUMP, "pump")
+    assert found.points == ["O1", "O2", "A", "B", "C", "D"]
+    assert found.links == ["1", "2", "3", "4", "5"]
+    assert found.parameters == ["n"]
+    told = {name: selected_span(PUMP, *spot) for name, spot in found.spots.items()}
+    assert told["AB"] == "A-B = 40"
+    assert told["3"] == "[links.3]"
+    assert told["O2"] == "O2 = [0, -30]"
+    assert told["C"] == "A-C = 20"
+
+
+def test_a_text_that_is_no_toml_still_has_its_keys():
+    assert "through" in editing_help("[links.1]\nslides = { on", "x").keys["links.1.slides"]
