@@ -159,10 +159,11 @@ class Session:
             order.choice("mechanism", SHEETS),
             order.flag("quick"),
         )
+        there = {"there": self.folder.holds(order.text("name"))}
         self.arrived(tab, number)
         try:
             with self.drawing(lambda: self.still_wanted(tab, number)):
-                found = look(sight, self.memory(tab), lambda: self.still_wanted(tab, number))
+                found = there | look(sight, self.memory(tab), lambda: self.still_wanted(tab, number))
                 if order.flag("building"):
                     places = order.places()
                     seen = sketch(sight.text, sight.name, places, sight.settings)

@@ -78,6 +78,7 @@ SPOKEN = (
     "studio.tool_wheel",
     "studio.tool_driver",
     "studio.tool_delete",
+    "studio.gone_from_disk",
     "studio.write_instead",
     "studio.leave_out",
     "studio.offered",

@@ -486,3 +486,14 @@ def test_what_is_written_is_completed_and_mended(studio):
     )
     assert colours > 3
     assert not barred(page)
+
+
+def test_a_scene_that_is_gone_from_the_disk_can_be_saved_anew(studio, place):
+    page = studio()
+    text = page.input_value("#text")
+    (place / "mine.toml").unlink()
+    page.fill("#text", f"{text}# more\n")
+    page.locator("#status.poor", has_text="is not on the disk any more").wait_for(timeout=LONG)
+    page.click("#save")
+    page.locator("#status", has_text="Saved: mine.toml").wait_for(timeout=LONG)
+    assert (place / "mine.toml").read_text(encoding="utf-8") == f"{text}# more\n"

@@ -57,6 +57,7 @@ async function look(quick) {
     showSketch(answer.sketch);
     document.body.dataset.shown = String(own);
     if (own === number && !timer) document.body.dataset.settled = String(!quick);
+    if (!answer.there && held.mark && held.name === file.value.trim()) gone();
     unsaved();
     if (!quick) moveSoon();
     return true;
@@ -97,9 +98,19 @@ function soon() {
 const texts = () => JSON.stringify([written(), writtenRules()]);
 const isSafe = () => texts() === safe;
 
+/** The file is not there any more: what is written is not saved, and may be. */
+function gone() {
+  held = { ...held, mark: "", rulesMark: "" };
+  safe = "";
+  tell(say("studio.gone_from_disk", { name: held.name }), "poor");
+}
+
+/** Whether something that failed, or is poor, is said at the top. */
+const isSaid = () => ["wrong", "poor"].includes(find("status").className);
+
 /** Something else is done: what had failed is said no longer. */
 function state() {
-  if (find("status").classList.contains("wrong")) tell("");
+  if (isSaid()) tell("");
   unsaved();
 }
 
@@ -131,7 +142,7 @@ function recall() {
 function unsaved() {
   keep();
   document.title = `${isSafe() ? "" : "• "}${file.value} – graphkin`;
-  if (find("status").classList.contains("wrong")) return;
+  if (isSaid()) return;
   if (!isSafe()) tell(say("studio.unsaved"));
   else if (find("status").textContent === say("studio.unsaved")) tell("");
 }
