@@ -163,7 +163,9 @@ class Session:
         self.arrived(tab, number)
         try:
             with self.drawing(lambda: self.still_wanted(tab, number)):
-                found = there | look(sight, self.memory(tab), lambda: self.still_wanted(tab, number))
+                found = there | look(
+                    sight, self.memory(tab), lambda: self.still_wanted(tab, number)
+                )
                 if order.flag("building"):
                     places = order.places()
                     seen = sketch(sight.text, sight.name, places, sight.settings)

@@ -35,6 +35,8 @@ MAXIMA = {
     for name in ("maximum grade", "nota maximă", "valutazione massima", "voto massimo", "max grade")
 }
 """Heads of the column in which Moodle's grading worksheet says what an assignment is worth."""
+GRADES = {folded(name) for name in ("grade", "notă", "valutazione", "voto")}
+"""Heads of the column in which it wants the points."""
 NOBODY = Signs()
 
 
@@ -238,7 +240,8 @@ def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counte
 
 
 def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:
-    """The column for the marks: the one that is named, else the only empty one but feedback."""
+    """The column for the marks: the one that is named, else the only empty one but feedback; of
+    several that of Moodle's own name."""
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
@@ -248,6 +251,7 @@ def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, i
         found = [
             i for i, name in enumerate(head) if name and i not in full and not is_comment(name)
         ]
+        found = [i for i in found if folded(head[i]) in GRADES] or found
     if len(found) != 1:
         words = (
             f'"{column}" is {"several columns" if found else "no column"}'

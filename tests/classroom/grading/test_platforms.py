@@ -191,6 +191,10 @@ def test_a_gradebook_without_ids_is_filled_by_addresses(tmp_path):
     found = filled(book(tmp_path, WORKSHEET), MARKS, "Grade", SIGNS)
     assert b"org,Submitted,9,10," in found.data and b"org,Submitted,7.5,10," in found.data
     assert found.worth == 10 and not found.absent
+    unnamed = filled(
+        book(tmp_path, WORKSHEET.replace("Status,", "Last modified,")), MARKS, None, SIGNS
+    )
+    assert unnamed.data == found.data.replace(b"Status,", b"Last modified,")
     with pytest.raises(GradebookError, match="no column holds ids of this class"):
         filled(book(tmp_path, WORKSHEET), MARKS, "Grade", SIGNS, "id")
     with pytest.raises(GradebookError, match="the class list has no column e-mail"):
