@@ -31,7 +31,7 @@ class ProposedRanges(Struct, frozen=True):
     count: int
     apart: float
     kept: int
-    of: int = CLASS
+    of: int
 
 
 def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
@@ -43,7 +43,7 @@ def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
     new = replace(lab, rule=Ranges(course, found.ranges), fair=replace(lab.fair, apart=apart))
     students = [Student(i, f"{i:04d}", i) for i in range(1, CLASS + 1)]
     kept = sum(each.fair for each in assigned(new, students))
-    return ProposedRanges(found.ranges, course, found.count, apart, kept)
+    return ProposedRanges(found.ranges, course, found.count, apart, kept, CLASS)
 
 
 class FormulaFaults(Struct, frozen=True):

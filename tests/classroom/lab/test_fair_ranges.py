@@ -190,6 +190,7 @@ def test_a_length_that_all_students_share_as_a_parameter_is_mended_as_well(tmp_p
 
 def test_the_command_tells_proposes_and_draws(lab, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "DRAWS", 300)
+    monkeypatch.setattr("graphkin.classroom.lab.proposed_ranges.CLASS", 12)
     out = tmp_path / "out"
     result = CliRunner().invoke(app, ["ranges", str(tmp_path), "-o", str(out)])
     assert result.exit_code == 0, result.output
