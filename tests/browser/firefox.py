@@ -30,7 +30,7 @@ PLAIN = {
 ERRORS = """return Services.console.getMessageArray()
   .filter(said => said instanceof Ci.nsIScriptError)
   .filter(said => !(said.flags & Ci.nsIScriptError.warningFlag))
-  .filter(said => said.sourceName.startsWith("file:"))
+  .filter(said => /^(file:|http:..127.0.0.1)/.test(said.sourceName))
   .map(said => said.errorMessage);"""
 
 
@@ -42,12 +42,16 @@ class Firefox:
 
     def open(self, path: Path, place: str, size: tuple[int, int], look: str = "light") -> None:
         """Open a page in a window of a size; it looks as told."""
+        self.open_address(path.as_uri() + place, size, look)
+
+    def open_address(self, address: str, size: tuple[int, int], look: str = "light") -> None:
+        """Open an address in a window of a size; it looks as told."""
         for name, value in (PLAIN | LOOKS[look]).items():
             self.client.set_pref(name, value)
         across, down = self.run(f"return {FRAME}")
         self.client.set_window_rect(width=size[0] + across, height=size[1] + down)
         self.client.navigate("about:blank")
-        self.client.navigate(path.as_uri() + place)
+        self.client.navigate(address)
 
     def run(self, script: str, *args: Any) -> Any:
         """The result of a script in the page."""
@@ -63,6 +67,11 @@ class Firefox:
         for key in keys:
             keyboard = keyboard.key_down(key).key_up(key)
         keyboard.perform()
+
+    def click(self, at: tuple[float, float]) -> None:
+        """Click a place of the window."""
+        hand = self.client.actions.sequence("pointer", "one mouse", {"pointerType": "mouse"})
+        hand.pointer_move(*map(round, at)).pointer_down().pointer_up().perform()
 
     def drag(
         self, start: tuple[float, float], end: tuple[float, float], kind: str = "mouse"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -12,11 +12,15 @@ from PIL import Image, ImageDraw
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.server import Served, serve
+from tests.browser.building_hand import (
+    LONG,
+    Hand,
+    build_pump,
+    build_slotted_lever,
+    four_bar,
+)
 from tests.browser.opening import barred
 from tests.studio.pump import desk_in, running
-
-LONG = 60_000
-"""Milliseconds after which nothing more is waited for."""
 
 
 @pytest.fixture
@@ -26,75 +30,6 @@ def served(tmp_path) -> Iterator[Served]:
     session.language = "en"
     with running(serve(session)) as found:
         yield found
-
-
-class Hand:
-    """A mouse in the field, told places in the scene's own unit."""
-
-    def __init__(self, page: Any) -> None:
-        self.page = page
-
-    def settled(self, work: Callable[[], object]) -> None:
-        """Do something that changes the text, and wait until the field shows it."""
-        page, before = self.page, self.text
-        work()
-        for _ in range(LONG // 20):
-            if self.text != before and page.get_attribute("body", "data-settled") == "true":
-                return
-            page.wait_for_timeout(20)
-        pytest.fail(f"nothing is shown; told: {page.inner_text('#told')}")
-
-    def pixel(self, at: complex) -> tuple[float, float]:
-        """Where a place of the scene is on the screen."""
-        svg = self.page.locator("#canvas svg")
-        box = svg.bounding_box()
-        left, top, width, height = map(float, svg.get_attribute("viewBox").split())
-        x = box["x"] + (at.real - left) / width * box["width"]
-        y = box["y"] + (-at.imag - top) / height * box["height"]
-        return x, y
-
-    def place(self, point: str) -> complex:
-        """Where a point is drawn."""
-        pin = self.page.locator(f"#canvas [data-point='{point}']")
-        return complex(float(pin.get_attribute("cx")), -float(pin.get_attribute("cy")))
-
-    def take(self, tool: str) -> None:
-        """Choose a tool."""
-        self.page.check(f"#tools input[value='{tool}']")
-
-    def click(self, tool: str, at: complex) -> None:
-        """Click a place with a tool."""
-        self.take(tool)
-        self.page.mouse.click(*self.pixel(at))
-
-    def drag(self, tool: str, start: complex, end: complex) -> None:
-        """Drag from a place to another with a tool."""
-        self.take(tool)
-        self.page.mouse.move(*self.pixel(start))
-        self.page.mouse.down()
-        self.page.mouse.move(*self.pixel((start + end) / 2))
-        self.page.mouse.move(*self.pixel(end))
-        self.page.mouse.up()
-
-    def pivot(self, at: complex) -> None:
-        """Set a fixed pin."""
-        self.settled(lambda: self.click("pivot", at))
-
-    def bar(self, start: str, end: complex | str) -> None:
-        """Draw a bar from a pin to another, or to a free place."""
-        goal = self.place(end) if isinstance(end, str) else end
-        self.settled(lambda: self.drag("bar", self.place(start), goal))
-
-    def driver(self, at: complex, speed: float) -> None:
-        """Drive a bar."""
-        self.take("driver")
-        self.page.fill("#speed", str(speed))
-        self.settled(lambda: self.click("driver", at))
-
-    @property
-    def text(self) -> str:
-        """The text of the scene."""
-        return self.page.input_value("#text")
 
 
 @pytest.fixture
@@ -112,45 +47,12 @@ def hand(chromium: Any, served: Served) -> Iterator[Hand]:
     assert not wrong
 
 
-def same(text: str, shipped: str, points: str) -> None:
-    """Fail unless the points of a text move as those of a shipped scene."""
-    own = Mechanism(read_text(text, "own", None, {})).solve().points
-    other = load(shipped).solve().points
-    for name in points:
-        for quantity in ("position", "velocity", "acceleration"):
-            found, meant = getattr(own[name], quantity), getattr(other[name], quantity)
-            assert abs(found - meant) < 1e-6 * max(1.0, abs(meant)), (name, quantity)
-
-
 def test_the_pump_is_built_from_an_empty_field(hand):
-    at = {name: 1000 * p.position for name, p in load("pump").solve().points.items()}
-    hand.pivot(0)
-    hand.pivot(-300j)
-    hand.bar("O1", at["A"])
-    hand.bar("O2", at["B"])
-    hand.bar("A", "B")
-    hand.settled(lambda: hand.drag("plate", (at["A"] + at["B"]) / 2, at["C"]))
-    hand.bar("C", at["D"])
-    hand.settled(lambda: hand.drag("block", hand.place("D"), hand.place("D") + 120))
-    hand.driver(0.3 * at["A"], 370)
-    assert hand.page.inner_text("#count") == "No mistakes."
-    same(hand.text, "pump", "ABCD")
+    build_pump(hand)
 
 
 def test_a_slotted_lever_is_built_from_an_empty_field(hand):
-    at = {name: 1000 * p.position for name, p in load("slotted-lever").solve().points.items()}
-    hand.pivot(0)
-    hand.pivot(-300j)
-    hand.bar("O1", at["A"])
-    hand.bar("O2", at["B"])
-    hand.settled(lambda: hand.drag("block", hand.place("A"), at["A"] + 0.5 * (at["B"] - at["A"])))
-    hand.bar("B", at["C"])
-    hand.settled(lambda: hand.drag("block", hand.place("C"), hand.place("C") + 150))
-    hand.driver(0.5 * at["A"], 64)
-    assert hand.page.inner_text("#count") == "No mistakes."
-    points = Mechanism(read_text(hand.text, "own", None, {})).solve().points
-    assert abs(points["B"].position - at["B"] / 1000) < 1e-6
-    same(hand.text, "slotted-lever", "ABC")
+    build_slotted_lever(hand)
 
 
 def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
@@ -167,18 +69,6 @@ def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
     assert turned == pytest.approx([-0.5, 1 + 1.5 * 1.5])
     assert hand.page.locator("#canvas circle.wheel").count() == 2
     assert not barred(hand.page)
-
-
-def four_bar(hand: Hand) -> None:
-    """Build the four-bar of a Watt chain with a coupler point."""
-    hand.pivot(0)
-    hand.pivot(220)
-    hand.bar("O1", 40 + 70j)
-    hand.bar("O2", 250 + 150j)
-    hand.bar("A", "B")
-    middle = (hand.place("A") + hand.place("B")) / 2
-    hand.settled(lambda: hand.drag("plate", middle, 120 + 200j))
-    hand.driver(0.5 * hand.place("A"), 57)
 
 
 def test_a_four_bar_is_built_changed_and_taken_back(hand):

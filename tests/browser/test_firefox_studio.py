@@ -1,0 +1,108 @@
+"""The studio in Firefox: mechanisms built in its field by the mouse alone, moved, and completed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from time import sleep
+from typing import Any
+
+import pytest
+
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.studio.server import Served, serve
+from tests.browser.building_hand import Hand, build_pump, build_slotted_lever, four_bar
+from tests.browser.firefox import Firefox, _no_errors, firefox  # noqa: F401
+from tests.studio.pump import desk_in, running
+
+FIELD = """const svg = document.querySelector("#canvas svg"), box = svg.getBoundingClientRect();
+return [box.x, box.y, box.width, box.height, svg.getAttribute("viewBox")];"""
+PIN = """const pin = document.querySelector(`#canvas [data-point='${arguments[0]}']`);
+return [pin.getAttribute("cx"), pin.getAttribute("cy")];"""
+TOOL = """document.querySelector(`#tools input[value='${arguments[0]}']`).click();"""
+WRITE = "document.getElementById(arguments[0]).value = arguments[1];"
+
+
+class FirefoxHand(Hand):
+    """The same hand at a window of Firefox."""
+
+    def __init__(self, window: Firefox) -> None:
+        self.window = window
+
+    def pixel(self, at: complex) -> tuple[float, float]:
+        x, y, across, down, view = self.window.run(FIELD)
+        left, top, width, height = map(float, view.split())
+        return x + (at.real - left) / width * across, y + (-at.imag - top) / height * down
+
+    def place(self, point: str) -> complex:
+        x, y = self.window.run(PIN, point)
+        return complex(float(x), -float(y))
+
+    def take(self, tool: str) -> None:
+        self.window.run(TOOL, tool)
+
+    def click(self, tool: str, at: complex) -> None:
+        self.take(tool)
+        self.window.click(self.pixel(at))
+
+    def drag(self, tool: str, start: complex, end: complex) -> None:
+        self.take(tool)
+        self.window.drag(self.pixel(start), self.pixel(end))
+
+    def write(self, field: str, value: str) -> None:
+        self.window.run(WRITE, field, value)
+
+    def wait(self) -> None:
+        sleep(0.02)
+
+    @property
+    def is_settled(self) -> bool:
+        return bool(self.window.run("return document.body.dataset.settled === 'true'"))
+
+    @property
+    def count(self) -> str:
+        return str(self.window.run("return document.getElementById('count').textContent"))
+
+    @property
+    def told(self) -> str:
+        return str(self.window.run("return document.getElementById('told').textContent"))
+
+    @property
+    def text(self) -> str:
+        return str(self.window.run("return document.getElementById('text').value"))
+
+
+@pytest.fixture
+def served(tmp_path: Any) -> Iterator[Served]:
+    """A studio in an empty folder, in English."""
+    session = desk_in(tmp_path)
+    session.language = "en"
+    with running(serve(session)) as found:
+        yield found
+
+
+@pytest.fixture
+def hand(firefox: Firefox, served: Served) -> Hand:  # noqa: F811
+    """A hand at an empty field."""
+    firefox.open_address(f"{served.address}?empty=yes", (1440, 900))
+    found = FirefoxHand(firefox)
+    for _ in range(500):
+        if found.is_settled and found.window.run(FIELD)[4]:
+            return found
+        found.wait()
+    pytest.fail("the field does not open")
+
+
+def test_the_pump_is_built(hand):
+    build_pump(hand)
+
+
+def test_a_slotted_lever_is_built(hand):
+    build_slotted_lever(hand)
+
+
+def test_a_four_bar_with_a_coupler_point_is_built(hand):
+    four_bar(hand)
+    assert hand.count == "No mistakes."
+    drawn = Mechanism(read_text(hand.text, "own", None, {})).solve().points
+    assert abs(hand.place("C") / 1000 - drawn["C"].position) < 1e-9
