@@ -20,6 +20,9 @@ return [box.x, box.y, box.width, box.height, svg.getAttribute("viewBox")];"""
 PIN = """const pin = document.querySelector(`#canvas [data-point='${arguments[0]}']`);
 return [pin.getAttribute("cx"), pin.getAttribute("cy")];"""
 TOOL = """document.querySelector(`#tools input[value='${arguments[0]}']`).click();"""
+FRAMES = """const done = arguments[arguments.length - 1];
+requestAnimationFrame(() => requestAnimationFrame(() => done(true)));"""
+"""What a tool needs shows itself, and the field takes the room that is left."""
 WRITE = "document.getElementById(arguments[0]).value = arguments[1];"
 
 
@@ -40,6 +43,7 @@ class FirefoxHand(Hand):
 
     def take(self, tool: str) -> None:
         self.window.run(TOOL, tool)
+        self.window.later(FRAMES)
 
     def click(self, tool: str, at: complex) -> None:
         self.take(tool)
