@@ -142,11 +142,15 @@ class Mechanism(Struct, frozen=True, dict=True):
         trace = self.trace(self.asked() if asked else None)
         return gathered(trace, self.scene.links)
 
-    def witness(self, solution: Solution) -> Verdict:
-        """The judgement of the independent route on a solution of this scene."""
+    def witness(self, solution: Solution, *, numbered: bool = True) -> Verdict:
+        """The judgement of the independent route on a solution of this scene.
+
+        Without ``numbered`` it does not count all closures of groups of class III and higher to
+        tell whether the stated one is drawn, which takes longer than all else.
+        """
         from graphkin.loops.witness import compare
 
-        return compare(self.scene, solution)
+        return compare(self.scene, solution, numbered=numbered)
 
     def batch(
         self,

@@ -92,7 +92,7 @@ def drawn(
     """Drawings, results, margins and the verdict; what is doubtful is drawn and said."""
     spoken = language_of(mechanism, sight.language)
     solution = shown(mechanism)
-    verdict = mechanism.witness(solution)
+    verdict = mechanism.witness(solution, numbered=not sight.quick)
     problems += doubts(solution.margin, verdict)
     held = memory.held(sight.text) if sight.quick else None
     drawings = drawings_of(mechanism, verdict, spoken, held)

@@ -9,7 +9,9 @@ from msgspec.structs import replace
 from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.witness import by_loops, compare
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
+from tests.documents.sheet_tools import mechanism_named
 from tests.scene_files import scene_text
 
 
@@ -287,3 +289,15 @@ def test_inflection_poles_are_held(pump):
         wrong = replace(held, inflection_pole=link.inflection_pole._replace(start=pole))
         verdict = compare(scene, replace(solution, links={**solution.links, name: wrong}))
         assert verdict.quantity == f"links.{name}.inflection_pole"
+
+
+def test_closures_of_a_group_of_class_three_are_counted_unless_told_not_to():
+    """The vector loops agree with each closure; that it is the stated one only counting tells."""
+    mechanism = mechanism_named("stephenson-3-crank")
+    ((name, stated),) = mechanism.scene.branches.items()
+    assert isinstance(stated, Closure)
+    other = replace(mechanism.scene, branches={name: Closure(stated.number + 1)})
+    solution = mechanism.solve()
+    assert compare(other, solution, numbered=False).agrees
+    assert compare(other, solution).branches == (name,)
+    assert compare(mechanism.scene, solution).agrees

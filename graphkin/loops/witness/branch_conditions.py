@@ -21,11 +21,13 @@ NUMBERED = 12
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
-def branch_conditions(scene: Scene, solved: LoopSolution) -> dict[str, Flags]:
+def branch_conditions(
+    scene: Scene, solved: LoopSolution, *, numbered: bool = True
+) -> dict[str, Flags]:
     """Whether each statement of [branches] holds: arrays of shape (N,).
 
     Numbers of closures, and ways of groups other than dyads, are verified on at most ``NUMBERED``
-    settings of a batch, evenly spread.
+    settings of a batch, evenly spread; not at all without ``numbered``.
     """
     found: dict[str, Flags] = {}
     stated = scene.branches.items()
@@ -40,6 +42,8 @@ def branch_conditions(scene: Scene, solved: LoopSolution) -> dict[str, Flags]:
         for group in (each for each in known if speaks_of(name, branch, each, solved.loops)):
             if isinstance(branch, Way) and group.is_dyad:
                 holds = way_of_dyad(branch, solved, group)
+            elif not numbered:
+                continue
             else:
                 holds = picked_rows(scene, branch, solved, group, name)
             found[name] = found.get(name, True) & holds

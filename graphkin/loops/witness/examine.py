@@ -29,13 +29,20 @@ from graphkin.loops.witness.differences import (
 from graphkin.scene.model import FRAME, Scene
 
 
-def compare(scene: Scene, solution: Solution, values: Mapping[str, Any] | None = None) -> Verdict:
+def compare(
+    scene: Scene,
+    solution: Solution,
+    values: Mapping[str, Any] | None = None,
+    *,
+    numbered: bool = True,
+) -> Verdict:
     """Hold one solution against the vector loops, starting Newton's method at its positions.
 
-    ``guessed`` in the verdict names the links that no position tells. Raises WitnessError where the
+    ``guessed`` in the verdict names the links that no position tells; without ``numbered`` it says
+    nothing of branches for which all closures would have to be counted. Raises WitnessError where the
     loops do not close or are singular, StructureError where drivers are missing.
     """
-    examined = examine(scene, solution, values)
+    examined = examine(scene, solution, values, numbered=numbered)
     difference, quantity, limit = examined.told(0)
     broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
     report = examined.solved.report
@@ -104,7 +111,13 @@ class Examined(Struct, frozen=True, eq=False):
         return float(worst.found[row]), name, float(max(limits))
 
 
-def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) -> Examined:
+def examine(
+    scene: Scene,
+    solution: Solution,
+    values: Mapping[str, Any] | None,
+    *,
+    numbered: bool = True,
+) -> Examined:
     """Solve the loops from the solution's positions and compare all that the solution holds.
 
     Links and accelerations of which it says nothing are left alone.
@@ -120,7 +133,7 @@ def examine(scene: Scene, solution: Solution, values: Mapping[str, Any] | None) 
     solved = closed_from(loops, start, accelerations=has_acceleration(solution), singular=True)
     with np.errstate(all="ignore"):
         differences = differing(solved, solution, breadth(solved.motion))
-        branches = branch_conditions(scene, solved)
+        branches = branch_conditions(scene, solved, numbered=numbered)
     return Examined(solved, differences, branches, guessed)
 
 
