@@ -126,7 +126,7 @@ def test_what_is_being_drawn_ends_when_something_newer_is_asked_for(tmp_path):
 
 
 def test_a_route_that_does_not_agree_is_said_aloud_and_nothing_is_handed_out(monkeypatch):
-    def doubting(self, solution):
+    def doubting(self, solution, **_):
         return Verdict(False, 0.25, "velocity of D", 1e-9, 0.0, 0.0, ("B",))
 
     monkeypatch.setattr(Mechanism, "witness", doubting)

@@ -39,8 +39,8 @@ def compare(
     """Hold one solution against the vector loops, starting Newton's method at its positions.
 
     ``guessed`` in the verdict names the links that no position tells; without ``numbered`` it says
-    nothing of branches for which all closures would have to be counted. Raises WitnessError where the
-    loops do not close or are singular, StructureError where drivers are missing.
+    nothing of branches for which all closures would have to be counted. Raises WitnessError where
+    the loops do not close or are singular, StructureError where drivers are missing.
     """
     examined = examine(scene, solution, values, numbered=numbered)
     difference, quantity, limit = examined.told(0)
