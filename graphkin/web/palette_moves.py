@@ -397,7 +397,9 @@ class MoveFinder:
             what = self.kind_of_line(number)
             given = isinstance(value, Line) and what == "guide"
             if given and (other := self.guide_alike(name, value)):
-                return other
+                if value == self.picks[other].value:
+                    return other
+                by = other
         else:
             if isinstance(kind, LaidOff) and number not in self.moves:
                 by = self.point_or_line(kind.start) or ""
@@ -417,9 +419,13 @@ class MoveFinder:
         return key
 
     def guide_alike(self, name: str, line: Any) -> str | None:
-        """A line of the same name that can be picked already, where it is the same."""
+        """A line of the same name that can be picked already, where it is the same.
+
+        It may have another zero or the other sense: where that matters, both are tried.
+        """
         for key, pick in self.picks.items():
-            if (pick.kind, pick.name) == ("guide", name) and isinstance(pick.value, Line):
+            same = (pick.kind, pick.name, pick.by) == ("guide", name, "")
+            if same and isinstance(pick.value, Line):
                 apart = cross(pick.value.along, line.point - pick.value.point)
                 turned = cross(pick.value.along, line.along)
                 sizes = abs(pick.value.along), abs(line.along), self.drawings[0].reach

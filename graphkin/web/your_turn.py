@@ -32,6 +32,7 @@ SAID = (
     "turn.say.hint",
     "turn.say.helped",
     "turn.say.complete",
+    "turn.say.part_drawn",
     "turn.say.score",
     "turn.say.alone",
     "turn.say.with_hint",

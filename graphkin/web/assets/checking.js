@@ -118,10 +118,12 @@ function make_move(step, how, words) {
   turn.fresh = [step, ...Object.entries(turning.along).filter(came).map(([one]) => Number(one))];
   turn.sheet = null;
   forget_inputs();
-  tell_turn(words);
+  const done = moves_left().every(one => part_of(one) !== part_of(step));
+  tell_turn(done ? `${words} ${worded("part_drawn", { part: part_name(step) })}` : words);
   show_turn();
-  const { at } = moves[step], whole = !moves_left().some(one => moves[one].at === at);
-  byId("turn-sentence").replaceChildren(...(whole ? copies(places[at - 1].say) : []));
+  const { at } = moves[step], rest = moves_left(), sentence = document.createElement("p");
+  if (!rest.some(one => moves[one].at === at)) sentence.append(...copies(places[at - 1].say));
+  byId("turn-sentence").replaceChildren(sentence, ...reasons_of(step));
   if (at_keys) byId("palette").querySelector(`[data-action=${action}]`).focus({ preventScroll: true });
 }
 
@@ -143,8 +145,14 @@ function give_hint() {
   turn.sheet = null;
   forget_inputs();
   show_turn();
-  const move = moves[step], names = move.inputs.map(key => picks[picks[key].by || key].name).join(", ");
-  tell_turn(worded("hint", { action: action_name(move.action), list: names }));
+  tell_hint();
+  byId("turn-sentence").replaceChildren(...reasons_of(step));
+}
+
+/** The action that has been hinted at, and what it starts from. */
+function tell_hint() {
+  const { action, inputs } = moves[turn.hinted], list = inputs.map(key => picks[picks[key].by || key].name).join(", ");
+  tell_turn(worded("hint", { action: action_name(action), list }));
 }
 
 /** Draw a next possible step. */

@@ -42,7 +42,6 @@ function rest() {
   look(true);
   if (!state.dead) read();
   remember();
-  setTimeout(() => state.going || put(), HUSH + 20);
 }
 
 /** Put all that follows where it stands. */

@@ -29,9 +29,9 @@ function letter(one, labels, gone, found) {
     }
     const box = half.map((size, axis) => (size + HANGS[axis]) * one.lettering), at = spots[was.side];
     const free = ([u, v], air) => !placed.some(([x, z, w, h]) => Math.abs(u - x) < w + box[0] + air && Math.abs(v - z) < h + box[1] + air);
-    if (state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far) Object.assign(was, { seen: false, since: now });
-    else if (was.seen && !free(at, APART)) Object.assign(was, { seen: false, since: now });
-    else if (!was.seen && now - was.since >= HUSH) {
+    const leapt = state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far;
+    if (leapt || was.seen && !free(at, APART)) Object.assign(was, { seen: false, since: now });
+    if (!was.seen && (!state.going || now - was.since >= HUSH)) {
       const side = spots.findIndex(spot => free(spot, state.going ? CLEAR : APART));
       if (side >= 0) Object.assign(was, { seen: true, side });
     }

@@ -7,8 +7,19 @@ function choose_action(action) {
   turn.action = turn.action === action ? null : action;
   turn.inputs = [];
   turn.asked = null;
-  tell_turn(turn.action ? "" : worded("choose"));
   show_picks();
+  if (!turn.action) tell_turn(worded("choose"));
+  else ask_inputs();
+}
+
+/** The words for the inputs of the action. */
+const slot_words = () => byId("palette").querySelector(`[data-action="${turn.action}"]`)?.dataset.slots.split("|") ?? [];
+
+/** Say what the action still needs, or what has been hinted at. */
+function ask_inputs() {
+  if (turn.hinted && moves[turn.hinted].action === turn.action) return tell_hint();
+  const list = slot_words().map((word, i) => `${word} ${turn.inputs[i] ? picks[turn.inputs[i]].name : "…"}`).join(", ");
+  tell_turn(worded("hint", { action: action_name(turn.action), list }));
 }
 
 function forget_inputs() {
@@ -25,7 +36,7 @@ function show_picks() {
 /** The lists of what can be picked for the action, and which of two is meant. */
 function show_inputs() {
   for (const button of byId("palette").children) button.setAttribute("aria-pressed", button.dataset.action === turn.action);
-  const words = byId("palette").querySelector(`[data-action="${turn.action}"]`)?.dataset.slots.split("|") ?? [];
+  const words = slot_words();
   byId("inputs").replaceChildren(...slots().map((kinds, i) => {
     const label = document.createElement("label"), list = document.createElement("select");
     const keys = Object.keys(picks).filter(key => fits(key, i));
@@ -138,6 +149,7 @@ function take_at(event) {
   turn.inputs[best.slot] = best.key;
   show_picks();
   if (is_complete()) draw_move();
+  else ask_inputs();
 }
 
 /** Mark what is picked, what a hint names and of which two one is meant; draw own lines. */
@@ -159,7 +171,7 @@ function light_up() {
     if (start) put_in("front", { side: found.side, from: start.at, to: found.at }, "ghost");
     if (found) {
       put_in("front", { side: found.side, at: found.at, ring: 2 }, "ghost");
-      put_in("front", { side: found.side, at: plus(found.at, [3, -3]), text: i + 1 }, "ghost");
+      put_in("front", { side: found.side, at: inside(found.side, plus(found.at, [3, -3])), text: String(i + 1) }, "ghost");
     }
     button.type = "button";
     button.textContent = i + 1;
@@ -176,8 +188,32 @@ function whole_line(key, look) {
   const { svg } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
   const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
   const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
-  const text = plain_words(moves[key].name).replace(/ \([^()]*\)$/, "");
-  put_in("front", { side: drawn.side, at: plus(plus(start, scaled(unit, 22 * sense)), [1.5, -1]), text }, "open");
+  const text = moves[key].name.replace(/ \([^()]*\)$/, "");
+  const aside = unit[1] < 0 ? [-unit[1], unit[0]] : [unit[1], -unit[0]]; // to the right, where the letters go on
+  const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5));
+  put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * aside[1])]), text }, "open");
+}
+
+/** The place nearest to one that has room for a digit in a field. */
+function inside(side, [u, v]) {
+  const { x, y, width, height } = sheets[here()].fields[side].svg.viewBox.baseVal;
+  return [Math.min(Math.max(u, x + 2), x + width - 5), Math.min(Math.max(v, y + 6), y + height - 2)];
+}
+
+/** Write a symbol into a text of a drawing, its indices lower and smaller. */
+function write_symbol(text, markup) {
+  const words = document.createElement("span");
+  words.innerHTML = markup; // escaped where it was made
+  let [lowered, shift] = [0, 0];
+  for (const node of words.childNodes) {
+    const part = document.createElementNS(SVG, "tspan"), look = node.nodeName.toLowerCase();
+    shift = { sub: 0.9, sup: -1.3 }[look] ?? 0;
+    part.setAttribute("dy", shift - lowered);
+    part.setAttribute("class", look.replace("#", ""));
+    part.textContent = node.textContent;
+    lowered = shift;
+    text.append(part);
+  }
 }
 
 /** Draw a stroke in a group of a field. */
@@ -188,6 +224,6 @@ function put_in(group, drawn, look) {
   const ends = text ? { x: at[0], y: at[1] } : at ? { cx: at[0], cy: at[1], r: r ?? ring ?? 2.2 } : { x1: from[0], y1: from[1], x2: to[0], y2: to[1] };
   for (const [name, number] of Object.entries(ends)) mark.setAttribute(name, number.toFixed(2));
   mark.setAttribute("class", look);
-  if (text) mark.textContent = text;
+  if (text) write_symbol(mark, text);
   sheets[here()].fields[side][group].append(mark);
 }

@@ -46,7 +46,7 @@ function begin_turn() {
   turn.near = follow.getAttribute("aria-pressed") === "true";
   if (turn.near) follow.click(); // all that may yet be drawn is to be in sight
   tell_turn(worded("begin"));
-  byId("turn-sentence").textContent = "";
+  byId("turn-sentence").replaceChildren();
   show_turn();
   fit();
   byId("palette").firstElementChild.focus({ preventScroll: true });
@@ -81,13 +81,33 @@ function show_turn() {
   }
   for (const part of sheets[sheet].parts) part.classList.toggle("later", Number(part.dataset.from) >= open);
   sheets[sheet].element.classList.remove("growing");
-  byId("turn-count").textContent = worded("count", { number: rest.size });
+  tell_count(next, [...rest]);
   byId("turn-sheet").hidden = sheets.length < 2;
   for (const name of ["hint", "draw-it"]) byId(name).disabled = next === undefined;
   look();
   light_up();
   show_inputs();
   if (next === undefined && !byId("score").childElementCount) show_score();
+}
+
+/** The part of the work to which a step belongs, as its button is called. */
+const part_of = step => [...byId("stops").children].find(({ dataset }) => moves[step].at <= Number(dataset.end));
+const part_name = step => part_of(step).lastChild.textContent.trim();
+
+/** What is sought next, and how many steps are left, in this part of the work and in all. */
+function tell_count(next, rest) {
+  const [goal] = open_goals(), left = rest.filter(step => part_of(step) === part_of(next)).length;
+  byId("turn-count").innerHTML = next === undefined ? "" : worded("count", { part: part_name(next), left, number: rest.length, name: moves[goal].name });
+}
+
+/** Why a step is drawn as it is: its own reasons, or where it has none those of its sentence. */
+function reasons_of(step) {
+  const all = [...(places[moves[step].at - 1].why?.children ?? [])], own = all.filter(({ dataset }) => Number(dataset.for) === step);
+  return (own.length ? own : all).map(reason => {
+    const line = document.createElement("p");
+    line.append(...copies(reason));
+    return line;
+  });
 }
 
 /** Whether a mark is drawn: with its step, or once nothing is left to do up to its sentence. */

@@ -21,13 +21,14 @@ function look(glides = false) {
     if (one.view) return viewed(one.view, sizes[i]);
     return near ? closer(sizes[i], room, extent(done ? one.svg : one.halo, SEEN)) : room;
   });
-  const times = sheet.fields.map((one, i) => kept(one, sizes[i], boxes[i], i));
+  const times = sheet.fields.map((one, i) => kept(one, sizes[i], boxes[i], i)), before = sheet.fields.map(one => one.lettering);
   keep_size(sheets.map(one => one === sheet ? times : [1, 1]));
   sheet.fields.forEach((one, i) => {
     const scale = dots(sizes[i], boxes[i]), most = (near ? 2 : 1.3) * times[i];
     style(one.svg, "--dot", (1 / scale).toFixed(3));
     frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), 3 * times[i])), glides);
   });
+  if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) put(); // letters of another size stand elsewhere
   bars(sheet, sizes, boxes);
 }
 
