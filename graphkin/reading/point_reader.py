@@ -154,7 +154,11 @@ class PointReader(PointSearch):
                 ask = ask or from_key > OFF or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
-                ask = ask or min(apart, from_key) < OFF or not self.bad & behind & self.readings.keys()
+                ask = (
+                    ask
+                    or min(apart, from_key) < OFF
+                    or not self.bad & behind & self.readings.keys()
+                )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
             else:
                 verdict, ask = "wrong", True

@@ -250,7 +250,12 @@ def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
     x, y = lines.places.T
     level = abs(lines.normals[:, 1]) > abs(lines.normals[:, 0])
     left, top, right, bottom = EDGE
-    for side in (level & (y < top), level & (y > bottom), ~level & (x < left), ~level & (x > right)):
+    for side in (
+        level & (y < top),
+        level & (y > bottom),
+        ~level & (x < left),
+        ~level & (x > right),
+    ):
         some = lines.some(side)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
@@ -401,7 +406,9 @@ def judged(
     elif share < LEAST_FOUND:
         refused = f"only {share:.0%} of the printed lines are found: too blurred, dark or covered"
     elif stretch < LEAST_STRETCH:
-        refused = f"only {stretch:.0%} of the frame is found along a part of it: covered, or rippled"
+        refused = (
+            f"only {stretch:.0%} of the frame is found along a part of it: covered, or rippled"
+        )
     elif residual > WORST:
         refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
     return Registration(over, share, residual, own_share, refused)
