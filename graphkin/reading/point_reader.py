@@ -20,8 +20,12 @@ from graphkin.reading.point_search import AS_EXPECTED, DRAWINGS, DRAWN, FITS, Po
 SURE, OFF = 6.5, 16.0
 """Squared distances from what is expected, in deviations: below the first nobody is asked, and
 above the second of what is not expected it does not fit."""
-VAGUE = 4.0
-"""Where the pencil explains so many mm, a point that fits is looked at all the same."""
+VAGUE, MEET = 4.0, 3
+"""Where the pencil explains so many mm, a point that fits is looked at all the same, unless so many
+lines meet there and nothing on the sheet is wrong or missing before it.
+"""
+WHOLE = 0.95
+"""The share of its lines that must be there for nobody to be asked of a point."""
 
 
 class PointReader(PointSearch):
@@ -31,6 +35,7 @@ class PointReader(PointSearch):
         super().__init__(sheet, ink, pencil)
         self.bad: set[int] = set()
         self.noted: set[int] = set()
+        self.doubted: set[int] = set()
         self.vaguely: set[int] = set()
         self.readings: dict[int, PointReading] = {}
 
@@ -50,10 +55,14 @@ class PointReader(PointSearch):
                 if stale:
                     self.next = self.ahead({})
                 if number in corners:
-                    stale = self.read_corner(
-                        number, expected(self.sheet.place(number, found[number]))
-                    )
-                    if number in self.own:
+                    cloud = np.atleast_1d(self.sheet.place(number, found[number]))
+                    best = self.read_corner(number, where := expected(cloud))
+                    stale = best is not None
+                    if number in self.guessed and best is not None and len(cloud) == DRAWINGS:
+                        errors = self.stream(number, 1).standard_normal((DRAWINGS, 2))
+                        places = where.narrowed(cloud, best, errors)
+                        found[number] = self.sheet.value(number, places)
+                    elif best is not None:
                         found[number] = self.sheet.value(number, self.own[number])
                     continue
                 key = expected(self.sheet.place(number, keys[number]))
@@ -66,21 +75,22 @@ class PointReader(PointSearch):
                     found[number] = self.sheet.value(number, self.own[number])
         return tuple(self.readings.values())
 
-    def read_corner(self, number: int, where: ExpectedPlace) -> bool:
+    def read_corner(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
         """A corner without a letter: taken where lines cross there; what is off is a mistake."""
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
-        if best is None or best.cover < DRAWN:
+        away = np.inf if best is None else where.away(best.place, best.error)
+        if best is None or best.cover < DRAWN or (best.count < 2 and away > FITS):
             self.unread.add(number)
-            return False
+            return None
         if best.count < 2:
             self.guessed.add(number)
-        if where.away(best.place, best.error) > FITS:
+        if away > FITS:
             self.bad.add(number)
             self.noted.add(number)
             self.own[number] = best.place
         else:
             self.own[number] = where.weighed(best)
-        return True
+        return best
 
     def corners(self) -> dict[int, tuple[float, float]]:
         """Where the corners without letters were read, by their steps."""
@@ -132,21 +142,28 @@ class PointReader(PointSearch):
             apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
             steps = self.sheet.exact.program.steps
             untried = any(steps[n].aside is not None for n in self.unread & behind)
-            vague = own.radius > VAGUE or untried  # nobody saw from which trial plan it comes
+            met = best.count >= MEET and not self.bad
+            vague = (own.radius > VAGUE and not met) or untried  # by a trial plan nobody saw
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            ask = away > SURE or best.count < 2 or best.cover < DRAWN or fresh or doubtful
+            ask = away > SURE or best.count < 2 or best.cover < WHOLE or fresh or doubtful
             ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OFF
+                ask = ask or from_key > OFF or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
-                ask = ask or apart < OFF or not self.bad & behind & self.readings.keys()
+                ask = (
+                    ask
+                    or min(apart, from_key) < OFF
+                    or not self.bad & behind & self.readings.keys()
+                )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
             else:
                 verdict, ask = "wrong", True
+        if doubtful:
+            self.doubted.add(number)
         if verdict in ("wrong", "missing", "unread"):
             self.bad.add(number)
             if best is None or best.count < 2 or self.agreement(number, best.place) < DRAWN:

@@ -81,10 +81,13 @@ class PointSearch:
         mark = exact.marks.get(number)
         errors = None
         if mark is not None:
-            stream = np.random.Generator(np.random.PCG64([SEED, number]))
             size = (count, mark.errors)
-            errors = np.zeros(size) if count == 1 else stream.standard_normal(size)
+            errors = np.zeros(size) if count == 1 else self.stream(number).standard_normal(size)
         return step_drawn(exact, number, found, errors, self.pencil)
+
+    def stream(self, number: int, which: int = 0) -> np.random.Generator:
+        """The errors of a step: always the same, apart from those of others."""
+        return np.random.Generator(np.random.PCG64([SEED, number, which]))
 
     def clouds(self) -> dict[int, Any]:
         """Every value in many drawings of the key."""
@@ -198,14 +201,15 @@ class PointSearch:
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
                     if score > most:
                         best, most = found, score
-        return best or self.end_near(lines, where, self.known_ends(number))
+        return best or self.end_near(number, lines, where)
 
     def end_near(
-        self, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace, ends: Sequence[complex]
+        self, number: int, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace
     ) -> LinesCrossing | None:
-        """Where a single line ends that leads to a point; where it goes on, where others leave it;
-        and where none does, the place on it that is expected.
+        """Where others leave a single line that leads to a point; where none does, its end; where
+        it goes on, or other points are expected about there, the place on it that is expected.
         """
+        ends = self.known_ends(number)
         for line in (line for some in lines for line in some):
             if line.cover < DRAWN or abs(line.off(where.middle)) > where.reach:
                 continue
@@ -215,14 +219,29 @@ class PointSearch:
             foot = where.middle - 1j * line.way * line.off(where.middle)
             found = self.ink.stroke(foot, line.way, where.reach)
             if found is not None:
-                shift, along = self.ink.node(foot, line.way, where.reach), NODE
+                shift, along, count = self.ink.node(foot, line.way, where.reach), NODE, 2
                 if shift is None:
-                    shift, along = found.end, END
-                if shift is None or any(abs(foot + line.way * shift - e) < SHORT for e in ends):
-                    shift, along = 0.0, where.reach
-                place = foot + line.way * shift
-                return LinesCrossing(place, along_way(line.way, along, line.error), 1, line.cover)
+                    shift, along, count = found.end, END, 1
+                place = foot + line.way * (shift or 0.0)
+                near = any(abs(place - e) < SHORT for e in ends)
+                if shift is None or near or not self.is_own(number, place, where):
+                    shift, along, count = 0.0, where.reach, 1
+                place, error = foot + line.way * shift, along_way(line.way, along, line.error)
+                return LinesCrossing(place, error, count, line.cover)
         return None
+
+    def is_own(self, number: int, place: complex, where: ExpectedPlace) -> bool:
+        """Whether a place is that of a point and of no other that is expected about there."""
+        steps = self.sheet.exact.program.steps
+        far = abs(place - where.middle) + APART
+        for other in {*self.sheet.points, *self.sheet.corners} - {number}:
+            if steps[other].plane is steps[number].plane:
+                there = self.own.get(other)
+                if there is None:
+                    there = complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
+                if abs(there - place) < far:
+                    return False
+        return True
 
     def lines_near(self, number: int, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
         """The drawn lines that may be what leads to a point."""

@@ -45,6 +45,12 @@ LENS_FROM, BENT_FROM = 80.0, 100.0
 """Rings from which lens and bending are fitted."""
 REACH, NEAR = 2.0, 1.1
 """How far to both sides a line is looked for while rings grow, and at the end, in mm."""
+EDGE = (24.0, 14.0, 406.0, 283.0)
+"""Beyond these places of the paper (mm) lie frame and border: 5 mm apart, and alike."""
+FAR, CLEARLY, LEAST_ALONG = 9.0, 1.05, 20
+"""How far off such a side is looked for, in mm; how much better it must fit there, and at how many
+places.
+"""
 TRUSTED, LAST = 0.4, 0.15
 """The same of how far off a line may be to be believed."""
 FLATNESS, ALIKE = 0.4, 10.0
@@ -66,6 +72,10 @@ LEAST_FOUND, WORST = 0.45, 0.5
 SIDES = ("left", "right", "upper", "lower")
 LEAST_SIDE = 0.25
 """The same share on each half of the sheet."""
+STRETCH, LEAST_STRETCH = 100.0, 0.35
+"""The same of frame and border along each stretch of so many mm that the picture holds: a thumb
+covers less, and a map that goes astray at a corner of the sheet loses more.
+"""
 
 
 class PrintedLines(Struct, frozen=True):
@@ -149,17 +159,31 @@ def registered(
     square = square_of(page) if square is None else square
     if square is None:
         return None
-    height, width = grey.shape
-    lines = printed_lines(page)
+    lines, smooth = printed_lines(page), cv2.GaussianBlur(grey, (0, 0), 0.7)
+    first = followed(smooth, lines, square, corners, sides, BENT_FROM)
+    if not first.refused:
+        return first
+    other = followed(smooth, lines, square, corners, sides, max(RINGS))  # its bending led astray
+    return first if other.refused else other
+
+
+def followed(
+    smooth: Any, lines: PrintedLines, square: Any, corners: Any, sides: tuple[str, ...], bent: float
+) -> Registration:
+    """The map that printed lines give, followed ring by ring, bending fitted from some ring on."""
+    height, width = smooth.shape
     fit = MapFit(width, height, square, corners)
-    smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
         near = lines.some((far < ring) & lines.shared)
         if not len(near.places):
             continue
+        about = sides_off(smooth, fit.map, near)
+        if about.any():  # the frame was about to be taken for the border, which looks like it
+            measured = measure(smooth, fit.map, near, REACH, about)
+            fit.to(measured, float(abs(about).max()), lens=True, bent=True)
         measured = measure(smooth, fit.map, near, REACH)
-        fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > BENT_FROM)
+        fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > bent)
     for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
         fit.to(measure(smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
     return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines, sides)
@@ -176,44 +200,94 @@ class MeasuredLines(Struct, frozen=True):
     seen: Any
 
 
-def measure(grey: Any, over: PaperMap, lines: PrintedLines, reach: float) -> MeasuredLines:
-    """Where lines lie, looked for to both sides of where a map puts them."""
+def measure(
+    grey: Any, over: PaperMap, lines: PrintedLines, reach: float, about: Any = 0.0
+) -> MeasuredLines:
+    """Where lines lie, looked for to both sides of where a map puts them, or so far (mm) off it."""
     across = np.arange(-reach - 1.0, reach + 1.0 + STEP / 2, STEP)
+    dark, inside = profiles(grey, over, lines, across, about)
+    off, found = np.zeros(len(dark)), np.zeros(len(dark), bool)
+    for width_of in np.unique(lines.widths):
+        rows = lines.widths == width_of
+        off[rows], found[rows] = peaks(dark[rows], across, float(width_of), reach)
+    return MeasuredLines(lines, off + about, found & inside, inside)
+
+
+def profiles(
+    grey: Any, over: PaperMap, lines: PrintedLines, across: Any, about: Any = 0.0
+) -> tuple[Any, Any]:
+    """How dark it is across lines, and whether the picture holds all of that."""
     right, down = over.ways(lines.places)
     normal = lines.normals[:, :1] * right + lines.normals[:, 1:] * down
     tangent = lines.normals[:, :1] * down - lines.normals[:, 1:] * right
+    middle = over(lines.places) + np.broadcast_to(about, len(normal))[:, None] * normal
     pixels = (
-        over(lines.places)[:, None, None]
+        middle[:, None, None]
         + across[None, :, None, None] * normal[:, None, None]
         + ALONG[None, None, :, None] * tangent[:, None, None]
     ).astype(np.float32)
     height, width = grey.shape
     spots = pixels[:, :: len(across) - 1].reshape(len(pixels), -1, 2)
     inside = (spots > 1).all((1, 2)) & (spots < [width - 2, height - 2]).all((1, 2))
-    profiles = cv2.remap(
+    light = cv2.remap(
         grey,
         np.nan_to_num(pixels[..., 0]).reshape(len(pixels), -1),
         np.nan_to_num(pixels[..., 1]).reshape(len(pixels), -1),
         cv2.INTER_LINEAR,
+        borderMode=cv2.BORDER_REPLICATE,
     ).reshape(pixels.shape[:3])
-    profile = profiles.mean(axis=2).astype(np.float64)
+    profile = light.mean(axis=2).astype(np.float64)
     white = np.maximum(np.percentile(profile, 90, axis=1), 20.0)
-    dark = 1 - profile / white[:, None]
-    off, found = np.zeros(len(pixels)), np.zeros(len(pixels), bool)
-    for width_of in np.unique(lines.widths):
-        rows = lines.widths == width_of
-        off[rows], found[rows] = peaks(dark[rows], across, float(width_of), reach)
-    return MeasuredLines(lines, off, found & inside, inside)
+    return 1 - profile / white[:, None], inside
 
 
-def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
-    """Where a dark line of a width stands out most in profiles, and whether one does."""
+def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
+    """How far off (mm) the lines along each side of the sheet lie where all of a side are looked for
+    at once, frame and border together; zero where that is less than lines are looked for anyway.
+    """
+    about = np.zeros(len(lines.places))
+    across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
+    x, y = lines.places.T
+    level = abs(lines.normals[:, 1]) > abs(lines.normals[:, 0])
+    left, top, right, bottom = EDGE
+    for side in (
+        level & (y < top),
+        level & (y > bottom),
+        ~level & (x < left),
+        ~level & (x > right),
+    ):
+        some = lines.some(side)
+        widths = np.unique(some.widths)
+        if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
+            continue  # frame and border, of which one alone tells nothing
+        dark, _ = profiles(grey, over, some, across)
+        likely = np.zeros(len(across))
+        for width in widths:
+            found = standing(dark[some.widths == width], float(width))
+            near = cv2.dilate(np.clip(found, 0, 3 * DARK), np.ones((1, round(1 / STEP))))
+            likely += near.sum(axis=0)
+        likely[abs(across) > FAR] = 0.0
+        best = likely.argmax()
+        near = likely[abs(across) < REACH].max()
+        if abs(across[best]) > REACH and likely[best] > CLEARLY * near:
+            about[side] = across[best]
+    return about
+
+
+def standing(dark: Any, width: float) -> Any:
+    """How much a dark line of a width stands out at each place of profiles."""
     half = max(round(width / 2 / STEP), 1)
     core, flank = 2 * half + 1, 4
     kernel = np.zeros(core + 2 * (flank + 2))
     kernel[flank + 2 : flank + 2 + core] = 1 / core
     kernel[:flank] = kernel[-flank:] = -0.5 / flank
-    stands = cv2.filter2D(dark, -1, kernel[None, :], borderType=cv2.BORDER_REPLICATE)
+    return cv2.filter2D(dark, -1, kernel[None, :], borderType=cv2.BORDER_REPLICATE)
+
+
+def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
+    """Where a dark line of a width stands out most in profiles, and whether one does."""
+    half = max(round(width / 2 / STEP), 1)
+    stands = standing(dark, width)
     stands[:, abs(across) > reach] = -1.0
     best = stands.argmax(axis=1)
     rows = np.arange(len(dark))
@@ -326,10 +400,27 @@ def judged(
     parts = dict(zip(SIDES, (x < 210, x >= 210, y < 60, y > 230), strict=True))
     held = {side: float((found & parts[side]).sum() / parts[side].sum()) for side in wanted}
     side = min(held, key=lambda each: held[each])
+    stretch = least_stretch(last, lines)
     if held[side] < LEAST_SIDE:
         refused = f"too little of the frame is seen on the {side} side of the sheet"
     elif share < LEAST_FOUND:
         refused = f"only {share:.0%} of the printed lines are found: too blurred, dark or covered"
+    elif stretch < LEAST_STRETCH:
+        refused = (
+            f"only {stretch:.0%} of the frame is found along a part of it: covered, or rippled"
+        )
     elif residual > WORST:
         refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
     return Registration(over, share, residual, own_share, refused)
+
+
+def least_stretch(last: MeasuredLines, lines: PrintedLines) -> float:
+    """The least share of frame and border that is found along a stretch of the sheet's edge."""
+    (x, y), (left, top, right, bottom) = lines.places.T, EDGE
+    least = 1.0
+    for edge, along in ((y < top, x), (y > bottom, x), (x < left, y), (x > right, y)):
+        for start in np.arange(0.0, 420.0, STRETCH):
+            here = edge & lines.shared & last.seen & (along >= start) & (along < start + STRETCH)
+            if here.sum() >= LEAST_ALONG:
+                least = min(least, float((last.found & here).sum() / here.sum()))
+    return least

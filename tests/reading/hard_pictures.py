@@ -60,7 +60,7 @@ def main(folder: Path, names: list[str], out: Path) -> None:
     for name in names:
         path = folder / f"{name}.jpg"
         taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
-        order = read_order(open_class(folder / Path(taken.lab).name), Grid())
+        order = read_order(open_class(folder / Path(taken.lab).stem), Grid())
         columns.append(shown(path.read_bytes(), read_one(order, Photograph(name, path), "")))
     gap = np.full((2 * HIGH, 12, 3), 255, np.uint8)
     row = [part for column in columns for part in (column, gap)][:-1]

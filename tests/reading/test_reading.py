@@ -21,7 +21,9 @@ from graphkin.reading import registration
 from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
+from graphkin.reading.expected_place import expected
 from graphkin.reading.kept_readings import READING, kept, records_in
+from graphkin.reading.line_crossings import LinesCrossing, along_way
 from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord
@@ -361,6 +363,36 @@ def test_a_square_far_from_all_lines_begins_where_the_first_are(
     monkeypatch.setattr(registration, "RINGS", (1.0, *registration.RINGS))
     found = call("read", a_class, taken / "plain.jpg", "-o", tmp_path / "read", "--jobs", "1")
     assert found.exit_code == 0, found.output
+
+
+def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None:
+    image = drawn_sheet(a_class, code, "velocity", Habits(), 3).image
+    found = next(each for each in sheets_of(a_class, code).of("task") if each.kind == "velocity")
+    page = found.pages[0]
+    lines = registration.printed_lines(page)
+    height, width = image.shape
+    corners = registration.square_of(page) * 10 - 0.5
+    corners[:, 1] += 48  # as if all lay 4.8 mm lower, where the border is the frame's neighbour
+    fit = registration.MapFit(width, height, registration.square_of(page), corners)
+    about = registration.sides_off(image, fit.map, lines)
+    x, y = lines.places.T
+    level = abs(lines.normals[:, 1]) > 0.5
+    shift = lines.normals[:, 1] * about
+    assert shift[level & (y < 14)] == pytest.approx(-4.8, abs=0.6)
+    assert not about[level & (y > 20) & (y < 270)].any()
+    right = registration.MapFit(width, height, registration.square_of(page), corners - [0, 48])
+    assert not registration.sides_off(image, right.map, lines).any()
+
+
+def test_a_single_line_leaves_a_cloud_open_along_itself() -> None:
+    rng = np.random.default_rng(3)
+    cloud = rng.normal(0, 2, 4000) + 1j * rng.normal(0, 2, 4000)
+    line = LinesCrossing(1 + 0.5j, along_way(1 + 0j, 50.0, 0.1), 1, 1.0)
+    place = expected(cloud)
+    narrow = place.narrowed(cloud, line, rng.standard_normal((4000, 2)))
+    assert np.std(narrow.real) == pytest.approx(2, rel=0.1)
+    assert np.std(narrow.imag) < 0.2
+    assert np.mean(narrow.imag) == pytest.approx(0.5, abs=0.05)
 
 
 def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:

@@ -108,6 +108,7 @@
     place = null;
     const now = point();
     find("note").value = now?.note ?? "";
+    propose(now?.verdict);
     if (now) {
       const middle = now.at ?? now.own;
       const wide = CLOSE * Math.max(1, Math.hypot(middle[0] - now.key[0], middle[1] - now.key[1]) / 20);
@@ -164,7 +165,11 @@
       Math.round(Math.min(297, Math.max(0, y)) * 100) / 100];
     draw();
     const off = Math.hypot(place[0] - now.own[0], place[1] - now.own[1]);
-    const likely = off <= Math.max(now.error, 0.5) ? "right" : "wrong";
+    propose(off <= Math.max(now.error, 0.5) ? "right" : "wrong");
+  }
+
+  // What Enter decides: what was read of the point, or what its new place makes likely.
+  function propose(likely) {
     for (const button of document.querySelectorAll("#choices button")) {
       button.setAttribute("aria-pressed", button.dataset.verdict === likely);
     }
