@@ -42,7 +42,7 @@ class ExpectedPlace(Struct, frozen=True):
         return self.middle + complex(*(self.spread @ share))
 
     def narrowed(self, cloud: Any, found: LinesCrossing, errors: Any) -> Any:
-        """A cloud that fits, each of its places drawn to what was found as ``weighed`` does; so many
+        """A cloud that fits, each of its places drawn to what was found as ``weighed`` does; the
         standard errors (count, 2) are what the lines leave open.
         """
         lines = np.linalg.cholesky(found.error) @ errors.T

@@ -242,8 +242,8 @@ def profiles(
 
 
 def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
-    """How far off (mm) the lines along each side of the sheet lie where all of a side are looked for
-    at once, frame and border together; zero where that is less than lines are looked for anyway.
+    """How far off (mm) the lines along each side of the sheet lie where all of a side are sought at
+    once, frame and border together; zero where that is less than lines are looked for anyway.
     """
     about = np.zeros(len(lines.places))
     across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
