@@ -53,7 +53,7 @@ NOISE = 1e-9
 WEIGHT = 1.3
 """How much the size of a mechanism counts against that of its plans together."""
 BLUR = 0.2
-"""Loss in size for normal components that are laid off e times as long as their triangles are."""
+"""Loss in size for components that are laid off e times as long as their figures are."""
 LINE = 0.1
 """Part of its length that a plan is broad at least, or else is called a line."""
 LITTLE = 0.12

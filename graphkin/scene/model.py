@@ -386,6 +386,11 @@ class Ask(NamedTuple):
         return bool(self.centres or self.pairs or self.inflection)
 
     @property
+    def chosen_by_place(self) -> bool:
+        """Whether something is asked whose way is chosen by where the mechanism stands."""
+        return bool(self.pairs or self.inflection)
+
+    @property
     def any_poles(self) -> bool:
         """Whether acceleration poles are drawn: for their own sake, or for circles."""
         return bool(self.poles or self.inflection)
@@ -394,7 +399,7 @@ class Ask(NamedTuple):
 class Sheet(NamedTuple):
     """What the title block and the page say beyond the drawing.
 
-    ``method`` is how normal components are constructed: by right triangles, or Klein's way.
+    ``method`` is what gives components of accelerations: triangles, or Klein's construction.
     ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
     the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
     plan or one for both.

@@ -24,7 +24,7 @@ from graphkin.documents.sentences import TURNING
 from graphkin.documents.step_numbers import behind, stage_of, stages
 from graphkin.documents.step_visibility import accompanied, letters_of, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
-from graphkin.drawing.style import AUXILIARY, VECTORS
+from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.label_names import as_labelled, labels_of
 from graphkin.web.page_sentences import AND, MOST, parted_sentences
@@ -45,7 +45,6 @@ GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 SAME = 1e-6
 """Millimetres between places that are one."""
-DRAWN = {*VECTORS, *AUXILIARY, "construction", "ray", "compass", "centre", "inflection"}
 """The classes of what one draws by a stroke: lines, arcs and vectors of the construction."""
 DETAIL = "detail"
 """The name of the small circle about what is enlarged beside it."""

@@ -120,13 +120,12 @@ def values_of(scene: Scene, settings: Settings) -> dict[str, Any]:
 def by_driving(mechanism: Mechanism, names: set[str]) -> bool:
     """Whether parameters only say how a mechanism of pins and guides is driven.
 
-    No step is then chosen by them: an idle link fits or not, and relative centres and inflection
-    poles are found in ways that hang on the position.
+    No step is then chosen by them: an idle link fits or not, and some of what may be asked is found
+    in ways that depend on the position.
     """
     scene = mechanism.scene
-    chosen = scene.ask.pairs or scene.ask.inflection
     idle = any(isinstance(group, Tie) for group in mechanism.groups)
-    if chosen or idle or not by_arrays(mechanism):
+    if scene.ask.chosen_by_place or idle or not by_arrays(mechanism):
         return False
     return not names.intersection(used((scene.frame, *scene.links.values())))
 

@@ -184,7 +184,7 @@ def place_of_turns(scene: Scene, link: str) -> str:
 def crossing_lines(trace: Trace) -> list[str]:
     """The flattest crossings on paper: the angle, the part of the work, and the point.
 
-    ``trace`` holds the hand's way to what is asked: right triangles, plates and poles, too.
+    ``trace`` holds the hand's way to what is asked: figures of components, plates and poles, too.
     """
     rows: dict[tuple[str, str], str] = {}
     for found in sorted(crossings(trace), key=lambda found: found.angle):

@@ -203,8 +203,8 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
 def plan_scales(drawing: Drawing) -> Iterator[Relation]:
     """kv and ka from the driving crank, or chosen.
 
-    Where no crank says them ka keeps the right triangles: it is (m·kv)²/(m′·kL), where
-    the plans are m and m′ times as large as vectors on the mechanism.
+    Where no crank says them ka keeps that mean proportional: it is (m·kv)²/(m′·kL), where the plans
+    are m and m′ times as large as vectors on the mechanism.
     """
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     number = length_scale(drawing)
