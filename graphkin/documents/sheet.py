@@ -321,4 +321,4 @@ def asked(drawing: Drawing) -> list[str]:
             what = f"slides_{drawing.kind}" if key == "slides" else key
             mentioned = words("list_mark").join(symbol(lettered(name)) for name in names)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
-    return found or ([words("ask.for_accelerations")] if any(ask) else [])
+    return found or ([words("ask.for_accelerations")] if ask.anything else [])

@@ -11,7 +11,9 @@ import re
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from threading import Lock
-from typing import NamedTuple, NoReturn
+from typing import NoReturn
+
+from msgspec import Struct
 
 from graphkin.scene.findings import shown, visible
 from graphkin.text.errors import Hint, Mend
@@ -61,25 +63,25 @@ class UnreadableError(ValueError):
         self.hint = hint
 
 
-class Number(NamedTuple):
+class Number(Struct, frozen=True):
     """An exact number."""
 
     value: Fraction
 
 
-class Name(NamedTuple):
+class Name(Struct, frozen=True):
     """A parameter, the time ``t`` or ``pi``."""
 
     name: str
 
 
-class Minus(NamedTuple):
+class Minus(Struct, frozen=True):
     """The negative of what follows."""
 
     inner: Tree
 
 
-class Pair(NamedTuple):
+class Pair(Struct, frozen=True):
     """Two parts joined by one of + - * / ** or mod, the rest of a division."""
 
     sign: str
@@ -87,7 +89,7 @@ class Pair(NamedTuple):
     right: Tree
 
 
-class Call(NamedTuple):
+class Call(Struct, frozen=True):
     """A function of one number; the angle of a sine is in degrees."""
 
     function: str

@@ -19,7 +19,9 @@ POINTS_ASKED = ("velocity", "acceleration")
 PATHS_ASKED = "curves"
 CENTRES_ASKED = "centres"
 LINKS_ASKED = tuple(
-    key for key in Ask._fields if key not in (*POINTS_ASKED, PATHS_ASKED, CENTRES_ASKED, "pairs")
+    key
+    for key in Ask.__struct_fields__
+    if key not in (*POINTS_ASKED, PATHS_ASKED, CENTRES_ASKED, "pairs")
 )
 ALL = "all"
 """Asks for the relative centres of all links."""

@@ -9,7 +9,7 @@ from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.naming import driver_of_rate, length_scale
+from graphkin.construction.core.naming import driver_of_rate, length_scale, sense
 from graphkin.construction.core.parameter_words import is_derived, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
@@ -21,7 +21,6 @@ from graphkin.construction.core.relation import (
     squared,
 )
 from graphkin.construction.rate_relations import of_sum
-from graphkin.construction.result_tables import sense
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
