@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from math import log, sqrt
-from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -99,7 +98,7 @@ class Stated(Struct, frozen=True):
         return [key for key, value in said.items() if value]
 
 
-class Composition(NamedTuple):
+class Composition(Struct, frozen=True):
     """A scale of the mechanism, how many times as large each plan is, and how large all is.
 
     The size is less by what plans ``lack`` that fill little of their fields.
@@ -120,7 +119,7 @@ It raises PageError where what is stated leaves no room.
 """
 
 
-class Attempt(NamedTuple):
+class Attempt(Struct, frozen=True):
     """A composition, and the scales of its draft."""
 
     composition: Composition

@@ -40,9 +40,7 @@ HEAVIEST = 2000
 
 UNITS = ("degrees", "degree", "deg", "°", "rad", "grad", "rpm", "mm", "cm", "dm", "in", "m", "s")
 RATES = ("mm/s", "cm/s", "m/s", "in/s", "rev/min", "rot/min", "rad/s", "deg/s", "°/s")
-MEASURED = re.compile(
-    rf"(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)", re.ASCII | re.DOTALL
-)
+MEASURED = rf"(?as)(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)"
 """A number or an expression with a unit behind it."""
 MARKS = "_.+-*/() \t\r\n"
 JUXTAPOSED = re.compile(
@@ -120,7 +118,7 @@ def parse(text: str, *, counting: bool = False) -> Tree:
 
 def unit_hint(text: str) -> Hint:
     """How to write a number that has a unit behind it; empty where it has none."""
-    measured = MEASURED.fullmatch(text.strip())
+    measured = re.fullmatch(MEASURED, text.strip())
     rest = measured[1].strip() if measured else ""
     if not measured or not rest or rest[-1] in "+-*/(":
         return ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Container, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from msgspec import Struct
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.relation import Relation
 
 
-class Size(NamedTuple):
+class Size(Struct, frozen=True):
     """A student's size of a component in SI: the own sizes that it follows from, and the bar (m)
     that is measured for it, infinite where none is.
     """
