@@ -44,7 +44,7 @@ def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
     """What is drawn on each sheet; everything on both where nothing is asked."""
     asked = {kind: targets_of(mechanism, kind) for kind in SHEETS}
     if not any(asked.values()):
-        return dict.fromkeys(SHEETS, mechanism.program.answers)
+        return dict.fromkeys(SHEETS, tuple(mechanism.program.targets))
     return {kind: found for kind, found in asked.items() if found}
 
 
