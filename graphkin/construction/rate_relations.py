@@ -95,7 +95,7 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
                 if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
                     told.add(disc.link)
                     yield by_teeth(drawing, disc)
-            yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.rolling.belt)
+            yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.belt)
 
 
 def by_teeth(drawing: Drawing, disc: Disc) -> Relation:

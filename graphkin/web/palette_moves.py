@@ -1,7 +1,7 @@
 """The moves of a construction: actions of a palette, each of which gives a recorded step.
 
 A move gives the value of one recorded step by an action of the palette from inputs that can be
-pointed at. Whatever else the sheets draw (arrows, contacts, what a number says) comes along as soon
+pointed at. Whatever else the sheets draw (arrows, what a number says) comes along as soon
 as the moves are done that it is drawn from.
 """
 

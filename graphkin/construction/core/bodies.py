@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import dot
-from graphkin.scene.model import Rolling, Slide, Wheel
+from graphkin.scene.model import Belt, Rolling, Slide, Wheel
 
 
 class Guideway(Struct, frozen=True):
@@ -66,6 +66,11 @@ class Touch(Struct, frozen=True):
     def on(self) -> str:
         """The link with the track."""
         return self.rolling.on
+
+    @property
+    def belt(self) -> Belt | None:
+        """The belt that joins both wheels, if one does."""
+        return self.rolling.belt
 
     @property
     def side(self) -> int:
