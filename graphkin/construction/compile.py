@@ -144,7 +144,7 @@ def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -
 
 
 def own_bases(group: Group, found: tuple[Base, ...]) -> tuple[Base, ...]:
-    """The links that are finished with their group; a trial finishes its own one by one."""
+    """The links that are finished with their group; higher classes finish theirs one by one."""
     return () if isinstance(group, CoupledTrain | Higher) else found
 
 
