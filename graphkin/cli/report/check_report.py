@@ -66,7 +66,6 @@ class Checking:
         """Pressure angle and curvature of each cam."""
         if not self.mechanism.scene.cams:
             return []
-        from graphkin.cli.report.check_report import cam_lines
 
         return list(cam_lines(self.mechanism.scene))
 
