@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any, Literal
 from msgspec import Struct
 
 from graphkin.construction.compile import write
-from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.core.results import decided, gathered, product_of_sines, row_of, rows_of
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.numbers.arithmetic import FLOAT, Kind
-from graphkin.numbers.kinds import array_kind
 from graphkin.scene import scene_files
 from graphkin.scene.link_names import in_language
 from graphkin.scene.model import Scene
@@ -244,6 +242,9 @@ class Mechanism(Struct, frozen=True, dict=True):
             if kind == "float64":
                 trace = self.press.run(needed, values, keep, margins="least")
             else:
+                from graphkin.construction.core.batch import run_blocks
+                from graphkin.numbers.kinds import array_kind
+
                 numbers = array_kind(kind)
                 trace = run_blocks(self.program, needed, values, numbers, keep, margins=True)
         solution = gathered(decided(trace), self.scene.links)

@@ -10,9 +10,7 @@ from collections.abc import Collection, Sequence
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Cam, Driver, Scene
-from graphkin.structure.coupled_trains import next_coupled
 from graphkin.structure.groups import Group, Unresolved
-from graphkin.structure.higher_groups import next_higher
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
@@ -33,13 +31,20 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
             or next_group(joints, known)
             or next_stretched(joints, known, waiting)
             or next_tie(joints, known)
-            or next_coupled(joints, known)
-            or next_higher(joints, known, waiting)
+            or next_tried(joints, known, waiting)
             or unresolved(joints, known, waiting)
         )
         groups.append(group)
         settle(group, known, waiting)
     return tuple(groups)
+
+
+def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+    """The next group of higher class; what finds these is loaded where the others end."""
+    from graphkin.structure.coupled_trains import next_coupled
+    from graphkin.structure.higher_groups import next_higher
+
+    return next_coupled(joints, known) or next_higher(joints, known, waiting)
 
 
 def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]) -> Unresolved:

@@ -10,10 +10,11 @@ from msgspec.structs import replace
 from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.assemble import assemble
 from graphkin.loops.freedom import true_mobility
-from graphkin.loops.witness import by_loops, compare, examine
+from graphkin.loops.witness import compare, examine
 from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
 from tests.loops.differences import agree, central, degrees, unit
+from tests.loops.loops_alone import by_loops
 from tests.scene_files import scene_text
 
 FOUR_BAR = scene_text("loops/four-bar")

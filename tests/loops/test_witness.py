@@ -7,11 +7,12 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.core.solution import PointMotion, Solution
-from graphkin.loops.witness import by_loops, compare
+from graphkin.loops.witness import compare
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
 from tests.documents.sheet_tools import mechanism_named
+from tests.loops.loops_alone import by_loops
 from tests.scene_files import scene_text
 
 

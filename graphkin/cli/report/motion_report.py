@@ -20,7 +20,6 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
-from graphkin.diagnosis.singularity_words import beside_dead_point
 from graphkin.documents.centre_tables import (
     breadth_of,
     centre_words,
@@ -195,6 +194,8 @@ def is_flat(trace: Trace) -> bool:
 
 def flat_words(scene: Scene, trace: Trace) -> str:
     """The flattest crossing: its point, its sine, what is nearly in line, and how to leave it."""
+    from graphkin.diagnosis.singularity_words import beside_dead_point
+
     number = min(trace.margins, key=lambda step: float(trace.margins[step]))
     point, part = crossing(trace.program, number)
     sine = f"{float(trace.margins[number]):.2e}, less than {FAIR:g}"

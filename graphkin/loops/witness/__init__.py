@@ -7,7 +7,6 @@ of a quantity that is nought everywhere is not taken for a difference.
 """
 
 from graphkin.loops.witness.examine import compare, examine
-from graphkin.loops.witness.loops_alone import by_loops
 from graphkin.loops.witness.sure_quantities import sure_of
 
-__all__ = ["by_loops", "compare", "examine", "sure_of"]
+__all__ = ["compare", "examine", "sure_of"]
