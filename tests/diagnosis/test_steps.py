@@ -144,7 +144,7 @@ def loops_of(name):
     """The motion by the vector loops alone."""
     from graphkin.loops.equations import equations
     from graphkin.loops.newton import solve
-    from graphkin.loops.witness.loops_alone import as_solution
+    from tests.loops.loops_alone import as_solution
 
     scene, solution = shipped(name).scene, shipped(name).solve()
     places = {p: m.position for p, m in solution.points.items() if "@" not in p}
