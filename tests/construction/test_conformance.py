@@ -34,7 +34,11 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
 from graphkin.web.page_sentences import parted_sentences
+from graphkin.web.palette_moves import your_turn
+from graphkin.web.protocol import telling
 from graphkin.web.reasons import reasons
+from graphkin.web.screen_sheets import screen_sheets
+from graphkin.web.your_turn import record
 from tests.chosen import FOLDER, SCENES
 from tests.documents.test_words import RARE, rare
 
@@ -180,6 +184,12 @@ def pages(name: str) -> object:
     return [sheet(drawing, "key", "1/2").marks for drawing in materials(name)[0]]
 
 
+def moves(name: str) -> object:
+    """What its page knows of the moves that a student makes."""
+    sheets = screen_sheets(mechanism(name), "en")
+    return record(sheets, your_turn(sheets, telling(sheets)))
+
+
 COMES: tuple[Callable[[str], object], ...] = (
     reported,
     partial(said, language=0),
@@ -188,6 +198,7 @@ COMES: tuple[Callable[[str], object], ...] = (
     partial(said, language=1),
     partial(said, language=2),
     pages,
+    moves,
 )
 QUICK = 4
 """What comes of a scene, and how many of these are made for every scene before the others."""
