@@ -47,6 +47,8 @@ FAILING = {"at_end", "failing", "found_link", "in_line", "lies_along", "points",
 """Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
+WIDE = {"GuideLine", "NormalComponent", "PerpendicularThrough", "SetByCoordinate"}
+"""Kinds of which narrower ones exist that are drawn themselves."""
 UNREACHED = {
     "AccelerationPole.mark_far",
     "InflectionPoint.places",
@@ -113,11 +115,15 @@ def kinds() -> list[type[Construction]]:
     for module in pkgutil.walk_packages(graphkin.construction.__path__, "graphkin.construction."):
         importlib.import_module(module.name)
     found = {kind for kind in below(Construction) if kind.gives}
-    made = (kind for kind in found if kind in homes() or not kind.__subclasses__())
+    made = (kind for kind in found if kind.__name__ in WIDE or not kind.__subclasses__())
     return sorted(made, key=lambda kind: kind.__name__)
 
 
 KINDS = kinds()
+
+
+def test_every_kind_that_is_drawn_is_one_of_them():
+    assert {kind.__name__ for kind in homes() if kind.__subclasses__()} == WIDE
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
