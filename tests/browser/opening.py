@@ -60,7 +60,7 @@ def barred(page: Any) -> list[tuple[str, list[str]]]:
 def watched(chromium: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> Iterator[Opened]:
     """New pages, each in a context of its own: page(color_scheme="dark").
 
-    Raises AssertionError at the end for what any of them told on the console at one of the levels,
+    Fails at the end for what any of them told on the console at one of the levels,
     for its uncaught errors, and for what it asked for but addresses that begin with one of own.
     """
     contexts, wrong = [], []
@@ -92,7 +92,8 @@ def watched(chromium: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> Ite
     yield page
     for context in contexts:
         context.close()
-    assert wrong == []
+    if wrong:
+        pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
 
 
 @pytest.fixture

@@ -265,6 +265,16 @@ def test_each_field_has_its_bar(make, language):
 
 
 @pytest.mark.parametrize("name", FEW)
+def test_every_sentence_belongs_to_a_part_of_its_sheet(name):
+    """Parts follow one another, and the last one goes to the end of its sheet."""
+    told = told_of(name)
+    places = sorted({(first, last) for first, last, _ in told.stops()})
+    firsts, lasts = zip(*places, strict=True)
+    assert firsts == (1, *(last + 1 for last in lasts[:-1]))
+    assert {told.bounds(place)[1] for place in range(len(sheets_of(name)))} <= {*lasts}
+
+
+@pytest.mark.parametrize("name", FEW)
 def test_reasons_name_what_stands_in_their_sentence(name):
     for said in told_of(name).said:
         for why in said.why:
