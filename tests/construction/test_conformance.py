@@ -36,10 +36,12 @@ from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
 from graphkin.web.page_sentences import parted_sentences
 from graphkin.web.reasons import reasons
-from tests.chosen import FOLDER, SCENES
+from tests.chosen import CHOSEN, FOLDER
 from tests.documents.test_words import RARE, rare
 
 LABS = ("pump", "slotted-lever")
+MORE = ("belts-arm", "oscillating-slide", "rapid-return", "stephenson-3-crank")
+"""Scenes that draw what those do not that stand for all."""
 WHEELS = Path(__file__).parents[1] / "motion" / "scenes" / "planet-on-coupler.toml"
 LANGUAGES = ("en", "it", "ro")
 MARKING = {"slips", "sizes", "power_of", "as_measured", "proportions"}
@@ -91,18 +93,16 @@ def drawn(name: str) -> tuple[int, ...]:
 
 @cache
 def homes() -> dict[type, list[str]]:
-    """The scenes whose sheets draw each kind, the smallest first; of one that is never drawn those
-    that compute it."""
+    """The scenes whose sheets draw each kind; of one that is never drawn those that compute it."""
     found: dict[type, list[str]] = {}
     written: dict[type, list[str]] = {}
-    for name in (*LABS, *SCENES, *RARE, WHEELS.stem):
+    for name in (*LABS, *CHOSEN, *MORE, *RARE, WHEELS.stem):
         steps = mechanism(name).program.steps
         for kind in {type(steps[number].of) for number in drawn(name)}:
             found.setdefault(kind, []).append(name)
         for kind in {type(step.of) for step in steps}:
             written.setdefault(kind, []).append(name)
-    both = written | found
-    return {kind: sorted(names, key=lambda name: len(drawn(name))) for kind, names in both.items()}
+    return written | found
 
 
 def below(kind: type[Construction]) -> Iterator[type[Construction]]:
@@ -222,7 +222,8 @@ FACES = [
 @pytest.mark.parametrize(("kind", "face"), FACES)
 def test_no_face_is_idle(kind, face, monkeypatch):
     """Without it some page, table or report of a scene is another, or is not made at all."""
-    parts, found = range(len(COMES)), homes()[kind]
+    parts = range(len(COMES))
+    found = sorted(homes()[kind], key=lambda name: len(drawn(name)))  # the smallest first
     quick = sorted(parts[:QUICK], key=lambda part: -TOLD[face, part])
     for name, part in (*product(found, quick), *product(found, parts[QUICK:])):
         kept = unchanged(name, part)
