@@ -40,7 +40,7 @@ from tests.chosen import CHOSEN, FOLDER
 from tests.documents.test_words import RARE, rare
 
 LABS = ("pump", "slotted-lever")
-MORE = ("belts-arm", "oscillating-slide", "rapid-return", "stephenson-3-crank")
+MORE = ("belts-arm", "oscillating-slide", "rapid-return", "stephenson-2-binary")
 """Scenes that draw what those do not that stand for all."""
 WHEELS = Path(__file__).parents[1] / "motion" / "scenes" / "planet-on-coupler.toml"
 LANGUAGES = ("en", "it", "ro")
