@@ -110,13 +110,16 @@ class PageProtocol(Struct, frozen=True):
     def stops(self) -> Iterator[tuple[int, int, Part]]:
         """The first and last sentence of each part of the work, in the order of their ends.
 
-        A part begins where on its sheet the one before it ends.
+        A part begins where on its sheet the one before it ends; what is said after the last one
+        belongs to that.
         """
         ends = [(number, said) for number, said in enumerate(self.said, 1) if said.ends]
-        for last, said in ends:
-            before = [number for number, one in ends if one.sheet == said.sheet and number < last]
-            first = max(before, default=self.bounds(said.sheet)[0] - 1) + 1
-            yield from ((first, last, part) for part in said.ends)
+        for number, said in ends:
+            first, last = self.bounds(said.sheet)
+            others = [other for other, one in ends if one.sheet == said.sheet]
+            first = max((other for other in others if other < number), default=first - 1) + 1
+            end = last if number == others[-1] else number
+            yield from ((first, end, part) for part in said.ends)
 
 
 def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:

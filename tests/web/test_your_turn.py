@@ -18,11 +18,11 @@ from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import joined
 from graphkin.web.your_turn import palette, record
 from tests.browser.opening import chromium  # noqa: F401
-from tests.chosen import SCENES
+from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
-ALL = (*LABS, *SCENES)
+ALL = (*LABS, *CHOSEN)
 PLANS = (Plane.VELOCITIES, Plane.ACCELERATIONS)
 NEAR = 1e-9
 RESULTS = """([source, record]) => {
