@@ -11,7 +11,13 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin.classroom.lab import fair_ranges as module
-from graphkin.classroom.lab.fair_ranges import fair_ranges, halton, round_step, runs_of
+from graphkin.classroom.lab.fair_ranges import (
+    fair_ranges,
+    halton,
+    part_of,
+    round_step,
+    runs_of,
+)
 from graphkin.classroom.lab.fair_ranges_words import as_toml, variants_lines
 from graphkin.classroom.lab.formula_mending import candidates, is_fair, mended
 from graphkin.classroom.lab.lab_model import Range, ValueList
@@ -104,6 +110,52 @@ def test_in_a_region_of_two_parameters_all_that_is_proposed_is_fair(lab, monkeyp
     assert all(map(in_disc, every))
     discs = sum(in_disc({"phi": p, "r": q}) for p in range(0, 360, 5) for q in range(40, 81))
     assert len(every) > 0.4 * discs
+
+
+def test_ranges_keep_to_the_limit_of_a_pencil(lab, tmp_path, monkeypatch):
+    """A slow piston is drawn less exactly: what is proposed has no draw in which it is too slow,
+    and check, which counts the others, finds none in the proposal."""
+    monkeypatch.setattr(module, "DRAWS", 300)
+    monkeypatch.setattr(module, "PENCILLED", 60)
+    path = tmp_path / "lab.toml"
+    path.write_text(f"{RULE}[fair]\npencil = 0.02\n", encoding="utf-8")
+    lab = read_lab(tmp_path)
+    before = tried(lab, 120)
+    found = fair_ranges(lab)
+    assert 0 < sum(found.exact) < len(found.exact) == 60
+    assert found.exact_inside == 1.0
+    assert found.ranges is not None
+    rest = path.read_text(encoding="utf-8").partition("[marks]")[2]
+    lines = ["graphkin = 1", *variants_lines(found.ranges, "mechanics"), "[marks]", rest]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    after = tried(read_lab(tmp_path), 120)
+    share = [len(each.coarse) / each.pencilled for each in (before, after)]
+    assert share[0] > 0.2
+    assert share[1] < 0.05
+    assert before.spoiled_share > 1 - before.fairness.fair.mean() + 0.1
+
+
+def test_where_no_class_would_be_left_the_rest_is_drawn_again(lab, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "DRAWS", 300)
+    monkeypatch.setattr(module, "PENCILLED", 40)
+    monkeypatch.setattr(module, "LEFT", 10**6)
+    monkeypatch.setattr("graphkin.classroom.lab.proposed_ranges.CLASS", 12)
+    path = tmp_path / "lab.toml"
+    path.write_text(f"{RULE}[fair]\npencil = 0.02\n", encoding="utf-8")
+    found = fair_ranges(read_lab(tmp_path))
+    assert 0 < found.exact_inside < 1
+    assert found.count > 10_000
+    out = CliRunner().invoke(app, ["ranges", str(tmp_path)]).output
+    assert f"a pencil draws {100 * found.exact_inside:.0f} % of these exactly enough" in out
+
+
+def test_a_part_of_a_list_has_the_values_between():
+    every = ValueList((Range(10, 10, 1), Range(20, 40, 10), Range(70, 80, 5)))
+    for low in range(len(every)):
+        for high in range(low, len(every)):
+            part = part_of(every, low, high)
+            told = [part.value(k) for k in range(len(part))]
+            assert told == [every.value(k) for k in range(low, high + 1)]
 
 
 def test_where_nothing_is_fair_nothing_is_proposed(lab, monkeypatch):
