@@ -28,9 +28,8 @@ def cloze(gap: Gap, weight: int) -> str:
 
 
 def taken(each: Taken) -> str:
-    """One thing that a gap takes."""
-    percent = 100 * each.share
-    share = "=" if percent == 100 else f"%{float(percent):g}%"
+    """One thing that a gap takes; older Moodles read shares in whole percent alone."""
+    share = "=" if each.share == 1 else f"%{round(100 * each.share)}%"
     if isinstance(each.answer, str):
         answer = written(each.answer)
     else:
