@@ -217,6 +217,8 @@ def lab_advice(proposal: LabProposal, texts: LabTexts, words: Words) -> LabAdvic
     gaps = {"count": new.count, "apart": f"{100 * new.apart:g}", "kept": new.kept, "of": new.of}
     rules = with_variants(texts.rules, lines)
     kept = words("studio.kept_apart", **gaps)
+    if new.exact < 1:
+        kept += f" {words('studio.exact_share', share=percent(new.exact))}"
     return LabAdvice(fair, shares, "\n".join(lines), rules, kept, formula, mending)
 
 
