@@ -57,7 +57,10 @@ def value_lines(found: FairRanges, name: str) -> list[str]:
 def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
     """``[variants]`` that draws from some ranges."""
     lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
-    return lines + [f"{name} = {as_toml(values)}" for name, values in ranges.items()]
+    return lines + [
+        f"{name} = {as_toml(ValueList((values,)) if len(values) == 1 else values)}"
+        for name, values in ranges.items()
+    ]
 
 
 def as_toml(values: Range | ValueList) -> str:

@@ -188,6 +188,22 @@ def test_the_proposal_is_a_fair_lab(lab, tmp_path, monkeypatch):
     assert trial.different > 400
 
 
+def test_what_is_proposed_is_read_as_it_was_meant(lab, tmp_path):
+    """Ranges, lists of them with single values, and a parameter of which one value is left."""
+    ranges = {
+        "phi": ValueList((Range(10, 10, 5), Range(20, 40, 5))),
+        "speed": Range(65, 65, 5),
+        "r": Range(45, 55, 2),
+    }
+    rest = RULE[RULE.index("[marks]") :]
+    text = "\n".join(["graphkin = 1", *variants_lines(ranges, "mechanics"), rest])
+    (tmp_path / "lab.toml").write_text(text, encoding="utf-8")
+    read = read_lab(tmp_path).rule.draws
+    for name, values in ranges.items():
+        told = [read[name].value(k) for k in range(len(read[name]))]
+        assert told == [values.value(k) for k in range(len(values))]
+
+
 @pytest.mark.parametrize("base", [2, 3])
 def test_the_design_puts_one_draw_into_each_part(base):
     """Of base^k draws in a row one lies in each of as many parts (van der Corput's law)."""
