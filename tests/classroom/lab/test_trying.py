@@ -8,6 +8,7 @@ import shutil
 import numpy as np
 import pytest
 
+from graphkin.classroom.grading.neighbours import standards_of, worst_drawn
 from graphkin.classroom.lab.fairness_words import trial_lines
 from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import new_lab
@@ -138,3 +139,32 @@ def test_a_name_that_makes_no_folder_everywhere_is_refused(tmp_path, name):
     with pytest.raises(SceneError, match="is no name for a lab"):
         new_lab(name, tmp_path)
     assert not list(tmp_path.iterdir())
+
+
+BY_NUMBER = (
+    'graphkin = 1\n[variants]\nset = { n = "number" }\n[marks]\nv_D_mm = 1\na_D_mm = 1\n[fair]\n'
+)
+
+
+def test_to_whom_a_formula_gives_data_too_near_to_another_s_is_told(mine):
+    """A limit that only keys tell: named by number, and such a lab is not fair."""
+    trial = tried(mine(f"{BY_NUMBER}apart = 0.4\n", "pump-collinear"))
+    assert {fault.limit for _, fault in trial.by_keys} == {"apart"}
+    assert trial.spoilt and not trial.pencilled
+    lines = "\n".join(trial_lines(trial))
+    assert "earns more with another's right values than the limit" in lines
+
+
+def test_to_whom_a_formula_gives_what_a_pencil_draws_too_coarsely_is_told(mine):
+    lab = mine(f"{BY_NUMBER}pencil = 0.05\n", "pump-collinear")
+    trial = tried(lab)
+    fair = trial.fairness.fair.nonzero()[0]
+    asked = [(trial.many[i], trial.fairness.computed(i)) for i in fair]
+    standards = standards_of(lab, mechanism_of("pump-collinear", {}), asked)
+    errors = {trial.names[i]: worst_drawn(s)[1] for i, s in zip(fair, standards, strict=True)}
+    coarse = {name: error for name, error in errors.items() if error > 0.05}
+    assert {name: fault.value for name, fault in trial.coarse.items()} == coarse
+    assert 0 < len(coarse) < trial.pencilled == len(fair)
+    assert trial.spoilt
+    told = f"a pencil draws {len(fair) - len(coarse)} of the first {len(fair)} of these"
+    assert told in "\n".join(trial_lines(trial))
