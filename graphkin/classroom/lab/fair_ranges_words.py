@@ -57,10 +57,13 @@ def value_lines(found: FairRanges, name: str) -> list[str]:
 def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
     """``[variants]`` that draws from some ranges."""
     lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
-    return lines + [
-        f"{name} = {as_toml(ValueList((values,)) if len(values) == 1 else values)}"
-        for name, values in ranges.items()
-    ]
+    return lines + [f"{name} = {listed_alone(values)}" for name, values in ranges.items()]
+
+
+def listed_alone(values: Range | ValueList) -> str:
+    """The same, a single value as a list of one: alone it is no rule to draw by."""
+    text = as_toml(values)
+    return f"[{text}]" if isinstance(values, Range) and len(values) == 1 else text
 
 
 def as_toml(values: Range | ValueList) -> str:
