@@ -119,6 +119,9 @@ def check_lab(name: str) -> None:
     if trial.unasked:
         complain(f"drawn on no sheet: {', '.join(trial.unasked)}")
     if trial.spoilt:
-        if trial.unfair:
-            complain(f"{trial.unfair} of {len(trial.many)} variants are unfair")
+        unfair = trial.unfair + len(trial.coarse)
+        if kept := {name for name, _ in trial.by_keys}:
+            complain(f"{len(kept)} of a class of {len(trial.compared)} have unfair data")
+        if unfair:
+            complain(f"{unfair} of {len(trial.many)} variants are unfair")
         leave(FAILED)

@@ -74,4 +74,6 @@ def proposed(lab: Lab, found: FairRanges) -> list[str]:
     if new.kept == new.of:
         room = f"all {new.of} students of a class"
     told = f"# {new.count} different data; at apart = {new.apart:g} they keep {room} apart"
-    return [told, *variants_lines(new.ranges, new.course)]
+    again = "the others are drawn again"
+    coarse = [f"# a pencil draws {100 * new.exact:.0f} % of these exactly enough, {again}"]
+    return [told, *(coarse if new.exact < 1 else ()), *variants_lines(new.ranges, new.course)]

@@ -11,7 +11,7 @@ from msgspec import Struct, field
 
 from graphkin.classroom.lab.fair_ranges_words import variants_lines
 from graphkin.classroom.lab.fairness import Fault
-from graphkin.classroom.lab.fairness_words import some
+from graphkin.classroom.lab.fairness_words import SCALES, some
 from graphkin.classroom.lab.formula_mending import Mending
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.proposed_ranges import APART
@@ -25,8 +25,6 @@ from graphkin.studio.problem_places import Edit, units
 from graphkin.studio.result_panel import table
 from graphkin.text import Words
 
-OF_KEYS = ("apart", "pencil")
-"""The limits that only keys tell, of a class alone."""
 UNITS = {
     "crossing": (1, "°"),
     "segment": (1, " mm"),
@@ -132,13 +130,8 @@ def trial_tables(trial: LabTrial, words: Words) -> Iterator[str]:
 
 def unfair_rows(trial: LabTrial, words: Words) -> Iterator[Row]:
     """Each limit that is broken somewhere: the worst, how often, by whom."""
-    every = [(name, trial.fairness.faults(i)) for i, name in enumerate(trial.names)]
-    every += [
-        (each.student.id, tuple(fault for fault in each.faults if fault.limit in OF_KEYS))
-        for each in trial.compared
-    ]
     found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
-    for name, faults in every:
+    for name, faults in trial.faults():
         for fault in faults:
             where = "" if fault.limit == "apart" else fault.where
             found.setdefault((fault.limit, where), []).append((name, fault))
@@ -174,8 +167,11 @@ def scale_rows(trial: LabTrial) -> Iterator[Row]:
     drawn = (fairness.closes & fairness.fits).nonzero()[0]
     columns = (fairness.kL, fairness.larger, fairness.larger_still)
     found = Counter(tuple(float(column[i]) for column in columns) for i in drawn)
-    for (kL, m, again), times in found.most_common():
+    for (kL, m, again), times in found.most_common(SCALES):
         yield Row((ratio(kL), f"{m:.4g}", f"{again:.4g}", str(times)))
+    if len(found) > SCALES:
+        shown = sum(times for _, times in found.most_common(SCALES))
+        yield Row(("…", "…", "…", str(len(drawn) - shown)))
 
 
 class ParameterShares(Struct, frozen=True):
@@ -221,6 +217,8 @@ def lab_advice(proposal: LabProposal, texts: LabTexts, words: Words) -> LabAdvic
     gaps = {"count": new.count, "apart": f"{100 * new.apart:g}", "kept": new.kept, "of": new.of}
     rules = with_variants(texts.rules, lines)
     kept = words("studio.kept_apart", **gaps)
+    if new.exact < 1:
+        kept += f" {words('studio.exact_share', share=percent(new.exact))}"
     return LabAdvice(fair, shares, "\n".join(lines), rules, kept, formula, mending)
 
 

@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
+from graphkin.classroom.lab.fair_ranges import fair_ranges
 from graphkin.classroom.lab.lab_trial import tried
+from graphkin.classroom.lab.proposed_ranges import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.studio.folder import shipped_rules, shipped_text
-from graphkin.studio.lab_work import LabTexts, beside, trial_of
+from graphkin.studio.lab_panel import lab_advice
+from graphkin.studio.lab_work import LabProposal, LabTexts, beside, trial_of
 from graphkin.studio.panels import StaleError
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
@@ -147,3 +151,16 @@ def test_every_limit_has_its_name(language):
 
     for limit in WORDS:
         assert words(language)(f"studio.limit_{limit}")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_it_is_told_which_share_of_a_proposal_a_pencil_draws(language):
+    lab, said = read_lab("pump"), words(language)
+    found = fair_ranges(lab)
+    new = proposed_ranges(lab, found)
+    assert new is not None
+    texts = LabTexts(shipped_text("pump"), shipped_rules("pump"), "pump")
+    sentence = said("studio.exact_share", share=40)
+    for exact, told in ((1.0, False), (0.4, True)):
+        advice = lab_advice(LabProposal(found, replace(new, exact=exact), None), texts, said)
+        assert (sentence in advice.kept) == told

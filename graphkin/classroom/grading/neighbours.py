@@ -17,6 +17,7 @@ from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.marking import SENSE, sense_is_open
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.asking import worth
+from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import exact_text
@@ -144,6 +145,20 @@ def worst_drawn(standard: Standard) -> tuple[str, float]:
         if standard.key[field] and field not in standard.computed
     }
     return max(errors.items(), key=lambda each: each[1], default=("", 0.0))
+
+
+def pencil_fault(lab: Lab, standard: Standard) -> Fault | None:
+    """The limit of a pencil's error where a variant does not keep it; None where it does, or where
+    the lab has none."""
+    field, error = worst_drawn(standard)
+    limit = lab.fair.pencil
+    return Fault("pencil", field, error, limit) if limit is not None and error > limit else None
+
+
+def pencil_faults(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> list[Fault | None]:
+    """The same of some variants that can be drawn."""
+    found = standards_of(lab, mechanism, many) if many else []
+    return [pencil_fault(lab, standard) for standard in found]
 
 
 def is_within(away: Array, limit: Array, spread: Array) -> Array:

@@ -16,6 +16,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.classroom.grading.neighbours import pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.lab_model import Lab, Range, ValueList
 from graphkin.classroom.lab.rules import Settings
@@ -32,6 +33,10 @@ FINE = 50
 """Steps of a parameter for which the scene states none."""
 PEEL = 0.04
 """The slice that is peeled off, in parts of what is left of a range."""
+PENCILLED = 200
+"""Draws of a design of which it is tried how exactly a pencil draws them."""
+LEFT = 300
+"""Different data that are left at least where a pencil is exact enough."""
 AGAIN = 12
 """How often ranges are tried with new draws."""
 SHARES = (0.75, 0.5, 0.25, 0.0)
@@ -89,12 +94,17 @@ class Tried(Struct, frozen=True):
 class FairRanges(Struct, frozen=True):
     """A lab's space as it was tried, and the ranges of it in which all that was tried is fair.
 
-    ``ranges`` is None where there are none; ``left_alone`` are parameters without min and max.
+    ``ranges`` is None where there are none; ``left_alone`` are parameters without min and max. Of
+    the first fair draws, as many as ``exact`` has, it tells where a pencil is as exact as the lab
+    demands; it is empty where the lab demands nothing. ``exact_inside`` is the share of draws from
+    the ranges where it is.
     """
 
     tried: Tried
     ranges: Mapping[str, Range | ValueList] | None
     left_alone: tuple[str, ...]
+    exact: tuple[bool, ...] = ()
+    exact_inside: float = 1.0
 
     @property
     def count(self) -> int:
@@ -111,15 +121,24 @@ def fair_ranges(lab: Lab) -> FairRanges:
     space = space_of(mechanism.scene)
     tried = trial(mechanism, lab, space, whole_box(space))
     alone = tuple(name for name in mechanism.scene.parameters if name not in space)
+    limited = lab.fair.pencil is not None
+    fair = tried.places[tried.fairness.fair]
     if tried.complete and len(space) == 1:
+        good = tried.fairness.fair.copy()
+        exact = drawn_exactly(mechanism, lab, space, fair) if limited else ()
+        good[good] = exact if limited else True
         ((name, values),) = space.items()
-        runs = runs_of(values, tried.fairness.fair)
-        return FairRanges(tried, {name: runs} if runs else None, alone)
+        runs = runs_of(values, good)
+        return FairRanges(tried, {name: runs} if runs else None, alone, tuple(exact))
+    exact = drawn_exactly(mechanism, lab, space, fair[:PENCILLED]) if limited else ()
     worst = max(space, key=tried.guilt)
     boxes = [*between(whole_box(space), peeled(mechanism, lab, tried))]
     ranges = [in_box(mechanism, lab, space, box, worst, tried.share == 1) for box in boxes]
-    good = [each for each in ranges if each is not None]
-    return FairRanges(tried, max(good, key=how_many, default=None), alone)
+    best = max((each for each in ranges if each is not None), key=how_many, default=None)
+    if best is None or not limited:
+        return FairRanges(tried, best, alone, tuple(exact))
+    inside, share = pencilled(mechanism, lab, best)
+    return FairRanges(tried, inside, alone, tuple(exact), share)
 
 
 def space_of(scene: Scene) -> dict[str, Range]:
@@ -182,11 +201,12 @@ def round_step(span: Fraction) -> Fraction:
     return next(power * digit for digit in (5, 2, 1) if power * digit <= rough)
 
 
+Space = Mapping[str, Range | ValueList]
 Box = list[tuple[int, int]]
 """The first and the last index of each parameter."""
 
 
-def whole_box(space: Mapping[str, Range]) -> Box:
+def whole_box(space: Space) -> Box:
     """All indices."""
     return [(0, len(values) - 1) for values in space.values()]
 
@@ -195,20 +215,25 @@ def trial(
     mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1
 ) -> Tried:
     """Draws within a box: all that there are, or as many as a design has from a start on."""
-    import numpy as np
-
-    sizes = [high - low + 1 for low, high in box]
-    complete = prod(sizes) <= DRAWS
-    if complete:
-        found = np.array([*product(*map(range, sizes))])
-    else:
-        found = (halton(len(sizes), DRAWS, start) * sizes).astype(int)
-    places = found + np.array([low for low, _ in box])
+    places = draws(box, DRAWS, start)
     many = [settings_at(space, row) for row in places]
+    complete = prod(high - low + 1 for low, high in box) <= DRAWS
     return Tried(space, places, judged(mechanism, lab, many), complete)
 
 
-def settings_at(space: Mapping[str, Range], row: Sequence[int]) -> Settings:
+def draws(box: Box, count: int, start: int) -> Array:
+    """The indices of draws within a box: all that there are, or as many of a design."""
+    import numpy as np
+
+    sizes = [high - low + 1 for low, high in box]
+    if prod(sizes) <= count:
+        found = np.array([*product(*map(range, sizes))])
+    else:
+        found = (halton(len(sizes), count, start) * sizes).astype(int)
+    return found + np.array([low for low, _ in box])
+
+
+def settings_at(space: Space, row: Sequence[int]) -> Settings:
     """The data at some indices."""
     return {n: values.value(int(k)) for (n, values), k in zip(space.items(), row, strict=True)}
 
@@ -247,6 +272,19 @@ def runs_of(values: Range, fair: Sequence[bool]) -> Range | ValueList | None:
 def cut(values: Range, low: int, high: int) -> Range:
     """The part of a range between two indices."""
     return Range(values.value(low), values.value(high), values.step)
+
+
+def part_of(values: Range | ValueList, low: int, high: int) -> Range | ValueList:
+    """The part of a range, or of a list of ranges and values, between two indices."""
+    if isinstance(values, Range):
+        return cut(values, low, high)
+    parts, begun = list[Range](), 0
+    for part in values.parts:
+        first, last = max(low - begun, 0), min(high - begun, len(part) - 1)
+        if first <= last:
+            parts.append(cut(part, first, last))
+        begun += len(part)
+    return parts[0] if len(parts) == 1 else ValueList(tuple(parts))
 
 
 def peeled(mechanism: Mechanism, lab: Lab, tried: Tried) -> Box | None:
@@ -341,3 +379,39 @@ def within(box: Box, places: Array) -> Array:
 
     low, high = np.array(box).T
     return ((places >= low) & (places <= high)).all(axis=1)
+
+
+# --- the pencil ---------------------------------------------------------------------------------
+
+
+def drawn_exactly(mechanism: Mechanism, lab: Lab, space: Space, places: Array) -> Sequence[bool]:
+    """Of which fair draws a pencil makes everything as exact as the lab demands."""
+    many = [settings_at(space, row) for row in places]
+    fairness = judged(mechanism, lab, many)
+    asked = [(each, fairness.computed(i)) for i, each in enumerate(many)]
+    return [fault is None for fault in pencil_faults(lab, mechanism, asked)]
+
+
+def pencilled(mechanism: Mechanism, lab: Lab, ranges: Space) -> tuple[Space, float]:
+    """The part of fair ranges in which a pencil was exact enough in all draws, and 1.
+
+    It is peeled off as the space is, by fewer draws, for each is drawn with a pencil by itself.
+    Where too little would be left for a class the ranges stay whole, with the share of their draws
+    in which a pencil is exact enough: the others are drawn again.
+    """
+    import numpy as np
+
+    box: Box | None = whole_box(ranges)
+    places, good, share = np.empty((0, len(ranges)), dtype=int), np.empty(0, dtype=bool), 1.0
+    for turn in range(AGAIN):
+        if box is None or (turn and prod(high - low + 1 for low, high in box) < LEFT):
+            break
+        more = draws(box, PENCILLED, 1 + turn * PENCILLED)
+        exact = np.array(drawn_exactly(mechanism, lab, ranges, more), dtype=bool)
+        share = share if turn else float(exact.mean())
+        if exact.all():
+            pairs = zip(ranges.items(), box, strict=True)
+            return {name: part_of(values, *ends) for (name, values), ends in pairs}, 1.0
+        places, good = np.concatenate([places, more]), np.concatenate([good, exact])
+        box = peel(box, places, good)
+    return ranges, share

@@ -14,6 +14,8 @@ from graphkin.text.plain_table import labelled, table
 
 SHOWN = 6
 """Limits that are listed."""
+NUMBERS = 12
+"""Numbers of which it is told why a formula is unfair to them."""
 
 
 def range_lines(lab: Lab, found: FairRanges) -> Iterator[str]:
@@ -26,7 +28,11 @@ def range_lines(lab: Lab, found: FairRanges) -> Iterator[str]:
         names = ", ".join(found.left_alone)
         yield from labelled("left", [f"{names}: no min and max in the scene, so left as written"])
     yield from labelled("limits", [limit_words(lab.fair)])
-    yield from labelled("fair", [f"{100 * tried.share:.0f} %"])
+    fair = [f"{100 * tried.share:.0f} %"]
+    if found.exact:
+        share = f"{100 * sum(found.exact) / len(found.exact):.0f} %"
+        fair.append(f"a pencil draws {share} of {len(found.exact)} of these exactly enough")
+    yield from labelled("fair", fair)
     rows = [(limit, str(times)) for limit, times in tried.reasons()[:SHOWN]]
     yield from labelled("unfair", table(("limit", "times"), rows) if rows else ["none"])
     if tried.share < 1:
@@ -51,7 +57,13 @@ def value_lines(found: FairRanges, name: str) -> list[str]:
 def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
     """``[variants]`` that draws from some ranges."""
     lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
-    return lines + [f"{name} = {as_toml(values)}" for name, values in ranges.items()]
+    return lines + [f"{name} = {listed_alone(values)}" for name, values in ranges.items()]
+
+
+def listed_alone(values: Range | ValueList) -> str:
+    """The same, a single value as a list of one: alone it is no rule to draw by."""
+    text = as_toml(values)
+    return f"[{text}]" if isinstance(values, Range) and len(values) == 1 else text
 
 
 def as_toml(values: Range | ValueList) -> str:
@@ -74,7 +86,9 @@ def mending_lines(unfair: Mapping[str, str], mending: Mending | None) -> list[st
     """Which numbers a formula is unfair to, why, and what one change would mend."""
     if not unfair:
         return ["the formula is fair to every number"]
-    lines = [f"number {number}: {why}" for number, why in unfair.items()]
+    lines = [f"number {number}: {why}" for number, why in [*unfair.items()][:NUMBERS]]
+    if len(unfair) > NUMBERS:
+        lines.append(f"and {len(unfair) - NUMBERS} numbers more, see graphkin check")
     if mending is None:
         return [*lines, "no change of one number of the scene by up to 12 % is fair to all"]
     change = f"{mending.old} to {mending.new} ({mending.percent:+.1f} %)"

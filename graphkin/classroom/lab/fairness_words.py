@@ -16,6 +16,8 @@ from graphkin.text.plain_table import labelled, listed, table
 
 SHOWN = 6
 """Names that are told of one limit."""
+SCALES = 8
+"""Scales that are listed."""
 SPREAD = ("", "least", "quarter", "half", "three quarters", "most")
 
 
@@ -27,14 +29,17 @@ def trial_lines(trial: LabTrial) -> Iterator[str]:
     alike = f", {trial.different} of them different" if trial.different < count else ""
     yield from labelled("tried", [f"{tried_words(trial)}{alike}"])
     yield from labelled("limits", [limit_words(lab.fair)])
-    good = count - trial.unfair
-    yield from labelled("fair", [f"{good} of {count} variants"])
-    faults = [fairness.faults(i) for i in range(count)]
-    named = list(zip(trial.names, faults, strict=True))
+    good = [f"{count - trial.unfair} of {count} variants"]
+    if trial.pencilled:
+        exact = trial.pencilled - len(trial.coarse)
+        good.append(
+            f"a pencil draws {exact} of the first {trial.pencilled} of these exactly enough"
+        )
+    yield from labelled("fair", good)
     who = "number" if lab.rule.counts else "id"
-    yield from labelled("unfair", list(broken_lines(named, who)))
+    yield from labelled("unfair", list(broken_lines(trial.faults(), who)))
     if isinstance(lab.rule, Ranges):
-        yield from labelled("again", [again_words(lab.rule, trial.unfair / count)])
+        yield from labelled("again", [again_words(lab.rule, trial.spoiled_share)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(trial.names)]
     yield from labelled("compute", list(computed_lines(computed, who)))
     drawn = fairness.closes & fairness.fits
@@ -124,7 +129,11 @@ def scale_lines(fairness: Fairness, names: Sequence[str], who: str) -> list[str]
         return [f"all: {' '.join(scale_words(each))}"]
     many = sorted(found.items(), key=lambda each: -len(each[1]))
     rows = [(*scale_words(each), str(len(own)), f"{who} {some(own)}") for each, own in many]
-    return table(("mechanism", "velocities", "accelerations", "times", "whose"), rows)
+    lines = table(("mechanism", "velocities", "accelerations", "times", "whose"), rows[:SCALES])
+    if len(many) > SCALES:
+        rest = sum(len(own) for _, own in many[SCALES:])
+        lines.append(f"and {rest} variants at {len(many) - SCALES} other scales")
+    return lines
 
 
 def scale_words(scales: tuple[float, float, float]) -> tuple[str, str, str]:

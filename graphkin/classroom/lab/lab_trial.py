@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.neighbours import Neighbours
-from graphkin.classroom.lab.fairness import Fairness, judged
+from graphkin.classroom.grading.neighbours import Neighbours, pencil_faults
+from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.items import asked_fields, items
 from graphkin.classroom.lab.lab_model import Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
@@ -21,6 +21,8 @@ TRIED = 1000
 """Variants that are tried."""
 CLASS = 30
 """Variants that are compared with one another."""
+PENCILLED = 300
+"""Fair variants of which it is tried how exactly a pencil draws them, where a lab limits that."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 """The quantiles by which a spread is told."""
 
@@ -31,7 +33,8 @@ class LabTrial(Struct, frozen=True):
     ``names`` are numbers of students, or ids. ``unasked`` are fields of the rubric that no sheet
     draws, ``unmarked`` fields that are asked and earn nothing. ``compared`` are those of one class,
     as far as they can be drawn, with the data that such a class would get, ``neighbours`` what they
-    have in common; ``too_near`` of them break a limit that only their keys tell.
+    have in common. ``coarse`` are those of the first ``pencilled`` fair variants of which a pencil
+    draws something less exactly than the lab allows, by name.
     """
 
     lab: Lab
@@ -42,18 +45,42 @@ class LabTrial(Struct, frozen=True):
     unmarked: tuple[str, ...] = ()
     compared: tuple[Assigned, ...] = ()
     neighbours: Neighbours | None = None
-    too_near: int = 0
+    pencilled: int = 0
+    coarse: Mapping[str, Fault] = {}
 
     @property
     def unfair(self) -> int:
-        """How many variants break a limit."""
+        """How many variants break a limit that needs no keys."""
         return int((~self.fairness.fair).sum())
+
+    @property
+    def spoiled_share(self) -> float:
+        """The share of variants that break a limit, that of the pencil as well."""
+        fair = 1 - self.unfair / len(self.many)
+        return 1 - fair * (1 - len(self.coarse) / self.pencilled) if self.pencilled else 1 - fair
+
+    @property
+    def by_keys(self) -> list[tuple[str, Fault]]:
+        """Who of the class breaks a limit that only keys tell, though ranges were drawn again."""
+        return [
+            (each.student.id, fault)
+            for each in self.compared
+            for fault in each.faults
+            if fault.limit in ("apart", "pencil")
+        ]
+
+    def faults(self) -> list[tuple[str, Sequence[Fault]]]:
+        """Each variant with the limits that it breaks, those that only keys tell as well."""
+        told = [(name, fault) for name, fault in self.by_keys if name not in self.coarse]
+        every = [(name, self.fairness.faults(i)) for i, name in enumerate(self.names)]
+        return [*every, *((name, (fault,)) for name, fault in (*self.coarse.items(), *told))]
 
     @property
     def spoilt(self) -> bool:
         """Whether students would get unfair data: some by a formula, all that ranges can give."""
         ranges = isinstance(self.lab.rule, Ranges)
-        return bool(self.unasked) or (self.unfair == len(self.many) if ranges else self.unfair > 0)
+        unfair = self.unfair == len(self.many) if ranges else bool(self.unfair or self.coarse)
+        return bool(self.unasked or self.by_keys) or unfair
 
     @property
     def different(self) -> int:
@@ -83,6 +110,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         Student(i, name, i if lab.rule.counts else None) for i, name in enumerate(names[:CLASS], 1)
     ]
     every = assigned(lab, students)
+    pencilled, coarse = drawn_coarsely(lab, mechanism, names, many, fairness)
     drawn_at_all = [each for each in every if each.flattest is not None]
     return LabTrial(
         lab,
@@ -93,8 +121,25 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         tuple(unmarked),
         tuple(drawn_at_all),
         neighbours_of(lab, drawn_at_all),
-        sum(fault.limit in ("apart", "pencil") for each in every for fault in each.faults),
+        pencilled,
+        coarse,
     )
+
+
+def drawn_coarsely(
+    lab: Lab,
+    mechanism: Mechanism,
+    names: Sequence[str],
+    many: Sequence[Settings],
+    fairness: Fairness,
+) -> tuple[int, dict[str, Fault]]:
+    """How many fair variants a pencil was tried on, and which it draws too inexactly."""
+    if lab.fair.pencil is None:
+        return 0, {}
+    which = [int(i) for i in fairness.fair.nonzero()[0][:PENCILLED]]
+    found = pencil_faults(lab, mechanism, [(many[i], fairness.computed(i)) for i in which])
+    pairs = zip(which, found, strict=True)
+    return len(which), {names[i]: fault for i, fault in pairs if fault is not None}
 
 
 def by_numbers(lab: Lab, mechanism: Mechanism, count: int) -> Iterable[tuple[str, Settings]]:

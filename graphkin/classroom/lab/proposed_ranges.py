@@ -24,7 +24,8 @@ COURSE = "mechanics 2026"
 
 class ProposedRanges(Struct, frozen=True):
     """Ranges to draw from for a course: how many different data they give, and how many of a class
-    they keep apart at a limit."""
+    they keep apart at a limit; ``exact`` is the share of them that a pencil draws exactly enough.
+    """
 
     ranges: Mapping[str, Range | ValueList]
     course: str
@@ -32,6 +33,7 @@ class ProposedRanges(Struct, frozen=True):
     apart: float
     kept: int
     of: int
+    exact: float = 1.0
 
 
 def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
@@ -43,7 +45,7 @@ def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
     new = replace(lab, rule=Ranges(course, found.ranges), fair=replace(lab.fair, apart=apart))
     students = [Student(i, f"{i:04d}", i) for i in range(1, CLASS + 1)]
     kept = sum(each.fair for each in assigned(new, students))
-    return ProposedRanges(found.ranges, course, found.count, apart, kept, CLASS)
+    return ProposedRanges(found.ranges, course, found.count, apart, kept, CLASS, found.exact_inside)
 
 
 class FormulaFaults(Struct, frozen=True):

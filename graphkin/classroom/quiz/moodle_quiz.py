@@ -85,14 +85,14 @@ def asked(
 ) -> list[tuple[int, Question]]:
     """The questions of some variants with their places."""
     book = Book(order.lab, order.scene)
-    return [(place, question(order, book, each)) for place, each in variants]
+    return [(place, question(order, book, each, str(place + 1))) for place, each in variants]
 
 
-def question(order: PrintOrder, book: Book, each: Assigned) -> Question:
-    """The question of one variant."""
+def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Question:
+    """The question of one variant; ``code`` stands on its sheets, where long data have no room."""
     settings = {name: exact_text(value) for name, value in each.settings.items()}
     told = ", ".join(f"{name} = {value}" for name, value in settings.items())
-    sheets = Sheets(order, Variant(told, told, settings, told, "", each.computed))
+    sheets = Sheets(order, Variant(told, code, settings, told, "", each.computed))
     words = sheets.words
     marker = book.marker(settings, each.computed)
     _, points = sheets.asked()
@@ -194,9 +194,8 @@ def cloze(gap: Gap, weight: int) -> str:
 
 
 def taken(each: Taken) -> str:
-    """One thing that a gap takes."""
-    percent = 100 * each.share
-    share = "=" if percent == 100 else f"%{float(percent):g}%"
+    """One thing that a gap takes; older Moodles read shares in whole percent alone."""
+    share = "=" if each.share == 1 else f"%{round(100 * each.share)}%"
     if isinstance(each.answer, str):
         answer = written(each.answer)
     else:

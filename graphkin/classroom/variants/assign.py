@@ -13,8 +13,8 @@ from graphkin.classroom.grading.neighbours import (
     RightValues,
     compare,
     is_within,
+    pencil_fault,
     standards_of,
-    worst_drawn,
 )
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
@@ -129,9 +129,8 @@ def with_room(
     rows = list(range(before))
     for row in range(before, len(both)):
         nearest = max(rows, key=lambda other: shares[row, other], default=row)
-        field, error = worst_drawn(both[row][1])
-        if lab.fair.pencil is not None and error > lab.fair.pencil:
-            found.append(Fault("pencil", field, error, lab.fair.pencil))
+        if (coarse := pencil_fault(lab, both[row][1])) is not None:
+            found.append(coarse)
         elif limit is not None and nearest != row and shares[row, nearest] > limit:
             share = float(shares[row, nearest])
             found.append(Fault("apart", both[nearest][0].student.id, share, limit))

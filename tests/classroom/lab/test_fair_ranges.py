@@ -11,7 +11,13 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin.classroom.lab import fair_ranges as module
-from graphkin.classroom.lab.fair_ranges import fair_ranges, halton, round_step, runs_of
+from graphkin.classroom.lab.fair_ranges import (
+    fair_ranges,
+    halton,
+    part_of,
+    round_step,
+    runs_of,
+)
 from graphkin.classroom.lab.fair_ranges_words import as_toml, variants_lines
 from graphkin.classroom.lab.formula_mending import candidates, is_fair, mended
 from graphkin.classroom.lab.lab_model import Range, ValueList
@@ -106,6 +112,52 @@ def test_in_a_region_of_two_parameters_all_that_is_proposed_is_fair(lab, monkeyp
     assert len(every) > 0.4 * discs
 
 
+def test_ranges_keep_to_the_limit_of_a_pencil(lab, tmp_path, monkeypatch):
+    """A slow piston is drawn less exactly: what is proposed has no draw in which it is too slow,
+    and check, which counts the others, finds none in the proposal."""
+    monkeypatch.setattr(module, "DRAWS", 300)
+    monkeypatch.setattr(module, "PENCILLED", 60)
+    path = tmp_path / "lab.toml"
+    path.write_text(f"{RULE}[fair]\npencil = 0.02\n", encoding="utf-8")
+    lab = read_lab(tmp_path)
+    before = tried(lab, 120)
+    found = fair_ranges(lab)
+    assert 0 < sum(found.exact) < len(found.exact) == 60
+    assert found.exact_inside == 1.0
+    assert found.ranges is not None
+    rest = path.read_text(encoding="utf-8").partition("[marks]")[2]
+    lines = ["graphkin = 1", *variants_lines(found.ranges, "mechanics"), "[marks]", rest]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    after = tried(read_lab(tmp_path), 120)
+    share = [len(each.coarse) / each.pencilled for each in (before, after)]
+    assert share[0] > 0.2
+    assert share[1] < 0.05
+    assert before.spoiled_share > 1 - before.fairness.fair.mean() + 0.1
+
+
+def test_where_no_class_would_be_left_the_rest_is_drawn_again(lab, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "DRAWS", 300)
+    monkeypatch.setattr(module, "PENCILLED", 40)
+    monkeypatch.setattr(module, "LEFT", 10**6)
+    monkeypatch.setattr("graphkin.classroom.lab.proposed_ranges.CLASS", 12)
+    path = tmp_path / "lab.toml"
+    path.write_text(f"{RULE}[fair]\npencil = 0.02\n", encoding="utf-8")
+    found = fair_ranges(read_lab(tmp_path))
+    assert 0 < found.exact_inside < 1
+    assert found.count > 10_000
+    out = CliRunner().invoke(app, ["ranges", str(tmp_path)]).output
+    assert f"a pencil draws {100 * found.exact_inside:.0f} % of these exactly enough" in out
+
+
+def test_a_part_of_a_list_has_the_values_between():
+    every = ValueList((Range(10, 10, 1), Range(20, 40, 10), Range(70, 80, 5)))
+    for low in range(len(every)):
+        for high in range(low, len(every)):
+            part = part_of(every, low, high)
+            told = [part.value(k) for k in range(len(part))]
+            assert told == [every.value(k) for k in range(low, high + 1)]
+
+
 def test_where_nothing_is_fair_nothing_is_proposed(lab, monkeypatch):
     judging(monkeypatch, lambda each: False)
     found = fair_ranges(lab)
@@ -134,6 +186,22 @@ def test_the_proposal_is_a_fair_lab(lab, tmp_path, monkeypatch):
     assert trial.unfair == 0
     assert found.tried.share < 1
     assert trial.different > 400
+
+
+def test_what_is_proposed_is_read_as_it_was_meant(lab, tmp_path):
+    """Ranges, lists of them with single values, and a parameter of which one value is left."""
+    ranges = {
+        "phi": ValueList((Range(10, 10, 5), Range(20, 40, 5))),
+        "speed": Range(65, 65, 5),
+        "r": Range(45, 55, 2),
+    }
+    rest = RULE[RULE.index("[marks]") :]
+    text = "\n".join(["graphkin = 1", *variants_lines(ranges, "mechanics"), rest])
+    (tmp_path / "lab.toml").write_text(text, encoding="utf-8")
+    read = read_lab(tmp_path).rule.draws
+    for name, values in ranges.items():
+        told = [read[name].value(k) for k in range(len(read[name]))]
+        assert told == [values.value(k) for k in range(len(values))]
 
 
 @pytest.mark.parametrize("base", [2, 3])

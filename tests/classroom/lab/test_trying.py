@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 
 import numpy as np
 import pytest
 
+from graphkin.classroom.grading.neighbours import standards_of, worst_drawn
 from graphkin.classroom.lab.fairness_words import trial_lines
 from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import new_lab
@@ -44,7 +46,7 @@ def test_shipped_labs_keep_a_class_of_thirty_apart(name):
     assert lab.fair.apart == 0.5
     trial = tried(lab)
     assert len(trial.compared) == 30
-    assert trial.too_near == 0
+    assert trial.by_keys == []
     assert np.nanmax(trial.neighbours.exact) <= 0.5
     students = [Student(i, str(i), i) for i in range(1, 31)]
     assert all(each.fair for each in assigned(lab, students))
@@ -64,8 +66,11 @@ def test_scales_are_told_with_how_many_students_have_them(mine):
         assert found.larger_still[i] == pytest.approx(scales.larger_still)
     lines = "\n".join(trial_lines(trial))
     assert "mechanism  velocities  accelerations  times" in lines
-    told = [int(row.split("number")[0].split()[-1]) for row in scale_rows(lines)]
-    assert sum(told) == 30
+    *rows, rest = scale_rows(lines)
+    told = [int(row.split("number")[0].split()[-1]) for row in rows]
+    more, scales_left = map(int, re.findall(r"\d+", rest))
+    assert "variants at" in rest and len(told) == 8 and scales_left > 0
+    assert sum(told) + more == 30
     assert told == sorted(told, reverse=True)
     assert "scales     all: 1:5 m = 2.5 m′ = 2" in "\n".join(trial_lines(tried(read_lab("pump"))))
 
@@ -134,3 +139,32 @@ def test_a_name_that_makes_no_folder_everywhere_is_refused(tmp_path, name):
     with pytest.raises(SceneError, match="is no name for a lab"):
         new_lab(name, tmp_path)
     assert not list(tmp_path.iterdir())
+
+
+BY_NUMBER = (
+    'graphkin = 1\n[variants]\nset = { n = "number" }\n[marks]\nv_D_mm = 1\na_D_mm = 1\n[fair]\n'
+)
+
+
+def test_to_whom_a_formula_gives_data_too_near_to_another_s_is_told(mine):
+    """A limit that only keys tell: named by number, and such a lab is not fair."""
+    trial = tried(mine(f"{BY_NUMBER}apart = 0.4\n", "pump-collinear"))
+    assert {fault.limit for _, fault in trial.by_keys} == {"apart"}
+    assert trial.spoilt and not trial.pencilled
+    lines = "\n".join(trial_lines(trial))
+    assert "earns more with another's right values than the limit" in lines
+
+
+def test_to_whom_a_formula_gives_what_a_pencil_draws_too_coarsely_is_told(mine):
+    lab = mine(f"{BY_NUMBER}pencil = 0.05\n", "pump-collinear")
+    trial = tried(lab)
+    fair = trial.fairness.fair.nonzero()[0]
+    asked = [(trial.many[i], trial.fairness.computed(i)) for i in fair]
+    standards = standards_of(lab, mechanism_of("pump-collinear", {}), asked)
+    errors = {trial.names[i]: worst_drawn(s)[1] for i, s in zip(fair, standards, strict=True)}
+    coarse = {name: error for name, error in errors.items() if error > 0.05}
+    assert {name: fault.value for name, fault in trial.coarse.items()} == coarse
+    assert 0 < len(coarse) < trial.pencilled == len(fair)
+    assert trial.spoilt
+    told = f"a pencil draws {len(fair) - len(coarse)} of the first {len(fair)} of these"
+    assert told in "\n".join(trial_lines(trial))

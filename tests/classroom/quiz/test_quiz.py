@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import re
 from fractions import Fraction
 from functools import cache
 from html import unescape
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from moodle_xml_parser.parser import parse_bytes
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.graded import Answer, Status
@@ -91,6 +94,71 @@ def test_a_sense_has_both_ways_and_one_is_right():
         if field.endswith("_sense"):
             right = given("pump", 7, field, marker_of("pump", 7).standard.key[field])
             assert [each.text for each in gap.answers if each.share == 1] == [right]
+
+
+def test_moodle_itself_read_what_is_kept_here_and_this_reader_reads_the_same():
+    """A bank with hostile texts, and what Moodle's own importer (4.0dev, qformat_xml with
+    qtype_multianswer and its validation) made of it; no error was found."""
+    kept = Path(__file__).with_name("read-by-moodle.xml").read_bytes()
+    told = json.loads(Path(__file__).with_name("read-by-moodle.json").read_text(encoding="utf-8"))
+    kinds = {"numerical": "NUMERICAL", "multichoice": "MULTICHOICE"}
+    found = moodle.imported(kept)
+    assert len(found) == len(told["questions"]) == 2
+    for mine, other in zip(found, told["questions"], strict=True):
+        assert (mine.category, mine.name) == (other["category"], other["name"])
+        assert sum(gap.weight for gap in mine.gaps) == other["mark"]
+        assert [(gap.kind, gap.weight) for gap in mine.gaps] == [
+            (kinds[gap["type"]], gap["mark"]) for gap in other["gaps"]
+        ]
+        for gap, same in zip(mine.gaps, other["gaps"], strict=True):
+            assert [[a.text, a.allowed, a.share, a.feedback] for a in gap.answers] == same[
+                "answers"
+            ]
+    assert [[n, len(data)] for each in found for n, data in each.files.items()] == told["files"]
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_the_reader_of_a_package_reads_the_same(name):
+    """moodle-xml-parser, of the registry: gaps, points, answers, shares in whole percent."""
+    lab = lab_of(name)
+    fair, _ = variants_of(lab, 2)
+    order = PrintOrder(lab, lab.scene.read_text(encoding="utf-8"), "en", "colour")
+    data = bank(name, questions(order, fair, 1))
+    own, others = moodle.imported(data), parse_bytes(data)["cloze"]
+    assert [each.name for each in others] == [each.name for each in own]
+    for mine, other in zip(own, others, strict=True):
+        assert [gap.sub_grade for gap in other.gaps] == [gap.weight for gap in mine.gaps]
+        for gap, same in zip(mine.gaps, other.gaps, strict=True):
+            assert [each.answer.lstrip("=").partition(":")[0] for each in same.options] == [
+                each.text for each in gap.answers
+            ]
+            assert [each.score for each in same.options] == [
+                round(100 * each.share) for each in gap.answers
+            ]
+
+
+def test_shares_are_whole_percent():
+    """Of 33.3 % an older Moodle makes an answer that is no number."""
+    item = next(iter(marker_of("pump", 7).standard.items))
+    takes = [Taken(1.0, 0.1, Fraction(1), ""), Taken(2.0, 0.1, Fraction(1, 3), "")]
+    assert cloze(Gap(item, Fraction(1), tuple(takes)), 1) == "{1:NUMERICAL:=1:0.1#~%33%2:0.1#}"
+
+
+def test_data_too_long_for_a_title_block_make_a_quiz_as_well(tmp_path):
+    """Ten drawn parameters: the sheets bear the number of the question, and name all data."""
+    shipped = lab_of("slotted-lever")
+    scene = shipped.scene.read_text(encoding="utf-8")
+    more = {f"unused{i}": f"{{ value = {i}, min = 1, max = 90, step = 1 }}" for i in range(10, 18)}
+    lines = "".join(f"{name} = {value}\n" for name, value in more.items())
+    text = scene.replace("[parameters]\n", f"[parameters]\n{lines}")
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    drawn = ", ".join(f"{name} = {{ min = 1, max = 90, step = 1 }}" for name in more)
+    rules = re.sub(r"(?m)^draw = \{", f"draw = {{ {drawn},", shipped.text)
+    (tmp_path / "lab.toml").write_text(rules, encoding="utf-8")
+    lab = read_lab(tmp_path)
+    fair, _ = variants_of(lab, 2)
+    (one, _) = questions(PrintOrder(lab, text, "en", "colour"), fair, 1)
+    assert all(f"{name} = " in one.name for name in (*more, "n", "r"))
 
 
 def test_points_become_whole_numbers_in_their_proportion():
