@@ -107,7 +107,7 @@ class PointReader(PointSearch):
             if self.holds(number, other, key):
                 best, fits = other, True
         led = best is not None and self.agreement(number, best.place) >= DRAWN
-        if best is not None and fits and led and best.count > 1:
+        if best is not None and fits and led and (best.count > 1 or best.ends):
             return self.told(number, key, own, best)
         far = self.best_far(number, own)
         if far is not None:

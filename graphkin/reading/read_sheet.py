@@ -140,22 +140,29 @@ def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
 
 
 def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSheet:
-    """The sheet of a student that lies in a picture: the one whose own lines are found.
+    """The sheet of a student that lies in a picture: the one whose own lines are found, and those
+    of the others are not, since one sheet may have all lines of another and some more.
 
     Raises Unreadable where none can be flattened.
     """
-    from graphkin.reading.registration import registered
+    from graphkin.reading.registration import found_of_another, registered
 
     best, most, refused = None, -1.0, ""
     own = order.variants[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
         sheets = sheets_of(order.order, order.variants[code], language)
-        for kind, page in task_pages(sheets):
+        pages = task_pages(sheets)
+        for kind, page in pages:
             found = registered(grey, page, corners)
             if found is None or found.own <= most:
                 continue
+            others = [other for _, other in pages if other is not page]
+            foreign = (found_of_another(grey, found.map, page, other) for other in others)
+            own = found.own - max(foreign, default=0.0)
+            if best is not None and own <= most:
+                continue
             drawing = next(each for each in sheets.drawings if each.kind == kind)
-            most, refused = found.own, found.refused
+            most, refused = own, found.refused
             best = FoundSheet(LetteredSheet(drawing, page), found.map, found.residual, sheets)
         if most >= SURE_OF_SHEET:
             break
