@@ -43,7 +43,7 @@ RUN, RUNS, GAP, PITCH = 6.0, 0.8, 1.4, 0.2
 """A line ends where, after so many mm of which that share is drawn, so many mm are empty; how close
 it is looked at.
 """
-SPECKS = 0.2
+SPECKS = 0.3
 """The share of what counts as empty that may be dark: a letter stands near, or the paper's grain.
 """
 ASLANT, MOST_NODES = 12.0, 6

@@ -169,7 +169,7 @@ class PointReader(PointSearch):
             if best is None or best.count < 2 or self.agreement(number, best.place) < DRAWN:
                 self.vaguely.add(number)
         return PointReading(
-            self.sheet.exact.program.steps[number].name,
+            str(self.sheet.exact.program.steps[number].name),
             number,
             None if place is None else pair(place),
             verdict,
@@ -188,7 +188,7 @@ class PointReader(PointSearch):
             name = steps[each.far].name
             plain = not (each.given or each.bow or each.after) and steps[each.far].aside is None
             if plain and name and self.is_known(each):
-                return pair(self.far_place(each, self.next)), name
+                return pair(self.far_place(each, self.next)), str(name)
         return None, ""
 
     def behind(self, number: int) -> frozenset[int]:
@@ -212,7 +212,7 @@ def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading,
     found = []
     for number in sheet.points:
         key = expected(sheet.place(number, keys[number]))
-        name, place = sheet.exact.program.steps[number].name, pair(key.middle)
+        name, place = str(sheet.exact.program.steps[number].name), pair(key.middle)
         error = round(key.radius, 3)
         found.append(PointReading(name, number, None, "unread", True, place, place, error=error))
     return tuple(found)
