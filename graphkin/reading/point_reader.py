@@ -16,12 +16,10 @@ from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
-    APART,
     AS_EXPECTED,
     DRAWINGS,
     DRAWN,
     FITS,
-    STOPS,
     PointSearch,
 )
 
@@ -133,10 +131,10 @@ class PointReader(PointSearch):
         """Where the vectors go that run on beyond a place that fits: its lines cross there, and yet
         somebody may have taken another place for the point.
         """
-        if self.stopped(number, place) >= STOPS / 2:
+        if max(self.beyond(number, place), default=0.0) < DRAWN:
             return None
-        far = self.best_far(number, own)
-        if far is None or abs(far.place - place) < APART:
+        far = self.best_far(number, own, place)
+        if far is None:
             return None
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         return far if there > here + ELSEWHERE else None

@@ -280,9 +280,11 @@ class PointSearch:
 
     # --- after a mistake --------------------------------------------------------------------------
 
-    def best_far(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
+    def best_far(
+        self, number: int, where: ExpectedPlace, besides: complex = complex("inf")
+    ) -> LinesCrossing | None:
         """The best place of a point that is not where it is expected, by the rays that leave the
-        known ends of what leads to it, and by what would follow from it.
+        known ends of what leads to it, and by what would follow from it; but for one that is known.
         """
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
@@ -291,7 +293,9 @@ class PointSearch:
         plausible = [
             place
             for place in places
-            if in_fields(place) and all(abs(place - other) > APART for other in taken)
+            if in_fields(place)
+            and all(abs(place - other) > APART for other in taken)
+            and abs(place - besides) > 2 * APART
         ]
         first = sorted(
             ((self.led_to(number, place, ends, crossed), place) for place in plausible),
@@ -414,15 +418,20 @@ class PointSearch:
 
     def stopped(self, number: int, place: complex) -> float:
         """How well the vectors that come to a place end there."""
-        beyond = []
+        beyond = self.beyond(number, place)
+        return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
+
+    def beyond(self, number: int, place: complex) -> list[float]:
+        """How much is drawn beyond a place of each vector that comes to it from a known end."""
+        found = []
         for each in self.sheet.leading[number]:
             if each.arrow and self.is_known(each):
                 far = self.far_place(each, self.next)
                 if abs(place - far) > 2 * SHORT:
                     way = (place - far) / abs(place - far)
                     first, last = place + OVER * way, place + 2 * OVER * way
-                    beyond.append(self.ink.cover(first, last, 0.3))
-        return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
+                    found.append(self.ink.cover(first, last, 0.3))
+        return found
 
     def followed(self, number: int, place: complex) -> float:
         """How well what would follow from a place is drawn."""

@@ -393,6 +393,23 @@ def test_rays_end_where_the_field_does(a_class: Path, code: str) -> None:
     assert all(abs(np.angle(way)) < np.radians(12) for way, _ in more)
 
 
+def test_a_vector_that_runs_on_beyond_a_place_is_seen(a_class: Path, code: str) -> None:
+    sheets = sheets_of(a_class, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    sheet = LetteredSheet(drawing, page)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    (number,) = (n for n in values if steps[n].name == "a")
+    (pole,) = (n for n in values if steps[n].name == "o")
+    o, a = (complex(sheet.place(n, values[n])) for n in (pole, number))
+    for long, beyond in ((1.0, 0.0), (1.3, 1.0)):
+        search = PointSearch(sheet, ink_of((o, o + long * (a - o))), Pencil(0.4, 0.4))
+        search.next = search.ahead({})
+        assert search.beyond(number, a) == [pytest.approx(beyond, abs=0.1)]
+        far = search.best_far(number, expected(np.array([a])), a)
+        assert far is None or abs(far.place - a) > 2
+
+
 def test_others_leave_a_line_at_its_node() -> None:
     ink = ink_of((200 + 100j, 260 + 100j), (232 + 100j, 245 + 120j))
     assert ink.node(230.5 + 100j, 1 + 0j, 4.0) == pytest.approx(1.5, abs=0.4)
