@@ -162,11 +162,11 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
                 continue
             others = [other for _, other in pages if other is not page]
             foreign = (found_of_another(grey, found.map, page, other) for other in others)
-            own = found.own - max(foreign, default=0.0)
-            if best is not None and own <= most:
+            share = found.own - max(foreign, default=0.0)
+            if best is not None and share <= most:
                 continue
             drawing = next(each for each in sheets.drawings if each.kind == kind)
-            most, refused = own, found.refused
+            most, refused = share, found.refused
             best = FoundSheet(LetteredSheet(drawing, page), found.map, found.residual, sheets)
         if most >= SURE_OF_SHEET:
             break
