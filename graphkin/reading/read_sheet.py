@@ -151,7 +151,7 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
     """
     from graphkin.reading.registration import found_of_another, registered
 
-    best, most, refused = None, -1.0, ""
+    best, most, held, refused = None, -1.0, 0.0, ""
     own = order.variants[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
         sheets = sheets_of(order.order, order.variants[code], language)
@@ -166,9 +166,9 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
             if best is not None and share <= most:
                 continue
             drawing = next(each for each in sheets.drawings if each.kind == kind)
-            most, refused = share, found.refused
+            most, refused, held = share, found.refused, found.own
             best = FoundSheet(LetteredSheet(drawing, page), found.map, found.residual, sheets)
-        if most >= SURE_OF_SHEET:
+        if held >= SURE_OF_SHEET:
             break
     if best is None or refused:
         raise Unreadable(refused or "no sheet of this student has a square to begin with")
