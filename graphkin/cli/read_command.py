@@ -49,7 +49,9 @@ MOST_PLACES = 10_000
     type=click.Path(path_type=Path),
     help='JSON, {"x": [mm, …], "y": [mm, …]}: places of the paper whose pixels are wanted.',
 )
-@click.option("--by-hand", is_flag=True, help="Only flatten; all points are clicked at the desk.")
+@click.option(
+    "--by-hand", is_flag=True, help="Only flatten; the points that marks need are clicked."
+)
 @jobs_option("Processes; all cores by default.")
 @click.pass_context
 def read(
@@ -97,10 +99,9 @@ def read(
     with progress("photographs") as shown:
         outcome = read_class(opened, pictures, out, order, jobs or cores(), shown)
     if as_json:
-        places = {each.name: each.path.parent for each in pictures}
-        put_in_place(
-            {places[r.name] / f"{r.name}{POINTS}": points_file(r) for r in outcome.records}
-        )
+        places = {each.name: each.path.parent / each.shown_name for each in pictures}
+        told = {r.name: points_file(r) for r in outcome.records}
+        put_in_place({Path(f"{places[name]}{POINTS}"): data for name, data in told.items()})
     tell(said(opened, outcome))
     if any(record.refused is not None for record in outcome.records):
         context.exit(FAILED)

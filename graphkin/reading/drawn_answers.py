@@ -11,6 +11,7 @@ from pathlib import Path
 
 from graphkin.classroom.grading.class_folder import ClassFolder
 from graphkin.classroom.grading.probes import Probe, probes
+from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.documents.sheet_documents import language_of
@@ -34,7 +35,7 @@ def answers_table(opened: ClassFolder, out: Path) -> bytes:
         records = latest_of(records_in(out), standing)
     except GraphkinError:
         records = {}
-    form = [item for item in opened.book.form if item.what in ("segment", "place")]
+    form = drawn_items(opened)
     rows: list[list[object]] = [["id", *(item.field for item in form)]]
     variants = {each.code: each for each in opened.edition.variants}
     language = language_of(opened.book.mechanism({}), None).language
@@ -54,6 +55,11 @@ def answers_table(opened: ClassFolder, out: Path) -> bytes:
         told = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
         rows.append([taker.student.id, *(cell(told[item.field], places) for item in form)])
     return csv_text(rows).encode("utf-8")
+
+
+def drawn_items(opened: ClassFolder) -> tuple[Item, ...]:
+    """The fields of the form that a drawing tells."""
+    return tuple(item for item in opened.book.form if item.what in ("segment", "place"))
 
 
 def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> Places:

@@ -43,6 +43,9 @@ RUN, RUNS, GAP, PITCH = 6.0, 0.8, 1.4, 0.2
 """A line ends where, after so many mm of which that share is drawn, so many mm are empty; how close
 it is looked at.
 """
+SPECKS = 0.3
+"""The share of what counts as empty that may be dark: a letter stands near, or the paper's grain.
+"""
 ASLANT, MOST_NODES = 12.0, 6
 """Degrees at least by which another line leaves a line; the places where some do that are told."""
 
@@ -141,7 +144,7 @@ class DrawnInk(Struct, frozen=True):
         drawn = (dark.max(axis=1) > COVERED) | (known[:, len(across) // 2] == 0)
         before, beyond = round(RUN / PITCH), round(GAP / PITCH)
         for i in range(before, len(along) - beyond):
-            if not drawn[i : i + beyond].any():
+            if drawn[i : i + beyond].mean() <= SPECKS:
                 if drawn[i - before : i].mean() < RUNS:
                     return None
                 return InkStroke(float(along[i - 1]))

@@ -20,12 +20,16 @@ PAPER = 0.08
 
 
 class LinesCrossing(Struct, frozen=True):
-    """A place where lines cross: its covariance, and how many lines and how well they are there."""
+    """A place where lines cross: its covariance, and how many lines and how well they are there.
+
+    ``ends`` tells that a single line ends there.
+    """
 
     place: complex
     error: Any
     count: int
     cover: float
+    ends: bool = False
 
 
 def met(one: InkLine, other: InkLine) -> complex | None:

@@ -86,6 +86,8 @@ def said_of(
 ) -> Iterator[tuple[str, str]]:
     """What is said of each point, with its colour."""
     for point in points:
+        if point.verdict == "unread" and not point.ask:
+            continue  # by hand, no mark needs it
         text = sentence(point, words)
         note = notes.get(point.step, "")
         yield f"{text}. {note}" if note else text, colour_of(point)

@@ -43,6 +43,12 @@ class Photograph(Struct, frozen=True):
     page: int | None = None
     left: Photograph | None = None
 
+    @property
+    def shown_name(self) -> str:
+        """The name of its own file, where a reading of it bears that name."""
+        whole = self.path.stem if self.page is None and self.left is None else self.name
+        return whole if file_part(whole) == self.name else self.name
+
 
 class Unreadable(Exception):  # noqa: N818
     """Why a picture cannot be read, in one line."""

@@ -15,15 +15,24 @@ from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
-from graphkin.reading.point_search import AS_EXPECTED, DRAWINGS, DRAWN, FITS, PointSearch
+from graphkin.reading.point_search import (
+    AS_EXPECTED,
+    DRAWINGS,
+    DRAWN,
+    FITS,
+    PointSearch,
+)
 
 SURE, OFF = 6.5, 16.0
 """Squared distances from what is expected, in deviations: below the first nobody is asked, and
 above the second of what is not expected it does not fit."""
-VAGUE, MEET = 4.0, 3
+VAGUE, MEET, BESIDE = 4.0, 3, 2.5
 """Where the pencil explains so many mm, a point that fits is looked at all the same, unless so many
-lines meet there and nothing on the sheet is wrong or missing before it.
+lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
+than so many mm.
 """
+ELSEWHERE = 0.6
+"""By how much another place must be likelier than one that fits, for its vectors to go there."""
 WHOLE = 0.95
 """The share of its lines that must be there for nobody to be asked of a point."""
 
@@ -107,8 +116,9 @@ class PointReader(PointSearch):
             if self.holds(number, other, key):
                 best, fits = other, True
         led = best is not None and self.agreement(number, best.place) >= DRAWN
-        if best is not None and fits and led and best.count > 1:
-            return self.told(number, key, own, best)
+        if best is not None and fits and led and (best.count > 1 or best.ends):
+            other = self.elsewhere(number, best.place, own)
+            return self.told(number, key, own, other or best, doubtful=other is not None)
         far = self.best_far(number, own)
         if far is not None:
             there = self.likely(number, far.place, own)
@@ -116,6 +126,18 @@ class PointReader(PointSearch):
             if there > here + (AS_EXPECTED if fits else 0.0):
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
+
+    def elsewhere(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
+        """Where the vectors go that run on beyond a place that fits: its lines cross there, and yet
+        somebody may have taken another place for the point.
+        """
+        if max(self.beyond(number, place), default=0.0) < DRAWN:
+            return None
+        far = self.best_far(number, own, place)
+        if far is None:
+            return None
+        there, here = (self.likely(number, each, own) for each in (far.place, place))
+        return far if there > here + ELSEWHERE else None
 
     def told(
         self,
@@ -142,7 +164,8 @@ class PointReader(PointSearch):
             apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
             steps = self.sheet.exact.program.steps
             untried = any(steps[n].aside is not None for n in self.unread & behind)
-            met = best.count >= MEET and not self.bad
+            near = abs(best.place - own.middle) <= BESIDE
+            met = best.count >= MEET and near and not self.bad
             vague = (own.radius > VAGUE and not met) or untried  # by a trial plan nobody saw
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = away > SURE or best.count < 2 or best.cover < WHOLE or fresh or doubtful
@@ -169,7 +192,7 @@ class PointReader(PointSearch):
             if best is None or best.count < 2 or self.agreement(number, best.place) < DRAWN:
                 self.vaguely.add(number)
         return PointReading(
-            self.sheet.exact.program.steps[number].name,
+            str(self.sheet.exact.program.steps[number].name),
             number,
             None if place is None else pair(place),
             verdict,
@@ -188,7 +211,7 @@ class PointReader(PointSearch):
             name = steps[each.far].name
             plain = not (each.given or each.bow or each.after) and steps[each.far].aside is None
             if plain and name and self.is_known(each):
-                return pair(self.far_place(each, self.next)), name
+                return pair(self.far_place(each, self.next)), str(name)
         return None, ""
 
     def behind(self, number: int) -> frozenset[int]:
@@ -212,7 +235,7 @@ def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading,
     found = []
     for number in sheet.points:
         key = expected(sheet.place(number, keys[number]))
-        name, place = sheet.exact.program.steps[number].name, pair(key.middle)
+        name, place = str(sheet.exact.program.steps[number].name), pair(key.middle)
         error = round(key.radius, 3)
         found.append(PointReading(name, number, None, "unread", True, place, place, error=error))
     return tuple(found)

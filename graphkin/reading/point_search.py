@@ -48,8 +48,8 @@ TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays in degrees and mm, and where rays begin."""
 AGREED = 0.5
 """The share of the ways from known ends to a point that is drawn at least."""
-RAY = 7.0
-"""The shortest ray that counts, in mm."""
+RAY, MOST_RAYS, PARTED = 7.0, 16, 0.8
+"""The shortest ray that counts, in mm; how many of a place do; by how many degrees they differ."""
 STOPS, OVER = 0.4, 6.0
 """What it counts for a place that vectors end there, and how far beyond it, in mm, that is seen."""
 KEPT, LEANS = 0.3, 0.02
@@ -207,9 +207,15 @@ class PointSearch:
         self, number: int, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace
     ) -> LinesCrossing | None:
         """Where others leave a single line that leads to a point; where none does, its end; where
-        it goes on, or other points are expected about there, the place on it that is expected.
+        it goes on, or other points are expected about there, the place on it that is expected:
+        where others run there as well, too flatly to cross it, that is taken for its end.
         """
         ends = self.known_ends(number)
+        flat = [
+            some
+            for some in lines
+            if any(e.cover >= DRAWN and abs(e.off(where.middle)) < PASSES for e in some)
+        ]
         for line in (line for some in lines for line in some):
             if line.cover < DRAWN or abs(line.off(where.middle)) > where.reach:
                 continue
@@ -222,12 +228,13 @@ class PointSearch:
                 shift, along, count = self.ink.node(foot, line.way, where.reach), NODE, 2
                 if shift is None:
                     shift, along, count = found.end, END, 1
+                stops = count == 1 and shift is not None
                 place = foot + line.way * (shift or 0.0)
                 near = any(abs(place - e) < SHORT for e in ends)
                 if shift is None or near or not self.is_own(number, place, where):
-                    shift, along, count = 0.0, where.reach, 1
+                    shift, along, count, stops = 0.0, where.reach, 1, len(flat) > 1
                 place, error = foot + line.way * shift, along_way(line.way, along, line.error)
-                return LinesCrossing(place, error, count, line.cover)
+                return LinesCrossing(place, error, count, line.cover, stops)
         return None
 
     def is_own(self, number: int, place: complex, where: ExpectedPlace) -> bool:
@@ -273,9 +280,11 @@ class PointSearch:
 
     # --- after a mistake --------------------------------------------------------------------------
 
-    def best_far(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
+    def best_far(
+        self, number: int, where: ExpectedPlace, besides: complex = complex("inf")
+    ) -> LinesCrossing | None:
         """The best place of a point that is not where it is expected, by the rays that leave the
-        known ends of what leads to it, and by what would follow from it.
+        known ends of what leads to it, and by what would follow from it; but for one that is known.
         """
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
@@ -284,32 +293,41 @@ class PointSearch:
         plausible = [
             place
             for place in places
-            if in_fields(place) and all(abs(place - other) > APART for other in taken)
+            if in_fields(place)
+            and all(abs(place - other) > APART for other in taken)
+            and abs(place - besides) > 2 * APART
         ]
         first = sorted(
             ((self.led_to(number, place, ends, crossed), place) for place in plausible),
             key=lambda each: -each[0] + 0.002 * abs(each[1] - where.middle),
         )
-        best, most = None, ENOUGH
+        tried: list[tuple[float, complex]] = []
         for led, place in first[:TRIED]:
             if led < DRAWN:
                 break
             if self.agreement(number, place, read=True) < AGREED:
                 continue
             score = led + self.followed(number, place) - 0.003 * abs(place - where.middle)
-            if score > most:
-                best, most = place, score
-        return None if best is None else self.settled(number, best)
+            if score > ENOUGH:
+                tried.append((score, place))
+        for _, place in sorted(tried, key=lambda each: -each[0]):
+            found = self.settled(number, place)
+            if all(abs(found.place - other) > APART for other in taken):
+                return found
+        return None
 
     def likely(self, number: int, place: complex, where: ExpectedPlace) -> float:
-        """How much of what leads to a place and of what would follow from it is drawn."""
+        """How much of what leads to a place and of what would follow from it is drawn, and of all
+        ways to it from ends that are known.
+        """
         ends = self.known_ends(number)
         led = self.led_to(number, place, ends, are_crossing(ends, where.middle))
-        return led + self.followed(number, place)
+        return led + self.followed(number, place) + self.agreement(number, place)
 
     def led_to(self, number: int, place: complex, ends: Sequence[complex], crossed: bool) -> float:
         """How well what leads to a place is drawn, ends there, and runs as it should."""
-        support = self.supported(place, ends, crossed)
+        printed = [self.far_place(e, self.next) for e in self.sheet.leading[number] if e.given]
+        support = self.supported(place, ends, crossed, printed)
         return support + self.stopped(number, place) + self.on_lines(number, place)
 
     def known_ends(self, number: int) -> list[complex]:
@@ -350,8 +368,9 @@ class PointSearch:
         angles = np.radians(np.arange(0, 360, TURN))
         radii = np.arange(BEGIN, 230.0, PACE)
         ways = np.exp(1j * angles)
-        dark, known = self.ink.at(start + ways[:, None] * radii[None, :])
-        drawn = (dark > COVERED) | (known == 0)
+        places = start + ways[:, None] * radii[None, :]
+        dark, known = self.ink.at(places)
+        drawn = ((dark > COVERED) | (known == 0)) & in_fields(places)
         share = np.cumsum(drawn, axis=1) / np.arange(1, len(radii) + 1)
         recent = np.apply_along_axis(np.convolve, 1, drawn.astype(float), np.ones(8) / 8, "same")
         alive = (share > 0.85) & (recent > 0.5)
@@ -361,17 +380,21 @@ class PointSearch:
         strength = sums[np.arange(len(angles)), reach]
         found: list[tuple[complex, float]] = []
         for i in np.argsort(-strength):
-            if lengths[i] < RAY or strength[i] < 5 or len(found) >= 10:
+            if lengths[i] < RAY or strength[i] < 5 or len(found) >= MOST_RAYS:
                 break
-            if all(abs(np.angle(ways[i] / way)) > np.radians(1.5) for way, _ in found):
+            if all(abs(np.angle(ways[i] / way)) > np.radians(PARTED) for way, _ in found):
                 found.append((complex(ways[i]), float(lengths[i])))
         return found
 
-    def supported(self, place: complex, ends: Sequence[complex], crossed: bool) -> float:
+    def supported(
+        self, place: complex, ends: Sequence[complex], crossed: bool, printed: Sequence[complex]
+    ) -> float:
         """How well the ways from some ends to a place are drawn: the best two that cross there,
-        where such are expected, or all that lie in one line.
+        where such are expected, or all that lie in one line. Some are printed.
         """
-        ways = [(self.ink.cover(end, place), end - place) for end in ends]
+        ways = [
+            (self.ink.cover(end, place, hidden=float(end in printed)), end - place) for end in ends
+        ]
         ways = sorted((each for each in ways if abs(each[1]) > SHORT), key=lambda each: -each[0])
         if not ways:
             return 0.0
@@ -395,15 +418,20 @@ class PointSearch:
 
     def stopped(self, number: int, place: complex) -> float:
         """How well the vectors that come to a place end there."""
-        beyond = []
+        beyond = self.beyond(number, place)
+        return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
+
+    def beyond(self, number: int, place: complex) -> list[float]:
+        """How much is drawn beyond a place of each vector that comes to it from a known end."""
+        found = []
         for each in self.sheet.leading[number]:
             if each.arrow and self.is_known(each):
                 far = self.far_place(each, self.next)
                 if abs(place - far) > 2 * SHORT:
                     way = (place - far) / abs(place - far)
                     first, last = place + OVER * way, place + 2 * OVER * way
-                    beyond.append(self.ink.cover(first, last, 0.3))
-        return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
+                    found.append(self.ink.cover(first, last, 0.3))
+        return found
 
     def followed(self, number: int, place: complex) -> float:
         """How well what would follow from a place is drawn."""
@@ -417,7 +445,7 @@ class PointSearch:
             return 0.75
         return max(covers)
 
-    def settled(self, number: int, place: complex) -> LinesCrossing | None:
+    def settled(self, number: int, place: complex) -> LinesCrossing:
         """A place that was found, where the lines that lead to it cross exactly."""
         values = self.ahead({number: place})
         lines = []
@@ -430,6 +458,7 @@ class PointSearch:
         return found or LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
 
 
-def in_fields(place: complex) -> bool:
-    """Whether a place lies where is drawn."""
-    return bool(AREA[0] < place.real < AREA[2] and AREA[1] < place.imag < AREA[3])
+def in_fields(places: Any) -> Any:
+    """Whether places lie where is drawn."""
+    x, y = np.real(places), np.imag(places)
+    return (AREA[0] < x) & (x < AREA[2]) & (AREA[1] < y) & (y < AREA[3])

@@ -20,7 +20,7 @@ from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.csv_text import safe
 from graphkin.documents.sheet_documents import language_of
-from graphkin.reading.drawn_answers import ANSWERS, answers_table
+from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.kept_readings import PICTURE, READING, kept
 from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
@@ -30,7 +30,7 @@ from graphkin.writers.lock import locked
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 2
+METHOD = 3
 """Raised when the same photograph would be read otherwise: readings of before are made anew."""
 FEWEST = 3
 """Photographs from which a worker process pays for itself."""
@@ -49,7 +49,8 @@ def read_order(opened: ClassFolder, grid: Grid, *, by_hand: bool = False) -> Rea
     edition = opened.edition
     language = language_of(opened.book.mechanism({}), None).language
     order = PrintOrder(edition.lab, edition.scene, language, "colour")
-    return ReadOrder(order, {each.code: each for each in edition.variants}, grid, by_hand)
+    variants = {each.code: each for each in edition.variants}
+    return ReadOrder(order, variants, grid, by_hand, drawn_items(opened))
 
 
 def read_class(
@@ -90,8 +91,8 @@ def read_class(
 def reading_key(order: ReadOrder, picture: Photograph) -> str:
     """What decides a reading: the photograph, the student's data, how it is read."""
     students = {code: dict(each.settings) for code, each in order.variants.items()}
-
-    how = msgspec.to_builtins(order.grid), order.by_hand
+    marked = [each.field for each in order.marked] if order.by_hand else []
+    how = msgspec.to_builtins(order.grid), order.by_hand, marked
     return key_of(METHOD, hash_of_picture(picture), students, order.order.scene, how)
 
 

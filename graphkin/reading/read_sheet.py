@@ -11,6 +11,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.classroom.grading.probes import probes
+from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
 from graphkin.drawing.marks import Page
@@ -62,6 +64,8 @@ class ReadOrder(Struct, frozen=True):
     variants: Mapping[str, Variant]
     grid: Grid = Grid()
     by_hand: bool = False
+    marked: tuple[Item, ...] = ()
+    """The lengths and places that are marked: by hand only their points are asked."""
 
 
 class SheetRead(Struct, frozen=True):
@@ -101,7 +105,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             grey = of_halves(grey_of(photograph.left), grey, order)
         code, corners = known_code(grey, order.variants)
         found = found_sheet(grey, order, code, corners)
-        points, corners_at = unread(found) if order.by_hand else read_points(grey, found)
+        points, corners_at = unread(found, order) if order.by_hand else read_points(grey, found)
     except (Unreadable, GraphkinError, *FAULTS, cv2.error) as error:
         spent = round(perf_counter() - start, 3)
         told = isinstance(error, Unreadable | GraphkinError)
@@ -140,24 +144,31 @@ def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
 
 
 def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSheet:
-    """The sheet of a student that lies in a picture: the one whose own lines are found.
+    """The sheet of a student that lies in a picture: the one whose own lines are found, and those
+    of the others are not, since one sheet may have all lines of another and some more.
 
     Raises Unreadable where none can be flattened.
     """
-    from graphkin.reading.registration import registered
+    from graphkin.reading.registration import found_of_another, registered
 
-    best, most, refused = None, -1.0, ""
+    best, most, held, refused = None, -1.0, 0.0, ""
     own = order.variants[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
         sheets = sheets_of(order.order, order.variants[code], language)
-        for kind, page in task_pages(sheets):
+        pages = task_pages(sheets)
+        for kind, page in pages:
             found = registered(grey, page, corners)
             if found is None or found.own <= most:
                 continue
+            others = [other for _, other in pages if other is not page]
+            foreign = (found_of_another(grey, found.map, page, other) for other in others)
+            share = found.own - max(foreign, default=0.0)
+            if best is not None and share <= most:
+                continue
             drawing = next(each for each in sheets.drawings if each.kind == kind)
-            most, refused = found.own, found.refused
+            most, refused, held = share, found.refused, found.own
             best = FoundSheet(LetteredSheet(drawing, page), found.map, found.residual, sheets)
-        if most >= SURE_OF_SHEET:
+        if held >= SURE_OF_SHEET:
             break
     if best is None or refused:
         raise Unreadable(refused or "no sheet of this student has a square to begin with")
@@ -215,12 +226,18 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
     return points, reader.corners()
 
 
-def unread(found: FoundSheet) -> Points:
-    """The points of a sheet that a person is to click: nothing of them is read."""
+def unread(found: FoundSheet, order: ReadOrder) -> Points:
+    """The points of a sheet that a person is to click, nothing of them read: those that a mark
+    needs are asked; where no length and no place is marked, all are.
+    """
     from graphkin.reading.point_reader import forecast_points
 
     rubric = found.sheets.lab.rubric
-    return forecast_points(found.sheet, Pencil(rubric.point, rubric.line)), {}
+    points = forecast_points(found.sheet, Pencil(rubric.point, rubric.line))
+    needed = {step for each in probes(found.sheets.mechanism, order.marked) for step in each.steps}
+    if not needed:
+        return points, {}
+    return tuple(replace(point, ask=point.step in needed) for point in points), {}
 
 
 def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:

@@ -189,6 +189,18 @@ def followed(
     return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines, sides)
 
 
+def found_of_another(grey: Any, over: PaperMap, page: Page, other: Page) -> float:
+    """The share that is found, in a picture of a page, of the lines that only another page has."""
+    ours, lines = printed_lines(page), printed_lines(other)
+    alike = abs(lines.normals @ ours.normals.T) > 0.5
+    apart = np.hypot(*(lines.places[:, None] - ours.places[None]).transpose(2, 0, 1))
+    only = ~(alike & (apart < SPACING)).any(axis=1)
+    if only.sum() < LEAST_ALONG:
+        return 0.0
+    measured = measure(cv2.GaussianBlur(grey, (0, 0), 0.7), over, lines.some(only), NEAR)
+    return float((measured.found & measured.seen).sum() / max(measured.seen.sum(), 1))
+
+
 class MeasuredLines(Struct, frozen=True):
     """What was found of some lines: how far from its place each lies along its normal (mm), whether
     it was found, and whether it lies in the picture at all.

@@ -15,6 +15,8 @@ from click.testing import CliRunner, Result
 from PIL import Image
 from pypdf import PdfWriter
 
+from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
 from graphkin.reading import registration
@@ -23,10 +25,13 @@ from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import expected
 from graphkin.reading.kept_readings import READING, kept, records_in
+from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing, along_way
 from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
 from graphkin.reading.point_reading import PointReading
-from graphkin.reading.read_sheet import SheetRecord
+from graphkin.reading.point_search import PointSearch
+from graphkin.reading.read_run import read_order
+from graphkin.reading.read_sheet import Grid, SheetRecord
 from graphkin.reading.settled_points import (
     SETTLED,
     PointDecision,
@@ -35,8 +40,9 @@ from graphkin.reading.settled_points import (
 )
 from graphkin.studio.guard import Guard
 from graphkin.text import words
+from tests.bench.reading import lab_of
 from tests.reading.camera import Picture, Shot, photograph, scan
-from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, sheets_of
+from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, printed, sheets_of
 
 ROSTER = "Nr.;Matricol;Nume;Grupa\n7;0042;Ana Pop;A\n12;0043;Dan Ion;A\n"
 XS, YS = [20.0, 120.0, 215.0, 310.0, 410.0], [10.0, 80.0, 150.0, 220.0, 287.0]
@@ -274,6 +280,25 @@ def test_a_scan_is_read_from_a_pdf(a_class: Path, code: str, tmp_path: Path) -> 
     assert np.hypot(d.at[0] - true.at[0], d.at[1] - true.at[1]) < 0.5
 
 
+def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(tmp_path: Path) -> None:
+    (tmp_path / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
+    lab = lab_of(Path("examples/scenes/gears-rack.toml"), tmp_path)
+    folder = tmp_path / "class"
+    call("variants", lab, tmp_path / "class.csv", "-o", folder)
+    (code,) = read_order(open_class(folder), Grid()).variants
+    for kind in ("velocity", "acceleration"):
+        taken = scan(printed(folder, code, kind), 150, 0.0, 1)
+        (tmp_path / f"{kind} 1.jpg").write_bytes(taken.data)
+    pictures = [tmp_path / f"{kind} 1.jpg" for kind in ("velocity", "acceleration")]
+    found = call("read", folder, *pictures, "-o", tmp_path / "read", "--json", "--jobs", "1")
+    assert found.exit_code == 0, found.output
+    kinds = {record.file: record.kind for record in records_in(tmp_path / "read")}
+    assert kinds == {"velocity 1.jpg": "velocity", "acceleration 1.jpg": "acceleration"}
+    for path in pictures:  # beside each picture, by its own name
+        told = json.loads(path.with_suffix(".points.json").read_text(encoding="utf-8"))
+        assert told["code"] == code
+
+
 def test_a_picture_of_a_telephone_is_read(a_class: Path, taken: Path, tmp_path: Path) -> None:
     image = np.asarray(Image.open(taken / "plain.jpg").convert("L"))
     (tmp_path / "plain.heic").write_bytes(heic(image))
@@ -349,6 +374,42 @@ def test_a_line_ends_where_its_ink_does_and_one_that_does_not_come_so_far_is_non
     assert ink.stroke(280 + 100j, 1 + 0j, 4.0) is None
 
 
+def test_a_letter_beside_the_end_of_a_line_does_not_hide_it() -> None:
+    ink = ink_of((200 + 100j, 260 + 100j), (261.6 + 98j, 261.6 + 102j))
+    end = ink.stroke(259.5 + 100j, 1 + 0j, 3.0)
+    assert end is not None
+    assert end.end == pytest.approx(0.5, abs=0.5)
+
+
+def test_rays_end_where_the_field_does(a_class: Path, code: str) -> None:
+    sheets = sheets_of(a_class, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    ink = ink_of((300 + 100j, 330 + 100j))
+    search = PointSearch(LetteredSheet(drawing, page), ink, Pencil(0.4, 0.4))
+    (first, *more) = search.rays(300 + 100j)
+    assert first[0] == pytest.approx(1, abs=0.01)
+    assert first[1] == pytest.approx(30, abs=6)
+    assert all(abs(np.angle(way)) < np.radians(12) for way, _ in more)
+
+
+def test_a_vector_that_runs_on_beyond_a_place_is_seen(a_class: Path, code: str) -> None:
+    sheets = sheets_of(a_class, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    sheet = LetteredSheet(drawing, page)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    (number,) = (n for n in values if steps[n].name == "a")
+    (pole,) = (n for n in values if steps[n].name == "o")
+    o, a = (complex(sheet.place(n, values[n])) for n in (pole, number))
+    for long, beyond in ((1.0, 0.0), (1.3, 1.0)):
+        search = PointSearch(sheet, ink_of((o, o + long * (a - o))), Pencil(0.4, 0.4))
+        search.next = search.ahead({})
+        assert search.beyond(number, a) == [pytest.approx(beyond, abs=0.1)]
+        far = search.best_far(number, expected(np.array([a])), a)
+        assert far is None or abs(far.place - a) > 2
+
+
 def test_others_leave_a_line_at_its_node() -> None:
     ink = ink_of((200 + 100j, 260 + 100j), (232 + 100j, 245 + 120j))
     assert ink.node(230.5 + 100j, 1 + 0j, 4.0) == pytest.approx(1.5, abs=0.4)
@@ -395,13 +456,16 @@ def test_a_single_line_leaves_a_cloud_open_along_itself() -> None:
     assert np.mean(narrow.imag) == pytest.approx(0.5, abs=0.05)
 
 
-def test_by_hand_all_points_are_asked(a_class: Path, taken: Path, tmp_path: Path) -> None:
+def test_by_hand_the_points_that_marks_need_are_asked(
+    a_class: Path, taken: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "read"
     call("read", a_class, taken / "plain.jpg", "-o", out, "--by-hand", "--jobs", "1")
     record = kept(out, "plain")
     assert record is not None
     assert {point.verdict for point in record.points} == {"unread"}
-    assert all(point.ask for point in record.points)
+    needed = {"velocity": {"d", "I3"}, "acceleration": {"d′", "J3", "J4"}}[record.kind]
+    assert {point.name for point in record.points if point.ask} == needed
 
 
 # --- decisions -------------------------------------------------------------------------------
