@@ -126,7 +126,7 @@ def test_who_shares_with_one_of_two_only_what_these_share_is_named_with_nobody()
 
 def test_three_who_share_answers_are_one_group_with_the_odds_of_their_weakest_pair():
     strong = {(0, 1): 30.0, (0, 2): 29.0, (1, 2): 28.0}
-    fields = {pair: (4, 5, 6) for pair in strong}
+    fields = dict.fromkeys(strong, (4, 5, 6))
     (found,) = grouped(strong, fields, lambda pair, less: strong[pair])
     assert found == ((0, 1, 2), (4, 5, 6), 28.0)
 
