@@ -6,7 +6,7 @@ from math import dist
 
 import pytest
 
-from graphkin.construction.normal_component.normal_component import pins_of_triangles
+from graphkin.construction.core.component import crowded_pins
 from graphkin.documents.detail import RADIUS
 from graphkin.drawing.label import SMALL
 from graphkin.drawing.marks import CircleMark, Text
@@ -38,7 +38,7 @@ def test_each_small_circle_has_its_large_one(name):
 
 def test_a_pin_at_which_three_triangles_meet_is_shown_enlarged():
     page = drawn("stephenson-3-crank", None, "acceleration")
-    (pin,) = pins_of_triangles(page.drawing, 3)
+    (pin,) = crowded_pins(page.drawing, 3)
     small, _ = circles(page)
     assert any(dist(page.layout.mechanism(pin), (m.cx, m.cy)) < m.r for m in small)
 

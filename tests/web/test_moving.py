@@ -59,7 +59,7 @@ def named(name: str) -> Mechanism:
     if name.endswith(CENTRES):
         scene = named(name.removesuffix(CENTRES)).scene
         pairs = tuple("-".join(pair) for pair in combinations((FRAME, *scene.links), 2))
-        return Mechanism(replace(scene, ask=scene.ask._replace(pairs=pairs)))
+        return Mechanism(replace(scene, ask=replace(scene.ask, pairs=pairs)))
     return load(name) if name in LABS else mechanism_named(name)
 
 
