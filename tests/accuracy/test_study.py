@@ -10,12 +10,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib import rc_context
+from matplotlib.figure import Figure
 
 from graphkin.accuracy.compared_positions import approach, ground_of, places_around
+from graphkin.accuracy.cost_by_scope import panel
 from graphkin.accuracy.flattening import LAW
 from graphkin.accuracy.methods import BITS, DIGITS
 from graphkin.accuracy.other_routes import STEPS, TOLERANCES, plain
-from graphkin.accuracy.stopwatch import QUICK
+from graphkin.accuracy.stopwatch import QUICK, Timing
 from graphkin.accuracy.study import Study, study
 from graphkin.cli.report.accuracy_report import (
     HEADS,
@@ -180,6 +183,15 @@ def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):  # noq
     again = run(*args)
     assert again.exit_code == 2
     assert "--force" in again.stderr
+
+
+def test_no_line_of_a_grid_runs_along_the_bars():
+    """Also where somebody's own settings of Matplotlib ask for a grid."""
+    with rc_context({"axes.grid": True}):
+        axes = Figure().add_subplot()
+        panel(axes, ["all", "one"], ["C0", "C1"], [Timing(2e-6, 1e-6, 3e-6, 3)] * 2)
+    assert not any(line.get_visible() for line in axes.yaxis.get_gridlines())
+    assert [bar.get_width() for bar in axes.patches] == pytest.approx([2, 2])
 
 
 def test_an_error_without_bound_fails_and_is_no_number():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle, product
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from graphkin.mechanism import load
 from graphkin.web.step_page import step_page
 from tests.browser.firefox import LOOKS, Firefox, _no_errors, firefox  # noqa: F401
 from tests.browser.opening import missing
+from tests.chosen import EVERY
 from tests.documents.sheet_tools import mechanism_named
 
 SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (820, 1180): 0.45}
@@ -33,6 +35,9 @@ QUERIES = {
     "forced": "(forced-colors:active)",
     "still": "(prefers-reduced-motion:reduce)",
 }
+SHOWN = [*product(SIZES, ["light"]), *zip(cycle(SIZES), LOOKS)]
+SHOWN = list(product(SIZES, LOOKS)) if EVERY else list(dict.fromkeys(SHOWN))
+"""Every size, and every look in one of them."""
 RIGHT, LEFT, HOME = "\ue014", "\ue012", "\ue011"
 
 
@@ -55,8 +60,7 @@ def barred(window: Firefox) -> list[Any]:
     return found
 
 
-@pytest.mark.parametrize("look", LOOKS)
-@pytest.mark.parametrize("size", SIZES, ids=lambda size: "x".join(map(str, size)))
+@pytest.mark.parametrize(("size", "look"), SHOWN, ids=str)
 def test_it_shows_every_step_with_nothing_against_it(firefox, pump, size, look):  # noqa: F811
     firefox.open(pump, "#step=9", size, look)
     assert firefox.run("return matchMedia(arguments[0]).matches", QUERIES[look])

@@ -372,8 +372,10 @@ def test_what_is_not_saved_is_kept_over_a_reload_and_replaces_no_newer_file(stud
     assert page.inner_text("#status") == ""
 
 
-@pytest.mark.parametrize("size", [(1440, 900), (1280, 720), (820, 1180)])
-@pytest.mark.parametrize("lab", ["pump", "slotted-lever"])
+@pytest.mark.parametrize(
+    ("lab", "size"),
+    [("pump", (1440, 900)), ("slotted-lever", (1280, 720)), ("slotted-lever", (820, 1180))],
+)
 def test_each_field_shows_its_drawing_whole(studio, lab, size):
     page = studio(f"?lab={lab}", viewport={"width": size[0], "height": size[1]})
     at_rest(page)

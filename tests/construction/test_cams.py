@@ -3,6 +3,8 @@
 import csv
 import io
 from fractions import Fraction
+from itertools import cycle as in_turn
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +20,7 @@ from graphkin.motion.cycle import cycle
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError, SceneError, StructureError
+from tests.chosen import EVERY
 
 CAMS = [f"cam-{name}" for name in ("roller", "knife", "flat", "rocker", "lever", "table")]
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -126,8 +129,12 @@ def test_the_largest_velocity_and_acceleration_are_those_of_the_textbooks(name):
     assert set(PEAKS) == set(MOTIONS)
 
 
-@pytest.mark.parametrize("tip", ["roller", "knife", "flat"])
-@pytest.mark.parametrize("motion", MOTIONS)
+TIPS = ("roller", "knife", "flat")
+PAIRS = list(product(TIPS, MOTIONS) if EVERY else zip(in_turn(TIPS), MOTIONS))
+"""Each motion on each tip, or on one of them in turn."""
+
+
+@pytest.mark.parametrize(("tip", "motion"), PAIRS)
 def test_both_routes_and_the_law_agree_all_the_way_round(tip, motion):
     """At 24 positions: v = s'ω and a = s"ω² + s'ε, by the equivalent linkage and by the loops."""
     rng = np.random.default_rng([len(tip), len(motion), list(MOTIONS).index(motion)])
@@ -205,8 +212,7 @@ def drawn_lever(rng, tip, motion):
     return read_text(LEVER.format(tip=tip, told=told, **numbers), "lever"), data
 
 
-@pytest.mark.parametrize("tip", ["roller", "knife", "flat"])
-@pytest.mark.parametrize("motion", MOTIONS)
+@pytest.mark.parametrize(("tip", "motion"), PAIRS)
 def test_a_lever_swings_by_its_law_all_the_way_round(tip, motion):
     """At 12 positions: ω = ψ'ω₁ and ε = ψ"ω₁² + ψ'ε₁ away from the cam, by both routes."""
     rng = np.random.default_rng([7, len(tip), list(MOTIONS).index(motion)])

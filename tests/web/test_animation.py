@@ -16,7 +16,7 @@ from graphkin.drawing.marks import Text, reach
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text import words
-from graphkin.web import animation
+from graphkin.web import frames
 from graphkin.web.animation_pictures import EDGE, Stage, stage
 from graphkin.web.fixed_parts import STILL
 from graphkin.web.frame_marks import cut, mechanism_seen, plan_box
@@ -352,7 +352,7 @@ def test_the_first_picture_is_the_drawn_position():
 @pytest.fixture
 def in_few_moments(monkeypatch: pytest.MonkeyPatch) -> None:
     """What a command moves, it moves in as many moments as are looked at here."""
-    monkeypatch.setattr(animation, "motion", partial(motion, frames=FRAMES))
+    monkeypatch.setattr(frames, "motion", partial(motion, frames=FRAMES))
 
 
 @pytest.mark.usefixtures("in_few_moments")
