@@ -185,13 +185,13 @@ function whole_line(key, look) {
   const drawn = shown_at(key);
   put_in("front", drawn, look);
   if (!drawn?.from) return;
-  const { svg } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
+  const { svg, lettering } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
   const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
   const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
   const text = moves[key].name.replace(/ \([^()]*\)$/, "");
   const aside = unit[1] < 0 ? [-unit[1], unit[0]] : [unit[1], -unit[0]]; // to the right, where the letters go on
-  const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5));
-  put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * aside[1])]), text }, "open");
+  const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5 * lettering));
+  put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * lettering * aside[1])]), text }, "open");
 }
 
 /** The place nearest to one that has room for a digit in a field. */
@@ -204,11 +204,11 @@ function inside(side, [u, v]) {
 function write_symbol(text, markup) {
   const words = document.createElement("span");
   words.innerHTML = markup; // escaped where it was made
-  let [lowered, shift] = [0, 0];
+  let [lowered, shift] = [0, 0]; // parts of the height of the letters
   for (const node of words.childNodes) {
     const part = document.createElementNS(SVG, "tspan"), look = node.nodeName.toLowerCase();
-    shift = { sub: 0.9, sup: -1.3 }[look] ?? 0;
-    part.setAttribute("dy", shift - lowered);
+    shift = { sub: 0.26, sup: -0.37 }[look] ?? 0;
+    part.setAttribute("dy", `${(shift - lowered) / (shift ? 0.7 : 1)}em`);
     part.setAttribute("class", look.replace("#", ""));
     part.textContent = node.textContent;
     lowered = shift;

@@ -97,7 +97,13 @@ const part_name = step => part_of(step).lastChild.textContent.trim();
 /** What is sought next, and how many steps are left, in this part of the work and in all. */
 function tell_count(next, rest) {
   const [goal] = open_goals(), left = rest.filter(step => part_of(step) === part_of(next)).length;
-  byId("turn-count").innerHTML = next === undefined ? "" : worded("count", { part: part_name(next), left, number: rest.length, name: moves[goal].name });
+  byId("turn-count").innerHTML = next === undefined ? "" : worded("count", { part: part_name(next), left, number: rest.length, name: called_goal(goal) });
+}
+
+/** A point that is sought, and the vector that leads to it from the pole of its plan. */
+function called_goal(goal) {
+  const { name } = moves[goal], arrow = Object.values(picks).find(({ kind, on, name }) => kind === "arrow" && name && on[1] === goal && on[0] === pole_of(goal));
+  return arrow ? `${name} (${picks[arrow.on[0]].name}${name} = ${arrow.name})` : name;
 }
 
 /** Why a step is drawn as it is: its own reasons, or where it has none those of its sentence. */
