@@ -1,7 +1,7 @@
 // The labels of the sheet in sight while all moves: each keeps its side of what it names as long as it
 // stands free there, fades where it does not, and comes back where there is room for it.
 const APART = 0.3, CLEAR = 1.5; // mm that one is off others, and one that comes back in motion
-const HANGS = [0, 0.4]; // mm that letters reach beyond their box above and below
+const HANGS = 0.4, AIRY = 0.9; // mm that letters reach beyond their box above and below, and in motion
 const HUSH = 160; // milliseconds that one stays away
 const LEAP = 11; // dots that one may go while the driver goes by one step
 const standing = new Map(); // of each label the side where it is, whether it is seen, since when, and where it was
@@ -33,7 +33,7 @@ function letter(one, labels, gone, found) {
       Object.assign(was, { seen: false, since: -Infinity, spot: null });
       continue;
     }
-    const box = half.map((size, axis) => (size + HANGS[axis]) * one.lettering), off = off_middle(mark, records[0]).map(way => way * (1 - one.lettering));
+    const box = [half[0], half[1] + (state.going ? AIRY : HANGS)].map(size => size * one.lettering), off = off_middle(mark, records[0]).map(way => way * (1 - one.lettering));
     const middles = spots.map(([u, v]) => [u + off[0], v + off[1]]), at = middles[was.side];
     const leapt = state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far;
     if (leapt || was.seen && !free(at, box, APART)) Object.assign(was, { seen: false, since: now });

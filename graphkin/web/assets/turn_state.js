@@ -102,7 +102,7 @@ function tell_count(next, rest) {
 
 /** A point that is sought, and the vector that leads to it from the pole of its plan. */
 function called_goal(goal) {
-  const { name } = moves[goal], arrow = Object.values(picks).find(({ kind, on, name }) => kind === "arrow" && name && on[1] === goal && on[0] === pole_of(goal));
+  const { name } = moves[goal], arrow = Object.values(picks).find(({ kind, on }) => kind === "arrow" && on[1] === goal && !picks[on[0]]?.needs.length);
   return arrow ? `${name} (${picks[arrow.on[0]].name}${name} = ${arrow.name})` : name;
 }
 
