@@ -188,7 +188,7 @@ function whole_line(key, look) {
   const { svg, lettering } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
   const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
   const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
-  const text = moves[key].name.replace(/ \([^()]*\)$/, "");
+  const text = picks[key].name.replace(/ \([^()]*\)$/, "");
   const aside = unit[1] < 0 ? [-unit[1], unit[0]] : [unit[1], -unit[0]]; // to the right, where the letters go on
   const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5 * lettering));
   put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * lettering * aside[1])]), text }, "open");

@@ -79,6 +79,10 @@ function show_turn() {
     mark.classList.toggle("now", turn.fresh.includes(Number(mark.dataset.of)));
     mark.classList.remove("rest");
   }
+  for (const key of [...rest].flatMap(step => moves[step].inputs)) { // such as the ray at the crank's angle
+    const unseen = () => sheets[sheet].of.get(key)?.every(mark => mark.matches(".later"));
+    if (picks[key].kind === "guide" && Number(key) && is_there(key) && unseen()) turn.open.add(Number(key));
+  }
   for (const part of sheets[sheet].parts) part.classList.toggle("later", Number(part.dataset.from) >= open);
   sheets[sheet].element.classList.remove("growing");
   tell_count(next, [...rest]);
