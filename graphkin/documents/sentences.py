@@ -62,9 +62,7 @@ def read_off(drawing: Drawing) -> Iterator[Sentence]:
         yield Sentence(-1, TURNING if turns else SET_ON, markup)
 
 
-def set_on_mechanism(
-    drawing: Drawing, turning: str, only: Collection[int] | None = None
-) -> str:
+def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | None = None) -> str:
     """Which vectors are set on the mechanism, and how what turns is read off.
 
     ``only`` are the steps of those of which it is said; all if not told.

@@ -112,13 +112,15 @@ class PageProtocol(Struct, frozen=True):
     def stops(self) -> Iterator[tuple[int, int, Part]]:
         """The first and last sentence of each part of the work, in the order of their ends.
 
-        A part begins where on its sheet the one before it ends.
+        A part begins where on its sheet the one before it ends; the last one ends with the sheet.
         """
         ends = [(number, said) for number, said in enumerate(self.said, 1) if said.ends]
         for last, said in ends:
-            before = [number for number, one in ends if one.sheet == said.sheet and number < last]
-            first = max(before, default=self.bounds(said.sheet)[0] - 1) + 1
-            yield from ((first, last, part) for part in said.ends)
+            others = [number for number, one in ends if one.sheet == said.sheet]
+            first, end = self.bounds(said.sheet)
+            first = max((number + 1 for number in others if number < last), default=first)
+            end = last if last < max(others) else end
+            yield from ((first, end, part) for part in said.ends)
 
 
 def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
@@ -206,8 +208,9 @@ def vectors_apart(
         late = arrows[max(len(arrows) - max(counts[stage] - MOST, 0), 0) :]
         if setting and late:
             first_ones = set_on_mechanism(drawing, "", arrows[: -len(late)])
-            sentence = replace(sentence, markup=first_ones)
-        found.append(sentence)
+            found.append(replace(sentence, markup=first_ones))
+        else:
+            found.append(sentence)
         for first in range(0, len(late), MOST):
             some = late[first : first + MOST]
             if setting:

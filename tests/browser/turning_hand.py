@@ -31,7 +31,9 @@ SPOT = """([side, own, rivals]) => {
     const part = Math.min(Math.max(((u - a) * (c - a) + (v - b) * (d - b)) / long, 0), 1);
     return Math.hypot(u - a - part * (c - a), v - b - part * (d - b));
   };
-  const { at, r, seg, long } = drawn(own), found = [], others = rivals.map(drawn);
+  const { at, r, seg, long } = drawn(own), found = [];
+  const alike = other => long && other.seg?.every(end => off(end, { seg }) < 1); // as right as it
+  const others = rivals.map(drawn).filter(other => !alike(other));
   if (at && r === undefined) found.push(at);
   for (let k = 0; at && r !== undefined && k < 72; k++) {
     found.push([at[0] + r * Math.cos(k * Math.PI / 36), at[1] + r * Math.sin(k * Math.PI / 36)]);
@@ -57,10 +59,7 @@ class TurningHand:
 
     def draw(self, move: PaletteMove) -> str:
         """Draw a move, and hear what the page says of it."""
-        if self.way == "keys":
-            said = self.by_keys(move)
-        else:
-            said = self.by_pointer(move)
+        said = self.by_keys(move) if self.way == "keys" else self.by_pointer(move)
         self.done.add(move.step)
         return said
 
@@ -115,21 +114,29 @@ class TurningHand:
     def there(self, kinds: set[str]) -> Iterator[str]:
         """The picks of some kinds that are drawn."""
         for key, pick in self.turn.picks.items():
-            if pick.kind in kinds and pick.kind not in UNSEEN and not pick.by:
-                if self.done.issuperset(pick.needs) and self.field(self.plane(key)):
-                    yield key
+            seen = pick.kind in kinds and pick.kind not in UNSEEN and not pick.by
+            if seen and self.done.issuperset(pick.needs) and self.field(self.plane(key)):
+                yield key
 
     def plane(self, key: str) -> Plane:
         """The drawing in which a pick lies."""
         pick = self.turn.picks[key]
-        return self.plane(str(pick.on[0])) if pick.on and str(pick.on[0]) in self.turn.picks else (
-            self.turn.planes[int(key)] if key.isdigit() and int(key) in self.turn.moves else pick.plane
+        return (
+            self.plane(str(pick.on[0]))
+            if pick.on and str(pick.on[0]) in self.turn.picks
+            else (
+                self.turn.planes[int(key)]
+                if key.isdigit() and int(key) in self.turn.moves
+                else pick.plane
+            )
         )
 
     def field(self, plane: Plane) -> Any:
         """The field of the sheet in sight that shows a drawing."""
         sheet = next(
-            one for k, one in enumerate(self.sheets) if self.page.locator(f"#sheet-{k}").is_visible()
+            one
+            for k, one in enumerate(self.sheets)
+            if self.page.locator(f"#sheet-{k}").is_visible()
         )
         if plane is PLANES[0]:
             return sheet.layout.mechanism
@@ -140,7 +147,7 @@ class TurningHand:
         return [float(x) for x in self.field(plane)(value)]
 
     def drawn(self, key: str) -> tuple[int, dict[str, Any]]:
-        """The field of a pick, and what it is drawn as there: a point, a segment, a line, a circle."""
+        """The field of a pick, and as what it is drawn there: point, segment, line or circle."""
         pick, plane = self.turn.picks[key], self.plane(key)
         side = int(plane is not PLANES[0])
         if pick.on:

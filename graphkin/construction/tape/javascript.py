@@ -1,7 +1,7 @@
 """A traced graph printed as JavaScript: the same straight line, for a page that moves by itself.
 
-What is used once stands inside what uses it; everything else, and a long number that is used more than
-once, has a short name of its own.
+What is used once stands inside what uses it; everything else, and a long number that is used more
+than once, has a short name of its own.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ class Writer:
         if not self.depth[number] or own not in SIGNS:
             return text
         holds, wants = BINDING.get(own, 0), BINDING.get(op, 4)
-        return text if holds > wants or holds == wants and not last else f"({text})"
+        return text if holds > wants or (holds == wants and not last) else f"({text})"
 
 
 def written(value: float) -> str:

@@ -143,7 +143,8 @@ function take_at(event) {
     const drawn = shown_at(key);
     if (!drawn || drawn.side !== side) continue;
     const far = far_from([x, y], drawn), ahead = drawn.at && drawn.r === undefined ? 0.6 * near : 0; // points before lines
-    if (far < near && (!best || far - ahead < best.far)) best = { key, slot, far: far - ahead };
+    const later = drawn.from ? 0.01 * Math.min(length_of(minus(drawn.to, drawn.from)), 150) : 0; // of two on one line the shorter one
+    if (far < near && (!best || far - ahead + later < best.far)) best = { key, slot, far: far - ahead + later };
   }
   if (!best) return;
   turn.inputs[best.slot] = best.key;
