@@ -337,8 +337,8 @@ LEAST = """() => Math.min(...[...document.querySelectorAll(
     const runs = [text, ...text.querySelectorAll('tspan')].filter(run => run.textContent.trim());
     return runs.map(run => parseFloat(getComputedStyle(run).fontSize) * scale);
   }))"""
-COLOURS = """() => ['#new-key', '#from-key', '#reason .line', '#reason .line', '#steps [aria-current]', '#steps a']
-  .map(name => document.querySelector(name)).map(one => getComputedStyle(one))
+COLOURS = """() => ['#new-key', '#from-key', '#reason .line', '#reason .line',
+    '#steps [aria-current]', '#steps a'].map(name => getComputedStyle(document.querySelector(name)))
   .map((style, i) => style[['backgroundColor', 'borderLeftColor', 'outlineStyle'][i >> 1]])"""
 
 
