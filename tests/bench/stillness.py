@@ -23,20 +23,21 @@ from tests.documents.sheet_tools import mechanism_named
 SCENES = ("pump", "gears-ring", "stephenson-3")
 STEP = 20
 SIZE = {"width": 1440, "height": 900}
-CLOCK = """(() => {
-  const frame = requestAnimationFrame.bind(window), waiting = new Map();
+BY_FRAMES = """(() => {
   let now = 0, last = 0;
+  const due = new Map(), paint = requestAnimationFrame.bind(window);
+  performance.now = () => now;
+  window.requestAnimationFrame = work => paint(() => work(now));
+  window.setTimeout = (work, wait = 0) => (due.set(++last, [now + wait, work]), last);
+  window.clearTimeout = one => due.delete(one);
   const tick = () => {
     now += 1000 / 60;
-    for (const [id, [due, act]] of waiting) if (due <= now && waiting.delete(id)) act();
-    frame(tick);
+    for (const [one, [at, work]] of due) if (at <= now && due.delete(one)) work();
+    paint(tick);
   };
-  frame(tick);
-  performance.now = () => now;
-  window.setTimeout = (act, wait = 0) => { waiting.set(++last, [now + wait, act]); return last; };
-  window.clearTimeout = id => waiting.delete(id);
+  paint(tick);
 })()"""
-"""The clock of a page: a sixtieth of a second goes by at each frame, however long that takes."""
+"""A clock that goes on by a sixtieth of a second at each frame, however long that takes."""
 LEAPS = """async () => {
   const motion = graphkinMotion, driver = document.getElementById("driver");
   const frame = () => new Promise(done => requestAnimationFrame(done));
@@ -107,9 +108,9 @@ def page_of(name: str) -> str:
 
 def counted(page: Any, path: Path, step: int = STEP) -> dict[str, int]:
     """What leaps, overlaps and fades on a page at one step."""
-    page.add_init_script(CLOCK)
+    page.add_init_script(BY_FRAMES)
+    page.goto("about:blank")
     page.goto(f"{path.as_uri()}#step={step}")
-    page.reload()
     found: dict[str, int] = page.evaluate(LEAPS)
     return found
 
@@ -143,16 +144,18 @@ def main() -> None:
         for name in SCENES:
             path = Path(folder, f"{name}.html")
             path.write_text(page_of(name), encoding="utf-8")
-            print(name, counted(browser.new_page(viewport=SIZE, reduced_motion="reduce"), path))
+            print(name, counted(page, path))
+            timed = browser.new_page(viewport=SIZE, reduced_motion="reduce")
             for step in (9, STEP):
-                page.goto("about:blank")
-                page.goto(f"{path.as_uri()}#step={step}")
-                page.wait_for_timeout(500)
+                timed.goto("about:blank")
+                timed.goto(f"{path.as_uri()}#step={step}")
+                timed.wait_for_timeout(500)
                 for dragging in (False, True):
-                    middle, late, count = frames(page, dragging)
+                    middle, late, count = frames(timed, dragging)
                     what = "dragging the crank's pin" if dragging else "an empty loop"
                     told = f"{middle:.1f}, 95 % {late:.1f} ms of {count}"
                     print(f"  step {step}, {what}: a frame {told}")
+            timed.close()
         print(f"load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
         browser.close()
 
