@@ -201,7 +201,7 @@ def test_another_order_and_another_way_are_right(opened: Opened, pages: Path):
 def test_a_hint_lights_where_a_step_starts(opened: Opened, pages: Path):
     page = begun(opened, pages, "pump", 6)
     page.locator("#hint").click()
-    assert said(page) == "Perpendicular: a, AB"
+    assert said(page) == "Perpendicular: through a, to AB"
     assert page.locator(".sheet:not([hidden]) .halo .new").count() == 2
     by_lists(page, "perpendicular", "a", "AB")
     assert page.locator(".sheet:not([hidden]) line.open").count() == 1

@@ -13,7 +13,7 @@ function choose_action(action) {
 }
 
 /** The words for the inputs of the action. */
-const slot_words = () => byId("palette").querySelector(`[data-action="${turn.action}"]`)?.dataset.slots.split("|") ?? [];
+const slot_words = (action = turn.action) => byId("palette").querySelector(`[data-action="${action}"]`)?.dataset.slots.split("|") ?? [];
 
 /** Say what the action still needs, or what has been hinted at. */
 function ask_inputs() {
