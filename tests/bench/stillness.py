@@ -77,9 +77,10 @@ LEAPS = """async () => {
   return found;
 }"""
 WAY = """() => {
-  const motion = graphkinMotion, svg = document.querySelector("#sheet-0 .view > svg");
+  const motion = graphkinMotion, svg = document.querySelector(".sheet:not([hidden]) .view > svg");
+  const sheet = [...document.querySelectorAll(".sheet")].findIndex(one => !one.hidden);
   const from = motion.start, place = svg.getScreenCTM();
-  const [id] = motion.grips[0].find(([id, , driven]) => driven && motion.place(id, from));
+  const [id] = motion.grips[sheet].find(([id, , driven]) => driven && motion.place(id, from));
   const half = Math.min(40, motion.high - from, from - motion.low);
   return Array.from({ length: 150 }, (_, i) => {
     const [u, v] = motion.place(id, from + half * Math.sin(2 * Math.PI * i / 150));
