@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
@@ -62,8 +62,11 @@ def read_off(drawing: Drawing) -> Iterator[Sentence]:
         yield Sentence(-1, TURNING if turns else SET_ON, markup)
 
 
-def set_on_mechanism(drawing: Drawing, turning: str) -> str:
-    """Which vectors are set on the mechanism, and how what turns is read off."""
+def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | None = None) -> str:
+    """Which vectors are set on the mechanism, and how what turns is read off.
+
+    ``only`` are the steps of those of which it is said; all if not told.
+    """
     words, velocity = drawing.words, drawing.kind == "velocity"
     part = Part.VELOCITY if velocity else Part.ACCELERATION
     early = set_before(drawing)
@@ -71,7 +74,7 @@ def set_on_mechanism(drawing: Drawing, turning: str) -> str:
         (symbol(step.name), abs(arrow.tip - arrow.tail))
         for number, step, arrow in drawing.steps(Plane.MECHANISM)
         if is_set_on(step) and step.part is part
-        if number not in early
+        if number not in early and (only is None or number in only)
     ]
     if not lengths:
         return turning.removeprefix("; ")

@@ -12,14 +12,14 @@ from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
-from graphkin.documents.sentences import TURNING
+from graphkin.documents.sentences import SET_ON, TURNING, set_on_mechanism
 from graphkin.documents.step_numbers import behind, stage_of, stages
 from graphkin.documents.step_visibility import accompanied, letters_of, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
@@ -188,8 +188,8 @@ def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[
 def vectors_apart(
     drawing: Drawing, said: Sequence[Sentence], own: Mapping[int, int], marks: Sequence[Timed]
 ) -> tuple[list[Sentence], dict[int, int], list[Timed]]:
-    """The same, where vectors that are too many for the sentence that finds their ends follow it
-    in sentences of their own.
+    """The same, where vectors that are too many for the sentence that finds their ends, or that
+    sets them on the mechanism, follow it in sentences of their own.
     """
     counts = strokes(marks, len(said))
     shown = {one.step for one in marks}
@@ -198,15 +198,26 @@ def vectors_apart(
     moved: dict[int, int] = {}
     for stage, sentence in enumerate(said):
         places.append(len(found))
-        found.append(sentence)
         fresh = sorted(step for step, at in own.items() if at == stage and step in shown)
-        arrows = [n for n in fresh if vector_found(drawing, n, sentence.markup)]
+        setting, name = sentence.name == SET_ON, VECTORS_APART
+        if setting:
+            arrows, name = [n for n in fresh if is_set_on(drawing.trace.program.steps[n])], SET_ON
+        else:
+            arrows = [n for n in fresh if vector_found(drawing, n, sentence.markup)]
         late = arrows[max(len(arrows) - max(counts[stage] - MOST, 0), 0) :]
+        if setting and late:
+            first_ones = set_on_mechanism(drawing, "", arrows[: -len(late)])
+            found.append(replace(sentence, markup=first_ones))
+        else:
+            found.append(sentence)
         for first in range(0, len(late), MOST):
             some = late[first : first + MOST]
-            markup = AND.join(vector_found(drawing, number, "") for number in some)
+            if setting:
+                markup = set_on_mechanism(drawing, "", some)
+            else:
+                markup = AND.join(vector_found(drawing, number, "") for number in some)
             moved |= dict.fromkeys(some, len(found))
-            found.append(Sentence(some[-1], VECTORS_APART, markup, tuple(some)))
+            found.append(Sentence(some[-1], name, markup, tuple(some)))
     later_own = {step: places[at] if at >= 0 else at for step, at in own.items()} | moved
     timed = [
         replace(one, at=(later_own[one.step] if one.step in moved else places[one.at - 1]) + 1)

@@ -2,13 +2,16 @@
 
 ``python -m tests.bench.stillness`` drives pages through their range by single degrees in Chromium
 at 1440 × 900 and counts labels that leap more than 12 dots at one degree, positions in which two
-labels lie on one another, and labels that fade for want of room; then milliseconds from one frame
-to the next, beside those of an empty loop in the same run.
+labels lie on one another, and labels that fade for want of room, by a clock that counts frames, so
+that they hang on no machine; then milliseconds from one frame to the next while the mouse drags the
+crank's pin, beside those of an empty loop in the same run, and the load of the machine.
 """
 
 from __future__ import annotations
 
+import os
 import shutil
+import statistics
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -73,21 +76,30 @@ LEAPS = """async () => {
   }
   return found;
 }"""
-FRAMES = """async moving => {
-  const motion = graphkinMotion, driver = document.getElementById("driver"), times = [];
-  let last = await new Promise(requestAnimationFrame);
-  for (let i = 0; i < 150; i++) {
-    if (moving) {
-      driver.value = motion.low + (motion.high - motion.low) * i / 150;
-      driver.dispatchEvent(new Event("input"));
-    }
-    const now = await new Promise(requestAnimationFrame);
+WAY = """() => {
+  const motion = graphkinMotion, svg = document.querySelector(".sheet:not([hidden]) .view > svg");
+  const sheet = [...document.querySelectorAll(".sheet")].findIndex(one => !one.hidden);
+  const from = motion.start, place = svg.getScreenCTM();
+  const [id] = motion.grips[sheet].find(([id, , driven]) => driven && motion.place(id, from));
+  const half = Math.min(40, motion.high - from, from - motion.low);
+  return Array.from({ length: 150 }, (_, i) => {
+    const [u, v] = motion.place(id, from + half * Math.sin(2 * Math.PI * i / 150));
+    const { x, y } = new DOMPoint(u, v).matrixTransform(place);
+    return [x, y];
+  });
+}"""
+"""The way of the pin that the driver turns, to and fro, in dots of the window."""
+RECORD = """() => {
+  const times = window.frameTimes = [];
+  let last = performance.now();
+  const next = now => {
     times.push(now - last);
     last = now;
-  }
-  times.sort((p, q) => p - q);
-  return [times[75], times[142]];
+    window.recording = requestAnimationFrame(next);
+  };
+  window.recording = requestAnimationFrame(next);
 }"""
+RECORDED = "() => { cancelAnimationFrame(window.recording); return window.frameTimes.slice(5); }"
 
 
 def page_of(name: str) -> str:
@@ -104,6 +116,23 @@ def counted(page: Any, path: Path, step: int = STEP) -> dict[str, int]:
     return found
 
 
+def frames(page: Any, dragging: bool) -> tuple[float, float, int]:
+    """Median and 95th percentile of milliseconds from one frame to the next, and how many there
+    were, while the mouse leads the crank's pin to and fro, or goes the same way and holds nothing.
+    """
+    way = page.evaluate(WAY)
+    page.mouse.move(*way[0])
+    if dragging:
+        page.mouse.down()
+    page.evaluate(RECORD)
+    for at in way[1:]:
+        page.mouse.move(*at)
+    times = sorted(page.evaluate(RECORDED))
+    page.mouse.up()
+    page.wait_for_timeout(500)
+    return statistics.median(times), times[int(0.95 * len(times))], len(times)
+
+
 def main() -> None:
     """Print all counts and times."""
     from playwright.sync_api import sync_playwright
@@ -118,10 +147,17 @@ def main() -> None:
             path.write_text(page_of(name), encoding="utf-8")
             print(name, counted(page, path))
             timed = browser.new_page(viewport=SIZE, reduced_motion="reduce")
-            timed.goto(f"{path.as_uri()}#step={STEP}")
-            empty, moving = (timed.evaluate(FRAMES, one) for one in (False, True))
+            for step in (9, STEP):
+                timed.goto("about:blank")
+                timed.goto(f"{path.as_uri()}#step={step}")
+                timed.wait_for_timeout(500)
+                for dragging in (False, True):
+                    middle, late, count = frames(timed, dragging)
+                    what = "dragging the crank's pin" if dragging else "an empty loop"
+                    told = f"{middle:.1f}, 95 % {late:.1f} ms of {count}"
+                    print(f"  step {step}, {what}: a frame {told}")
             timed.close()
-            print(f"  a frame, median and 95 %: {moving} ms; of an empty loop {empty} ms")
+        print(f"load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
         browser.close()
 
 

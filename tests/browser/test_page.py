@@ -320,7 +320,58 @@ def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(opened: Opened, pag
     assert page.evaluate(seen, "v_D") > 0
 
 
-# --- sizes and directions ------------------------------------------------------------------------
+# --- sizes and looks -----------------------------------------------------------------------------
+
+
+LOOKS = (
+    {"color_scheme": "light"},
+    {"color_scheme": "dark"},
+    {"forced_colors": "active"},
+    {"reduced_motion": "reduce"},
+)
+SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (820, 1180): 0.45}
+"""The least part of a window's height that the drawings take."""
+LEAST = """() => Math.min(...[...document.querySelectorAll(
+    '.sheet:not([hidden]) .view > svg .lettering > text:not(.later,.void,[visibility],.hushed)')]
+  .flatMap(text => {
+    const { a, b, c, d } = text.getScreenCTM(), scale = Math.sqrt(a * d - b * c);
+    const runs = [text, ...text.querySelectorAll('tspan')].filter(run => run.textContent.trim());
+    return runs.map(run => parseFloat(getComputedStyle(run).fontSize) * scale);
+  }))"""
+COLOURS = """() => ['#new-key', '#from-key', '#reason .line', '#reason .line',
+    '#steps [aria-current]', '#steps a'].map(name => getComputedStyle(document.querySelector(name)))
+  .map((style, i) => style[['backgroundColor', 'borderLeftColor', 'outlineStyle'][i >> 1]])"""
+
+
+def test_every_size_and_look_has_room_letters_to_be_read_and_nothing_against_it(
+    opened: Opened, pages: Path
+):
+    page = opened(pages / "pump.html", "#step=9", **DESKTOP)
+    for place, (size, part) in enumerate(SIZES.items()):
+        page.set_viewport_size(dict(zip(("width", "height"), size, strict=True)))
+        for number, look in enumerate(LOOKS):
+            page.emulate_media(color_scheme=None, forced_colors=None, reduced_motion=None)
+            page.emulate_media(**look)
+            page.evaluate("Promise.all(document.getAnimations().map((each) => each.finished))")
+            field = page.locator("#sheet-0 .view").first
+            assert field.evaluate("view => view.clientHeight / innerHeight") >= part
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+            assert page.evaluate("stops.scrollWidth <= stops.clientWidth")
+            assert page.evaluate(LEAST) >= 9
+            if (place + number) % 3 == 0:  # Firefox asks axe of each
+                assert not barred(page), (size, look)
+
+
+def test_forced_colours_keep_the_key_of_colours_and_the_row_in_sight(opened: Opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=9", forced_colors="active", **DESKTOP)
+    new, old, reason, _, here, other = page.evaluate(COLOURS)
+    assert len({new, old, "rgb(255, 255, 255)", "rgba(0, 0, 0, 0)"}) == 4
+    assert reason == new
+    assert here == "solid" and other == "none"
+    inside = """() => { const list = steps.getBoundingClientRect();
+      const { top, bottom } = steps.querySelector('[aria-current]').getBoundingClientRect();
+      return top >= list.top && bottom <= list.bottom; }"""
+    assert page.evaluate(inside)
 
 
 # --- every reader --------------------------------------------------------------------------------

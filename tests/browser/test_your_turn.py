@@ -16,6 +16,7 @@ from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page
 from tests.browser.opening import Opened, barred
 from tests.browser.test_page import DESKTOP, PHONE
+from tests.browser.turning_hand import TurningHand
 from tests.documents.sheet_tools import mechanism_named
 
 SCENES = {
@@ -200,7 +201,7 @@ def test_another_order_and_another_way_are_right(opened: Opened, pages: Path):
 def test_a_hint_lights_where_a_step_starts(opened: Opened, pages: Path):
     page = begun(opened, pages, "pump", 6)
     page.locator("#hint").click()
-    assert said(page) == "Perpendicular: a, AB"
+    assert said(page) == "Perpendicular: through a, to AB"
     assert page.locator(".sheet:not([hidden]) .halo .new").count() == 2
     by_lists(page, "perpendicular", "a", "AB")
     assert page.locator(".sheet:not([hidden]) line.open").count() == 1
@@ -269,6 +270,34 @@ def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", "#step=6&x=80", **DESKTOP)
     page.locator("#turn").click()
     assert by_mouse(page, "perpendicular", ("a",), ("A", "B")) == "⊥ AB (a): right."
+
+
+@pytest.mark.parametrize("way", ["mouse", "touch", "keys"])
+def test_the_velocity_plan_of_the_pump_by_one_hand(opened: Opened, pages: Path, way: str):
+    """Each move by mouse, by finger on a phone, or by keys alone: all right, none by help."""
+    sheets = screen_sheets(load("pump"), "en")
+    turn = your_turn(sheets, telling(sheets))
+    moves = sorted(turn.moves.values(), key=lambda move: (move.at, move.step))
+    page = begun(opened, pages, "pump", 5, **(PHONE if way == "touch" else DESKTOP))
+    assert "Sought: a (oa = vA)" in page.locator("#turn-count").inner_text()
+    hand = TurningHand(page, sheets, turn, way)
+    hand.done |= {move.step for move in moves if move.at < 5}
+    for move in moves:
+        if 5 <= move.at <= 11:
+            assert "right." in hand.draw(move), move
+    assert page.evaluate(SEEN, "d") > 0
+
+
+def test_a_guide_that_is_still_to_be_used_is_drawn(opened: Opened, pages: Path):
+    """The ray at the crank's angle: a length is laid off on it by a click."""
+    page = begun(opened, pages, "pump", 1)
+    rays = page.locator("#sheet-0 line.open")
+    assert rays.count() == 1
+    sheets = screen_sheets(load("pump"), "en")
+    turn = your_turn(sheets, telling(sheets))
+    first = min(turn.moves.values(), key=lambda move: (move.at, move.step))
+    assert TurningHand(page, sheets, turn, "mouse").draw(first) == "A: right."
+    assert rays.count() == 0
 
 
 # --- every kind of scene --------------------------------------------------------------------------

@@ -193,12 +193,25 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         if self.is_hidden(drawing):
             drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
             return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
+        return "ν by chord", "; ".join(markup for _, markup in self.in_parts(drawing))
+
+    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+        """The turned velocities; both circles; what their common chord cuts off."""
+        drawn = self.corner is not None and self.is_drawn(drawing)
+        yield from self.in_parts(drawing) if drawn else super().told_in_parts(drawing)
+
+    def in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
+        """The same where it is drawn."""
+        assert self.corner is not None and self.over is not None and self.vector is not None
+        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
         for role in ("corner", "foot", "whole"):
             fields[role] = symbol(self.letter(drawing, role))
         fields["more"] = in_plan(drawing)
-        return "ν by chord", drawing.words("step.klein", **fields)
+        yield self.corner, drawing.words("step.klein", **fields)
+        yield self.over, drawing.words("step.klein-circles", **fields)
+        yield self.vector, drawing.words("step.klein-chord", **fields)
 
     def section(self) -> str:
         """The section of the calculation that holds its relation."""

@@ -1,6 +1,7 @@
 """A traced graph printed as JavaScript: the same straight line, for a page that moves by itself.
 
-What is used once stands inside what uses it; everything else has a short name of its own.
+What is used once stands inside what uses it; everything else, and a long number that is used more
+than once, has a short name of its own.
 """
 
 from __future__ import annotations
@@ -44,6 +45,10 @@ MATH = "const {" + ",".join(sorted(set(CALLS.values()))) + "}=Math;"
 """The line by which those functions are known by their names."""
 DEEP = 40
 """How many operations stand inside one another at most: parsers have their limits."""
+LONG = 6
+"""Letters from which on a number that is used again has a name."""
+BINDING = {"mul": 3, "over": 3, "add": 2, "sub": 2, "less": 1, "at_most": 1}
+"""How fast operations with signs hold together; what holds faster needs no brackets."""
 DIGITS = "abcdefghijklmnopqrstuvwxyz"
 
 
@@ -73,24 +78,21 @@ class Writer:
 
     def lines(self) -> Iterator[str]:
         """The constants of the function in order, then its outputs."""
-        named = 0
+        named: list[str] = []
         for number in self.order:
             node = self.graph.nodes[number]
-            if not node.args:
-                self.text[number], self.depth[number] = self.plain(node), 0
-                continue
-            expression = self.expression(node)
-            deep = 1 + max([self.depth[arg] for arg in node.args])
-            if self.uses[number] == 1 and deep < DEEP:
-                self.text[number], self.depth[number] = expression, deep
-                continue
-            name, named = short_name(named), named + 1
-            yield f"const {name}={expression};"
-            self.text[number], self.depth[number] = name, 0
-        for place, number in enumerate(self.outputs):
-            truth = self.graph.nodes[number].op in TRUTHS
-            whole = self.signed(number) if truth else self.text[number]
-            yield f"y[{place}]={whole}{'?1:0' if truth else ''};"
+            text = self.expression(node) if node.args else self.plain(node)
+            deep = 1 + max([self.depth[arg] for arg in node.args], default=-1)
+            again = self.uses[number] > 1 and (node.args or len(text) >= LONG)
+            if again or deep >= DEEP:
+                name = short_name(len(named))
+                named.append(f"{name}={text}")
+                text, deep = name, 0
+            self.text[number], self.depth[number] = text, deep
+        if named:
+            yield "const " + ",\n".join(named) + ";"
+        results = ",".join([self.text[number] for number in self.outputs])
+        yield f"[{results}].forEach((v,i)=>{{y[i]=+v}});"
 
     def plain(self, node: Node) -> str:
         """A number or an input. A negative number has brackets: two signs must not meet."""
@@ -100,13 +102,20 @@ class Writer:
         """An operation in terms of the texts before it."""
         if node.op in CALLS:
             return f"{CALLS[node.op]}({','.join([self.text[arg] for arg in node.args])})"
-        return SIGNS[node.op].format(*[self.signed(arg) for arg in node.args])
+        last = len(node.args) - 1
+        parts = [self.signed(arg, node.op, place == last) for place, arg in enumerate(node.args)]
+        return SIGNS[node.op].format(*parts)
 
-    def signed(self, number: int) -> str:
-        """The text of a node between signs: what has signs of its own stands in brackets."""
-        text = self.text[number]
-        has_signs = self.depth[number] and self.graph.nodes[number].op in SIGNS
-        return f"({text})" if has_signs else text
+    def signed(self, number: int, op: str, last: bool) -> str:
+        """The text of a node beside the sign of another operation, in brackets where it needs them.
+
+        Products and sums are reckoned from the left, as the graph has them: no rounding changes.
+        """
+        text, own = self.text[number], self.graph.nodes[number].op
+        if not self.depth[number] or own not in SIGNS:
+            return text
+        holds, wants = BINDING.get(own, 0), BINDING.get(op, 4)
+        return text if holds > wants or (holds == wants and not last) else f"({text})"
 
 
 def written(value: float) -> str:

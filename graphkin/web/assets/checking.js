@@ -151,7 +151,7 @@ function give_hint() {
 
 /** The action that has been hinted at, and what it starts from. */
 function tell_hint() {
-  const { action, inputs } = moves[turn.hinted], list = inputs.map(key => picks[picks[key].by || key].name).join(", ");
+  const { action, inputs } = moves[turn.hinted], words = slot_words(action), list = inputs.map((key, i) => `${words[i]} ${picks[picks[key].by || key].name}`).join(", ");
   tell_turn(worded("hint", { action: action_name(action), list }));
 }
 

@@ -1,7 +1,7 @@
 // The labels of the sheet in sight while all moves: each keeps its side of what it names as long as it
 // stands free there, fades where it does not, and comes back where there is room for it.
 const APART = 0.3, CLEAR = 1.5; // mm that one is off others, and one that comes back in motion
-const HANGS = [0, 0.4]; // mm that letters reach beyond their box above and below
+const HANGS = 0.4, AIRY = 0.9; // mm that letters reach beyond their box above and below, and in motion
 const HUSH = 160; // milliseconds that one stays away
 const LEAP = 11; // dots that one may go while the driver goes by one step
 const standing = new Map(); // of each label the side where it is, whether it is seen, since when, and where it was
@@ -18,7 +18,13 @@ function lettering() {
 
 /** Place those of a field, the first ones first. */
 function letter(one, labels, gone, found) {
-  const placed = [...letters_at_rest(one, labels)], far = LEAP * Math.max(1, gone) * (Number(one.svg.style.getPropertyValue("--dot")) || 0.3);
+  const placed = [], free = ([u, v], box, air) => !placed.some(([x, z, w, h]) => Math.abs(u - x) < w + box[0] + air && Math.abs(v - z) < h + box[1] + air);
+  for (const { text, at, half } of letters_at_rest(one, labels)) { // what stands off is read elsewhere, too
+    const box = half.map(size => size * one.lettering), seen = one.lettering < 1.02 || free(at, box, 0);
+    for (const part of text.parentElement.children) part.classList.toggle("hushed", !seen);
+    if (seen) placed.push([...at, ...box]);
+  }
+  const far = LEAP * Math.max(1, gone) * (Number(one.svg.style.getPropertyValue("--dot")) || 0.3);
   const now = performance.now();
   for (const { i, id, half, records, spots, led } of labels) {
     const mark = byId(id), was = standing.get(id) ?? { side: 0, seen: false, since: -Infinity, spot: null };
@@ -27,32 +33,42 @@ function letter(one, labels, gone, found) {
       Object.assign(was, { seen: false, since: -Infinity, spot: null });
       continue;
     }
-    const box = half.map((size, axis) => (size + HANGS[axis]) * one.lettering), at = spots[was.side];
-    const free = ([u, v], air) => !placed.some(([x, z, w, h]) => Math.abs(u - x) < w + box[0] + air && Math.abs(v - z) < h + box[1] + air);
+    const box = [half[0], half[1] + (state.going ? AIRY : HANGS)].map(size => size * one.lettering), off = off_middle(mark, records[0]).map(way => way * (1 - one.lettering));
+    const middles = spots.map(([u, v]) => [u + off[0], v + off[1]]), at = middles[was.side];
     const leapt = state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far;
-    if (leapt || was.seen && !free(at, APART)) Object.assign(was, { seen: false, since: now });
+    if (leapt || was.seen && !free(at, box, APART)) Object.assign(was, { seen: false, since: now });
     if (!was.seen && (!state.going || now - was.since >= HUSH)) {
-      const side = spots.findIndex(spot => free(spot, state.going ? CLEAR : APART));
+      const side = middles.findIndex(spot => free(spot, box, state.going ? CLEAR : APART));
       if (side >= 0) Object.assign(was, { seen: true, side });
     }
-    was.spot = spots[was.side];
+    was.spot = middles[was.side];
     if (was.seen) placed.push([...was.spot, ...box]);
     if (was.side) found.set(i, records[was.side]);
     for (const part of [mark, ...led.map(motion.named).map(byId)]) part?.classList.toggle("hushed", !was.seen);
   }
 }
 
-/** The boxes of the letters of a field that stay where they are. */
+const off_middles = new WeakMap();
+
+/** How far the middle about which a label is drawn larger lies from that of its ink, by its record. */
+function off_middle(mark, record) {
+  if (!off_middles.has(mark)) {
+    const { x, y, width, height } = mark.getBBox();
+    off_middles.set(mark, [x + width / 2 - record[6], y + height / 2 - record[7]]);
+  }
+  return off_middles.get(mark);
+}
+
+/** The letters of a field that stay where they are, with their middles and half their sizes; points first. */
 function letters_at_rest(one, labels) {
   if (!one.resting) {
     const moving = new Set(labels.map(({ id }) => id));
-    const texts = [...one.svg.querySelectorAll(".lettering>text:not([data-aside])")].filter(text => !moving.has(text.id));
+    const texts = [...one.svg.querySelectorAll(".lettering>text")].filter(text => !moving.has(text.id));
     one.resting = texts.map(text => {
       const { x, y, width, height } = text.getBBox();
-      return [text, x + width / 2, y + height / 2, width / 2, INK * height / 2];
-    });
+      return { text, at: [x + width / 2, y + height / 2], half: [width / 2, INK * height / 2] };
+    }).sort((p, q) => ("of" in q.text.dataset) - ("of" in p.text.dataset));
   }
-  const seen = one.resting.filter(([text]) => !text.matches(".later,.void,[visibility]"));
-  return seen.map(([, u, v, ...half]) => [u, v, ...half.map(size => size * one.lettering)]);
+  return one.resting.filter(({ text }) => !text.matches(moved() ? ".later,.void,[visibility],[data-aside]" : ".later,.void,[visibility]"));
 }
 const INK = 0.7; // part of the height of a line that letters fill

@@ -13,7 +13,7 @@ function choose_action(action) {
 }
 
 /** The words for the inputs of the action. */
-const slot_words = () => byId("palette").querySelector(`[data-action="${turn.action}"]`)?.dataset.slots.split("|") ?? [];
+const slot_words = (action = turn.action) => byId("palette").querySelector(`[data-action="${action}"]`)?.dataset.slots.split("|") ?? [];
 
 /** Say what the action still needs, or what has been hinted at. */
 function ask_inputs() {
@@ -143,7 +143,8 @@ function take_at(event) {
     const drawn = shown_at(key);
     if (!drawn || drawn.side !== side) continue;
     const far = far_from([x, y], drawn), ahead = drawn.at && drawn.r === undefined ? 0.6 * near : 0; // points before lines
-    if (far < near && (!best || far - ahead < best.far)) best = { key, slot, far: far - ahead };
+    const later = drawn.from ? 0.01 * Math.min(length_of(minus(drawn.to, drawn.from)), 150) : 0; // of two on one line the shorter one
+    if (far < near && (!best || far - ahead + later < best.far)) best = { key, slot, far: far - ahead + later };
   }
   if (!best) return;
   turn.inputs[best.slot] = best.key;
@@ -185,13 +186,13 @@ function whole_line(key, look) {
   const drawn = shown_at(key);
   put_in("front", drawn, look);
   if (!drawn?.from) return;
-  const { svg } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
+  const { svg, lettering } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
   const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
   const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
-  const text = moves[key].name.replace(/ \([^()]*\)$/, "");
+  const text = picks[key].name.replace(/ \([^()]*\)$/, "");
   const aside = unit[1] < 0 ? [-unit[1], unit[0]] : [unit[1], -unit[0]]; // to the right, where the letters go on
-  const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5));
-  put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * aside[1])]), text }, "open");
+  const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5 * lettering));
+  put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * lettering * aside[1])]), text }, "open");
 }
 
 /** The place nearest to one that has room for a digit in a field. */
@@ -204,11 +205,11 @@ function inside(side, [u, v]) {
 function write_symbol(text, markup) {
   const words = document.createElement("span");
   words.innerHTML = markup; // escaped where it was made
-  let [lowered, shift] = [0, 0];
+  let [lowered, shift] = [0, 0]; // parts of the height of the letters
   for (const node of words.childNodes) {
     const part = document.createElementNS(SVG, "tspan"), look = node.nodeName.toLowerCase();
-    shift = { sub: 0.9, sup: -1.3 }[look] ?? 0;
-    part.setAttribute("dy", shift - lowered);
+    shift = { sub: 0.26, sup: -0.37 }[look] ?? 0;
+    part.setAttribute("dy", `${(shift - lowered) / (shift ? 0.7 : 1)}em`);
     part.setAttribute("class", look.replace("#", ""));
     part.textContent = node.textContent;
     lowered = shift;

@@ -61,14 +61,28 @@ function off(here, others) {
   return size > 0.1 ? [u / size, v / size] : null;
 }
 
+// How many times larger letters are drawn in each field, so that the smallest can be read on this screen.
+const LEGIBLE = 9.1, LARGEST = 2.5; // dots of their height; times
+const enlarged = new Map();
+function enlarge() {
+  for (const svg of document.querySelectorAll("#stage svg")) {
+    const { width, height } = svg.viewBox.baseVal, dots = Math.min(svg.clientWidth / width, svg.clientHeight / height);
+    const least = Math.min(...[...svg.querySelectorAll("[font-size]")].map((run) => Number(run.getAttribute("font-size"))));
+    const times = Math.min(Math.max(LEGIBLE / (dots * least), 1), LARGEST);
+    enlarged.set(svg, Number.isFinite(times) ? times : 1);
+    svg.style.setProperty("--t", enlarged.get(svg).toFixed(3));
+  }
+}
+const times_of = (text) => enlarged.get(text.ownerSVGElement) ?? 1;
+
 // Set each letter by its rule beside its point, on another side where a letter stands.
 function letter(letters) {
-  const [height, gap, beside, leftward, upward] = data.letter, taken = [];
+  const [drawn, gap, beside, leftward, upward] = data.letter, taken = [], times = letters.length ? times_of(byId(letters[0][0])) : 1, height = drawn * times;
   const place = (id) => numbers(byId(id), ["cx", "cy"]);
   const meets = (s, width, t) =>
     Math.abs(s[0] - t[0]) < (width + t[2]) / 2 + beside && Math.abs(s[1] - t[1]) < height + gap;
-  for (const [id, point, x, y, width, far, c, s, others] of letters) {
-    const text = byId(id), here = place(point);
+  for (const [id, point, x, y, across, away, c, s, others] of letters) {
+    const text = byId(id), here = place(point), width = across * times, far = away * times;
     const from = others.length ? off(here, others.map(place)) : [1, 0];
     const [u, v] = from ? [from[0] * c - from[1] * s, from[0] * s + from[1] * c] : [leftward, upward];
     const ways = [[u, v], [-v, u], [v, -u], [-u, -v]];
@@ -89,8 +103,8 @@ function letter(letters) {
 // clear of letters at least. A vector too short for its name has none.
 function name(vectors, taken) {
   const lines = vectors.map(([, line]) => byId(line)).map((mark) => (hides(mark) ? null : numbers(mark, ["x1", "y1", "x2", "y2"])));
-  vectors.forEach(([id, , x, y, width, height, asked], i) => {
-    const text = byId(id), [x1, y1, x2, y2] = lines[i] ?? [0, 0, 0, 0], long = Math.hypot(x2 - x1, y2 - y1);
+  vectors.forEach(([id, , x, y, across, down, asked], i) => {
+    const text = byId(id), [width, height] = [across, down].map((size) => size * times_of(text)), [x1, y1, x2, y2] = lines[i] ?? [0, 0, 0, 0], long = Math.hypot(x2 - x1, y2 - y1);
     const [u, v] = [(x2 - x1) / long, (y2 - y1) / long], far = NEAR + (Math.abs(v) * width + Math.abs(u) * height) / 2;
     const spots = ALONG.flatMap((part) => [1, -1].map((side) => [
       x1 + part * (x2 - x1) - side * v * far, y1 + part * (y2 - y1) + side * u * far, width, height,
@@ -216,4 +230,9 @@ play.addEventListener("click", toggle);
 back.addEventListener("click", () => rest(data.start));
 for (const id of ["bar", "values", "help", "anew"]) if (byId(id)) byId(id).hidden = false;
 charts();
+enlarge();
+addEventListener("resize", () => {
+  enlarge();
+  show(state.x);
+});
 show(data.start);

@@ -32,6 +32,7 @@ function fit() {
   box.tabIndex = told.scrollHeight > box.clientHeight + 1 ? 0 : -1;
   sheets.forEach(share);
   look();
+  list_in_sight();
 }
 
 /** Give both fields of a sheet so much of its width that both are drawn as large. */

@@ -17,16 +17,18 @@ function say() {
   tell_rates();
   byId("told").scrollTop = 0;
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
-  const list = byId("steps");
-  if (list.scrollHeight > list.clientHeight + 4) {
-    const { offsetTop, offsetHeight } = places[Math.max(state.step - 1, 0)].link;
-    list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
-  }
+  list_in_sight();
   for (const stop of byId("stops").children) {
     const is = Number(stop.dataset.stop) <= state.step && state.step <= Number(stop.dataset.end);
     current(stop, is, "true");
     if (is) into_sight(stop);
   }
+}
+
+/** Move the sentence of the step in the list to where it is seen. */
+function list_in_sight() {
+  const list = byId("steps"), { offsetTop, offsetHeight } = places[Math.max(state.step - 1, 0)].link;
+  if (list.scrollHeight > list.clientHeight + 4) list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
 }
 
 let by_hand = false; // whether it was the reader who opened or closed why

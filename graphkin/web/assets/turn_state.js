@@ -79,6 +79,10 @@ function show_turn() {
     mark.classList.toggle("now", turn.fresh.includes(Number(mark.dataset.of)));
     mark.classList.remove("rest");
   }
+  for (const key of [...rest].flatMap(step => moves[step].inputs)) { // such as the ray at the crank's angle
+    const unseen = () => sheets[sheet].of.get(key)?.every(mark => mark.matches(".later"));
+    if (picks[key].kind === "guide" && Number(key) && is_there(key) && unseen()) turn.open.add(Number(key));
+  }
   for (const part of sheets[sheet].parts) part.classList.toggle("later", Number(part.dataset.from) >= open);
   sheets[sheet].element.classList.remove("growing");
   tell_count(next, [...rest]);
@@ -97,7 +101,13 @@ const part_name = step => part_of(step).lastChild.textContent.trim();
 /** What is sought next, and how many steps are left, in this part of the work and in all. */
 function tell_count(next, rest) {
   const [goal] = open_goals(), left = rest.filter(step => part_of(step) === part_of(next)).length;
-  byId("turn-count").innerHTML = next === undefined ? "" : worded("count", { part: part_name(next), left, number: rest.length, name: moves[goal].name });
+  byId("turn-count").innerHTML = next === undefined ? "" : worded("count", { part: part_name(next), left, number: rest.length, name: called_goal(goal) });
+}
+
+/** A point that is sought, and the vector that leads to it from the pole of its plan. */
+function called_goal(goal) {
+  const { name } = moves[goal], arrow = Object.values(picks).find(({ kind, on }) => kind === "arrow" && on[1] === goal && !picks[on[0]]?.needs.length);
+  return arrow ? `${name} (${picks[arrow.on[0]].name}${name} = ${arrow.name})` : name;
 }
 
 /** Why a step is drawn as it is: its own reasons, or where it has none those of its sentence. */

@@ -26,7 +26,7 @@ function look(glides = false) {
   sheet.fields.forEach((one, i) => {
     const scale = dots(sizes[i], boxes[i]), most = (near ? 2 : 1.3) * times[i];
     style(one.svg, "--dot", (1 / scale).toFixed(3));
-    frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), 3 * times[i])), glides);
+    frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), 3.5 * times[i])), glides);
   });
   if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) put(); // letters of another size stand elsewhere
   bars(sheet, sizes, boxes);

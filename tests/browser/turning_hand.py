@@ -1,0 +1,206 @@
+"""A hand that draws a turn: by mouse or finger on the drawing, or by keys alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from graphkin.construction.core.program import Plane
+from graphkin.numbers.plane import Circle, Line, Ratio
+from graphkin.text import words
+from graphkin.web.palette_moves import PALETTE, PLANES, PaletteMove, YourTurn
+from graphkin.web.screen_sheets import ScreenSheet
+
+EN = words("en")
+UNSEEN = ("length", "rate", "vector")
+"""Kinds that are drawn nowhere: they are taken from a list, as is what stands on another sheet."""
+SPOT = """([side, own, rivals]) => {
+  const svg = document.querySelectorAll('.sheet:not([hidden]) .view > svg')[side];
+  const { x, y, width, height } = svg.viewBox.baseVal, matrix = svg.getScreenCTM();
+  const drawn = ({ key, line, ...rest }) => {
+    if (!line) return rest;
+    const mark = svg.querySelector(`line[data-of='${key}']:not(.later)`);
+    const ends = mark && ['x1', 'y1', 'x2', 'y2'].map(name => Number(mark.getAttribute(name)));
+    if (ends) return { seg: [ends.slice(0, 2), ends.slice(2)] };
+    const [[u, v], [a, b]] = line;
+    return { seg: [[u - 1000 * a, v - 1000 * b], [u + 1000 * a, v + 1000 * b]], long: true };
+  };
+  const off = ([u, v], { at, r, seg }) => {
+    if (at) return Math.abs(Math.hypot(u - at[0], v - at[1]) - (r ?? 0));
+    const [[a, b], [c, d]] = seg, long = (c - a) ** 2 + (d - b) ** 2 || 1;
+    const part = Math.min(Math.max(((u - a) * (c - a) + (v - b) * (d - b)) / long, 0), 1);
+    return Math.hypot(u - a - part * (c - a), v - b - part * (d - b));
+  };
+  const { at, r, seg, long } = drawn(own), found = [];
+  const alike = other => long && other.seg?.every(end => off(end, { seg }) < 1); // as right as it
+  const others = rivals.map(drawn).filter(other => !alike(other));
+  if (at && r === undefined) found.push(at);
+  for (let k = 0; at && r !== undefined && k < 72; k++) {
+    found.push([at[0] + r * Math.cos(k * Math.PI / 36), at[1] + r * Math.sin(k * Math.PI / 36)]);
+  }
+  for (let k = 1; seg && k < (long ? 2000 : 20); k++) {
+    const part = k / (long ? 2000 : 20);
+    found.push([0, 1].map(i => seg[0][i] + part * (seg[1][i] - seg[0][i])));
+  }
+  const inside = ([u, v]) => u > x + 2 && u < x + width - 2 && v > y + 2 && v < y + height - 2;
+  const free = place => Math.min(...others.map(other => off(place, other)), 1e6);
+  const best = found.filter(inside).sort((p, q) => free(q) - free(p))[0];
+  const point = new DOMPoint(...best).matrixTransform(matrix);
+  return [point.x, point.y];
+}"""
+
+
+class TurningHand:
+    """Draws moves on a page on which a turn has begun; ``way`` is mouse, touch or keys."""
+
+    def __init__(self, page: Any, sheets: list[ScreenSheet], turn: YourTurn, way: str) -> None:
+        self.page, self.sheets, self.turn, self.way = page, sheets, turn, way
+        self.done: set[int] = set()
+
+    def draw(self, move: PaletteMove) -> str:
+        """Draw a move, and hear what the page says of it."""
+        said = self.by_keys(move) if self.way == "keys" else self.by_pointer(move)
+        self.done.add(move.step)
+        return said
+
+    @property
+    def said(self) -> str:
+        """What the page says."""
+        return str(self.page.locator("#turn-say").inner_text())
+
+    # --- on the drawing ---------------------------------------------------------------------------
+
+    def by_pointer(self, move: PaletteMove) -> str:
+        """Choose the action, point at its inputs, and at the one that is meant of two."""
+        self.point_at(self.page.locator(f"[data-action={move.action}]"))
+        inputs = [self.turn.picks[key].by or key for key in move.inputs]
+        for place, key in enumerate(inputs):
+            if self.turn.picks[key].kind in UNSEEN or not self.field(self.plane(key)):
+                self.page.locator("#inputs select").nth(place).select_option(value=key)
+            else:
+                kinds = {kind for _, kinds in PALETTE[move.action][place:] for kind in kinds}
+                self.tap(key, kinds)
+        button = self.page.locator("#turn-draw")
+        if button.is_visible():
+            self.point_at(button)
+        if self.page.locator("#which").is_visible():
+            self.tap_value(move)
+        return self.said
+
+    def point_at(self, button: Any) -> None:
+        """Press a button with mouse or finger."""
+        button.tap() if self.way == "touch" else button.click()
+
+    def touch(self, at: list[float]) -> None:
+        """Touch a place of the window."""
+        if self.way == "touch":
+            self.page.touchscreen.tap(*at)
+        else:
+            self.page.mouse.click(*at)
+
+    def tap(self, key: str, kinds: set[str]) -> None:
+        """Touch what a pick is drawn as, where it is farthest from all else that may be meant."""
+        side, own = self.drawn(key)
+        rivals = [self.drawn(other) for other in self.there(kinds) if other != key]
+        near = [shape for found, shape in rivals if found == side]
+        self.touch(self.page.evaluate(SPOT, [side, own, near]))
+
+    def tap_value(self, move: PaletteMove) -> None:
+        """Touch the place where the point of a move is found."""
+        plane, value = self.turn.planes[move.step], self.turn.values[move.step]
+        at = {"at": self.placed(plane, value)}
+        self.touch(self.page.evaluate(SPOT, [int(plane is not PLANES[0]), at, []]))
+
+    def there(self, kinds: set[str]) -> Iterator[str]:
+        """The picks of some kinds that are drawn."""
+        for key, pick in self.turn.picks.items():
+            seen = pick.kind in kinds and pick.kind not in UNSEEN and not pick.by
+            if seen and self.done.issuperset(pick.needs) and self.field(self.plane(key)):
+                yield key
+
+    def plane(self, key: str) -> Plane:
+        """The drawing in which a pick lies."""
+        pick = self.turn.picks[key]
+        return (
+            self.plane(str(pick.on[0]))
+            if pick.on and str(pick.on[0]) in self.turn.picks
+            else (
+                self.turn.planes[int(key)]
+                if key.isdigit() and int(key) in self.turn.moves
+                else pick.plane
+            )
+        )
+
+    def field(self, plane: Plane) -> Any:
+        """The field of the sheet in sight that shows a drawing."""
+        sheet = next(
+            one
+            for k, one in enumerate(self.sheets)
+            if self.page.locator(f"#sheet-{k}").is_visible()
+        )
+        if plane is PLANES[0]:
+            return sheet.layout.mechanism
+        return sheet.layout.plan if plane is sheet.drawing.plane else None
+
+    def placed(self, plane: Plane, value: complex) -> list[float]:
+        """The place of a value in its field, in mm."""
+        return [float(x) for x in self.field(plane)(value)]
+
+    def drawn(self, key: str) -> tuple[int, dict[str, Any]]:
+        """The field of a pick, and as what it is drawn there: point, segment, line or circle."""
+        pick, plane = self.turn.picks[key], self.plane(key)
+        side = int(plane is not PLANES[0])
+        if pick.on:
+            return side, {"seg": [self.placed(plane, self.turn.values[end]) for end in pick.on]}
+        value = pick.value if pick.value is not None else self.turn.values[int(key)]
+        if isinstance(value, Ratio):
+            value = value.start + value.shift / value.size
+        if isinstance(value, Line):
+            unit = value.along / abs(value.along)
+            line = [self.placed(plane, value.point), [unit.real, -unit.imag]]
+            return side, {"key": key, "line": line}
+        if isinstance(value, Circle):
+            r = float(value.radius) * self.field(plane).mm
+            return side, {"at": self.placed(plane, value.centre), "r": r}
+        return side, {"at": self.placed(plane, value)}
+
+    # --- by keys ----------------------------------------------------------------------------------
+
+    def by_keys(self, move: PaletteMove) -> str:
+        """Go to the action, its lists and its button by Tab alone, and choose by letters."""
+        inputs = [self.turn.picks[key].by or key for key in move.inputs]
+        for which in (0, 1):
+            self.tab_to(f"[data-action={move.action}]")
+            if self.page.evaluate("document.activeElement.getAttribute('aria-pressed')") != "true":
+                self.page.keyboard.press("Enter")
+            for place, key in enumerate(inputs):
+                self.tab_to(f"#inputs label:nth-child({place + 1}) select")
+                self.choose(key)
+            self.tab_to("#turn-draw")
+            self.page.keyboard.press("Enter")
+            if self.page.locator("#which").is_visible():
+                self.tab_to(f"#which button:nth-child({which + 1})")
+                self.page.keyboard.press("Enter")
+            if self.said.endswith(".") and EN("turn.say.right", name="").strip(" :") in self.said:
+                break
+        return self.said
+
+    def tab_to(self, selector: str) -> None:
+        """Press Tab until the focus is there."""
+        for _ in range(80):
+            if self.page.evaluate("selector => document.activeElement.matches(selector)", selector):
+                return
+            self.page.keyboard.press("Tab")
+        raise AssertionError(f"no Tab leads to {selector}")
+
+    def choose(self, key: str) -> None:
+        """Choose an entry of the list that has the focus by the arrow keys."""
+        place = "key => [...document.activeElement.options].findIndex(one => one.value === key)"
+        wanted = self.page.evaluate(place, key)
+        assert wanted > 0, f"{key} is not offered"
+        for _ in range(200):
+            now = self.page.evaluate("document.activeElement.selectedIndex")
+            if now == wanted:
+                return
+            self.page.keyboard.press("ArrowDown" if now < wanted else "ArrowUp")
+        raise AssertionError(f"{key} cannot be chosen")
