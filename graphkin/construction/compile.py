@@ -18,7 +18,7 @@ from graphkin.construction.higher_class import coupled_train, higher, two_trials
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component import klein
-from graphkin.construction.rolling import rolling, wheel_images
+from graphkin.construction.rolling import rolling, spun_wheel, wheel_images
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
@@ -30,6 +30,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
     Train,
@@ -94,6 +95,8 @@ def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -
             cylinder.place(pen, shapes, group)
         case Geared():
             rolling.geared(pen, shapes, group)
+        case Spun():
+            spun_wheel.place(pen, shapes, group)
         case Train():
             rolling.train(pen, shapes, group)
         case Tie():
@@ -146,6 +149,8 @@ def move(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) ->
             cylinder.move(pen, shapes, group)
         case Geared():
             wheel_images.geared(pen, group)
+        case Spun():
+            spun_wheel.move(pen, shapes, group)
         case Train():
             wheel_images.train(pen, group)
         case Tie():
@@ -184,6 +189,8 @@ def accelerate(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ..
             cylinder.accelerate(pen, shapes, group)
         case Geared():
             wheel_images.second_geared(pen, shapes, group)
+        case Spun():
+            spun_wheel.accelerate(pen, shapes, group)
         case Train():
             wheel_images.second_train(pen, group)
         case Tie():

@@ -18,6 +18,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
 )
@@ -43,7 +44,7 @@ def group_words(words: Words, group: Group) -> str:
     numbers = words("list_mark").join(map(escape, sorted(group.links, key=natural)))
     links = words(f"calculation.{noun}", links=numbers)
     match group:
-        case Crank() | Driven():
+        case Crank() | Driven() | Spun():
             return words("calculation.group_driven", links=links)
         case Dyad():
             return words("calculation.group_dyad", links=links, type=group.type)

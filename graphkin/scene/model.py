@@ -174,7 +174,8 @@ class Rolling(NamedTuple):
 
     With a ``belt`` the wheel does not touch the other: the belt joins their rims, without slip.
     ``turns`` are the whole turns to be added to the angle of a link that only its pins show, which
-    is else the one within half a turn of its ``start``.
+    is else the one within half a turn of its ``start``. ``keeper`` is the link without substance
+    that keeps the wheel there, where no link of the scene does.
     """
 
     on: str
@@ -184,11 +185,13 @@ class Rolling(NamedTuple):
     side: int = 1
     turns: Mapping[str, Quantity] = {}
     belt: Belt | None = None
+    keeper: str = ""
 
     def called(self, names: Mapping[str, str]) -> Rolling:
         """The same with links by other names."""
         return self._replace(
             on=names.get(self.on, self.on),
+            keeper=names.get(self.keeper, self.keeper),
             start={names.get(name, name): angle for name, angle in self.start.items()},
             turns={names.get(name, name): count for name, count in self.turns.items()},
         )
@@ -442,10 +445,20 @@ class Scene(Struct, frozen=True):
     source: Path | None = None
 
     @property
+    def every_link(self) -> tuple[Link, ...]:
+        """The frame, then the moving links as written."""
+        return (self.frame, *self.links.values())
+
+    @property
+    def keepers(self) -> Mapping[str, tuple[str, Rolling]]:
+        """The links without substance that keep wheels where they roll, with the wheels' links."""
+        every = ((link.name, rolling) for link in self.every_link for rolling in link.rolls)
+        return {rolling.keeper: (name, rolling) for name, rolling in every if rolling.keeper}
+
+    @property
     def touching(self) -> tuple[tuple[str, str], ...]:
         """Each wheel with the link on which it rolls or to which a belt runs, as written."""
-        links = self.links.values()
-        return tuple((link.name, rolling.on) for link in links for rolling in link.rolls)
+        return tuple((link.name, each.on) for link in self.every_link for each in link.rolls)
 
     @property
     def belted(self) -> tuple[tuple[str, str], ...]:

@@ -184,7 +184,7 @@ def contacts(scene: Scene) -> tuple[Contact, ...]:
 def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Contact]:
     """The rolling pairs that a link is written with; each may rest on the tracks before it."""
     found: list[Contact] = []
-    for rolling, letter in zip(scene.links[link].rolls, letters, strict=True):
+    for rolling, letter in zip(scene.link(link).rolls, letters, strict=True):
         before = [(each.rolling, each.wheel) for each in found if each.track is None]
         touch = touching(scene, link, rolling, before)
         found.append(Contact(rolling, (link, rolling.on), *touch, letter))

@@ -54,7 +54,7 @@ def touching(
     """
     if rolling.belt is not None:
         return belted(scene, name, rolling, rolling.belt)
-    link, on = scene.links[name], scene.link(rolling.on)
+    link, on = scene.link(name), scene.link(rolling.on)
     if rolling.through is None:
         kept = list(kept_centres(scene, name, rolling))
         loose = RollingContact(link.wheels[0], on.wheels[0], None)
@@ -115,7 +115,7 @@ def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsAp
     Wheels outside one another touch at the sum of their radii, a ring and a wheel within it at
     the difference; two rings cannot touch, nor a ring a wheel that is larger.
     """
-    for wheel in scene.links[name].wheels:
+    for wheel in scene.link(name).wheels:
         for track in scene.link(rolling.on).wheels:
             arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
             if arm is None or (wheel.inside and track.inside):
@@ -145,7 +145,7 @@ def kept_heights(
     line = track_line(scene, rolling)
     standing = stands(scene, rolling.on, line.along)
     zero = cross(line.along, line.point)
-    link = scene.links[name]
+    link = scene.link(name)
     for arm in (FRAME, *scene.links):
         if arm not in standing or arm in (name, rolling.on):
             continue

@@ -175,7 +175,7 @@ def place_of_turns(scene: Scene, link: str) -> str:
     rolling = counting(scene).get(link)
     return next(
         numbered(f"links.{each.name}.rolls", n, len(each.rolls))
-        for each in scene.links.values()
+        for each in scene.every_link
         for n, own in enumerate(each.rolls)
         if own is rolling or rolling is None
     )

@@ -16,6 +16,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Tie,
     Train,
 )
@@ -226,6 +227,10 @@ def group_words(group: Group) -> str:
         case Geared(link, pair, contact):
             other = link_words(partner(contact, link))
             return f"link {link} on {pair_name(pair)}, moved by its contact with {other}"
+        case Spun(_, link, holder, pivot, _, contact):
+            other = link_words(partner(contact, link))
+            follows = f"link {holder} on {pair_name(pivot)} follows"
+            return f"link {link} driven (class I): it rolls on {other}; {follows}"
         case Train(arm, wheel, pivot, _, rolled):
             others = listed(link_words(partner(contact, wheel)) for contact in rolled)
             return f"arm {arm} on {pair_name(pivot)} with wheel {wheel}, which rolls on {others}"

@@ -16,6 +16,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
     Train,
@@ -83,6 +84,12 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return own_first(first), tubes[0], own_first(second), *tubes[1:]
         case Geared():
             return (geared_base(scene, group),)
+        case Spun(link=link, holder=arm, pivot=pivot, held=Pin(point=centre), contact=contact):
+            rim = under(contact_name(contact), link)
+            return base_of(scene, arm, pivot.point, centre), base_of(scene, link, centre, rim)
+        case Spun(link=link, holder=block, pivot=pivot):
+            first = scene.link(link).points[0]
+            return base_of(scene, block, pivot.point, None), base_of(scene, link, first, None)
         case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
             rim = under(contact_name(contact), wheel)
             return base_of(scene, arm, pivot, centre), base_of(scene, wheel, centre, rim)
@@ -116,6 +123,8 @@ def leads_of(group: Group) -> dict[str, str]:
             return {each.near: each.far for each in cylinders} | leads_of(dyad)
         case Geared(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
+        case Spun(link=link, holder=block, held=Sliding()):
+            return {block: link}
         case Tie(link=link, second=Sliding() as pair):
             return {link: partner(pair, link)}
         case Dyad(links=(first, second), left=Pin(), inner=Sliding(), right=Sliding() as right):

@@ -171,7 +171,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
     """What rolls on what in which point, and the start it counts from; that there is no slip."""
     scene, words = drawing.scene, drawing.words
     letters = contact_letters(scene)
-    for link in scene.links.values():
+    for link in scene.every_link:
         for rolling, contact in zip(link.rolls, letters.get(link.name, ()), strict=True):
             fields = {"k": escape(link.name), "touch": symbol(contact)}
             if rolling.angle is None:
@@ -191,7 +191,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 fields["positive"] = positive_track(drawing, link, rolling)
                 key = "page.rack" if any(w.teeth for w in link.wheels) else "page.rolls"
                 yield words(key, line=straight(drawing, rolling), **fields)
-    if any(link.rolls for link in scene.links.values()):
+    if any(link.rolls for link in scene.every_link):
         yield words("page.no_slip")
     yield from whole_turns(drawing)
 
@@ -199,7 +199,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
 def whole_turns(drawing: Drawing) -> Iterator[str]:
     """How far links have turned since the start, where wheels depend on it and pins do not say."""
     scene, words = drawing.scene, drawing.words
-    rolls = [rolling for link in scene.links.values() for rolling in link.rolls]
+    rolls = [rolling for link in scene.every_link for rolling in link.rolls]
     steps = drawing.trace.program.steps
     counted = {counted_link(steps[number]) for number in drawing.trace.values}
     for link in scene.links.values():

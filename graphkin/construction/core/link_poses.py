@@ -197,7 +197,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def touches(self) -> tuple[Touch, ...]:
         """Every place where a wheel touches its track."""
         found = []
-        for link in self.scene.links.values():
+        for link in self.scene.every_link:
             own = [disc for disc in self.discs if disc.link == link.name]
             for rolling in link.rolls:
                 touch = self.on_line(own, rolling) if rolling.angle else self.on_wheel(own, rolling)
@@ -257,7 +257,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         self, own: list[Disc], others: list[Disc], rolling: Rolling, belt: Belt
     ) -> Touch | None:
         """A belt: where its strands meet the line of the centres."""
-        wheels = self.scene.links[own[0].link].wheels if own else ()
+        wheels = self.scene.link(own[0].link).wheels if own else ()
         tracks = self.scene.link(rolling.on).wheels
         one = next((d for d in own if d.wheel is wheels[belt.wheels[0]]), None)
         other = next((d for d in others if d.wheel is tracks[belt.wheels[1]]), None)

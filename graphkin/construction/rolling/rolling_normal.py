@@ -83,10 +83,18 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How it is laid off; why it is the whole acceleration, the first time."""
+        first = next(self.alike(drawing))
+        return self.told(drawing, "step.lay-off-rolling" if self is first else "step.lay-off-named")
+
+    def alike(self, drawing: Drawing) -> Iterator[RollingNormal]:
+        """Those of its kind on a sheet, in order."""
+        return (each for each in components_on(drawing) if type(each) is type(self))
+
+    def told(self, drawing: Drawing, key: str, **fields: str) -> str:
+        """A sentence of how it is laid off."""
         steps = drawing.trace.program.steps
-        first = next(each for each in components_on(drawing) if isinstance(each, RollingNormal))
         return drawing.words(
-            "step.lay-off-rolling" if self is first else "step.lay-off-named",
+            key,
             s=symbol(steps[self.start].name),
             name=symbol(steps[self.image].name),
             vector=self.symbol,
@@ -95,6 +103,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
                 drawing.words, drawn_between(drawing, self.start, self.image, drawing.plane)
             ),
             **self.symbols(),
+            **fields,
         )
 
     def section(self) -> str:
