@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.numbers.cam_motions import Rise, displaced
@@ -454,6 +455,27 @@ class Scene(Struct, frozen=True):
         """The links without substance that keep wheels where they roll, with the wheels' links."""
         every = ((link.name, rolling) for link in self.every_link for rolling in link.rolls)
         return {rolling.keeper: (name, rolling) for name, rolling in every if rolling.keeper}
+
+    @property
+    def unseen(self) -> frozenset[str]:
+        """The keepers of wheels that no driver moves: links of which nobody need speak."""
+        driven = {end for driver in self.drivers for end in (driver.link, driver.against)}
+        return frozenset(name for name in self.keepers if name not in driven)
+
+    @property
+    def bare(self) -> Scene:
+        """The scene without its unseen keepers: what counts as links and pairs."""
+        if not (unseen := self.unseen):
+            return self
+
+        def less(link: Link) -> Link:
+            rolls = (
+                each._replace(keeper="") if each.keeper in unseen else each for each in link.rolls
+            )
+            return link._replace(rolls=tuple(rolls))
+
+        links = {name: less(link) for name, link in self.links.items() if name not in unseen}
+        return replace(self, frame=less(self.frame), links=links)
 
     @property
     def touching(self) -> tuple[tuple[str, str], ...]:

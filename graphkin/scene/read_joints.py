@@ -158,6 +158,20 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
     return Rolling(on, through, angle, start, side or 1, turns, keeper=keeper)
 
 
+def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
+    """The bars that roll on wheels of the frame; ``start`` gives the angle of the bar.
+
+    Against the bar the wheel is then turned as far the other way.
+    """
+    found = []
+    for rolling in read_rolls(table, measures):
+        start = dict(rolling.start)
+        if rolling.on in start and rolling.through is not None:
+            start.setdefault(FRAME, start[rolling.on].negative())
+        found.append(rolling._replace(start=start))
+    return tuple(found)
+
+
 def read_belts(table: Table, measures: Measures) -> tuple[Rolling, ...]:
     """The belts that run from the wheels of a link to those of others."""
     return tuple(read_belt(each, measures) for each in tables(table, "belt"))

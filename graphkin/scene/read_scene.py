@@ -24,7 +24,7 @@ from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
 from graphkin.scene.read_cams import with_cams
 from graphkin.scene.read_drivers import read_drivers
-from graphkin.scene.read_joints import read_belts, read_rolls, read_slides, read_wheels
+from graphkin.scene.read_joints import read_belts, read_drums, read_rolls, read_slides, read_wheels
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.touching_profiles import normals
@@ -225,7 +225,7 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
         for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
-        rolls = read_rolls(table, measures)
+        rolls = read_drums(table, measures)
         return Link(FRAME, points, placings, wheels=wheels, rolls=rolls, profiles=profiles)
     slides = read_slides(table, measures)
     rolls = read_rolls(table, measures) + read_belts(table, measures)

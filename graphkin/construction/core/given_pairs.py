@@ -189,7 +189,11 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")
                 fields["start"] = start_on_track(drawing, link, rolling)
                 fields["positive"] = positive_track(drawing, link, rolling)
+                if keeper := scene.links.get(rolling.keeper):
+                    fields["side"] += which_way(drawing, keeper, keeper.slides[0])
                 key = "page.rack" if any(w.teeth for w in link.wheels) else "page.rolls"
+                if link.name == FRAME:
+                    key, fields["k"] = "page.rolls_on_drum", escape(rolling.on)
                 yield words(key, line=straight(drawing, rolling), **fields)
     if any(link.rolls for link in scene.every_link):
         yield words("page.no_slip")
@@ -215,7 +219,8 @@ def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     """Words for where a wheel touches a straight track at the start, and how it then stands."""
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
-    angles = stands(drawing, link, rolling)
+    turned = drawing.scene.link(rolling.on) if link.name == FRAME else link
+    angles = stands(drawing, turned, rolling)
     return words("page.start", through=through, angles=angles)
 
 

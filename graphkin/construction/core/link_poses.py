@@ -169,7 +169,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         """Every guide in the plane, in the order written."""
         found = (
             self.guideway(link, slide)
-            for link in self.scene.links.values()
+            for link in self.scene.bare.links.values()
             for slide in link.slides
         )
         return tuple(way for way in found if way is not None)

@@ -382,5 +382,5 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
     with pen.on(Part.POSITION, Plane.MECHANISM):
         where = centre, axis_, *ends, shapes.local(link, point), radius, way
         found = pen.want("position", point, pen.draw(rack_at, *where, name=point))
-    pen.make(RackPoint(rack=link, way=way, point=found))
+    pen.make(RackPoint(rack=link, wheel=wheel, way=way, point=found))
     touch_and_turn(pen, shapes, contact)

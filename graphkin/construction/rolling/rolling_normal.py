@@ -71,6 +71,8 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     def rate(self, drawing: Drawing) -> str:
         """How fast it turns against what it rolls on."""
         own, other = (rate_symbol(drawing, each) for each in (self.omega, self.omega_track))
+        if not drawing.trace.values[self.omega]:
+            return other
         return f"({own} − {other})" if drawing.trace.values[self.omega_track] else own
 
     def formula(self, drawing: Drawing) -> str:
