@@ -45,5 +45,6 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
-    tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm is None)
+    keepers = (None, *joints.scene.keepers)
+    tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm in keepers)
     return Unresolved(links, driven, tuple(dict.fromkeys(link for link in tracks if link in links)))

@@ -43,7 +43,7 @@ def structure(scene: Scene) -> Iterator[str]:
     yield from labelled("pairs", [f"{len(joined)}:", *map(pair_words, joined)])
     counted = count(scene)
     yield from labelled("count", [f"{counted.words}, mobility by the count", *count_notes(bare)])
-    yield from labelled("loops", loop_lines(bare))
+    yield from labelled("loops", loop_lines(scene))
     drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
     yield from labelled("drivers", drivers)
     yield from labelled("put in", list(keeper_lines(scene)))
@@ -125,7 +125,7 @@ def loop_lines(scene: Scene) -> list[str]:
         return ["none: an open chain"]
     noun = "closed loop" if loops == 1 else "independent closed loops"
     lines = [f"{loops} {noun}"]
-    single = single_loops(scene)
+    single = [loop for loop in single_loops(scene) if not scene.unseen & {*loop.links}]
     for loop in single[:MOST_LOOPS]:
         lines += single_loop_lines(scene, loop)
     if len(single) > MOST_LOOPS:

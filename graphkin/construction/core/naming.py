@@ -27,7 +27,7 @@ def called(drawing: Drawing) -> str:
 
 
 def way_of(drawing: Drawing, name: str) -> str:
-    """A guide by its block, or a straight track by its wheel; a bar's on a fixed wheel by the bar."""
+    """A guide by its block, a straight track by its wheel; on a fixed wheel by its bar."""
     scene = drawing.scene
     if name in scene.keepers:
         name = scene.keepers[name][0]

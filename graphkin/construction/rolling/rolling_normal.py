@@ -39,7 +39,8 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
     It leads along the radius from the point ``p`` to ``q``, whose places are ``foot`` and ``head``;
     the link of the point turns by ``omega``, what it rolls on by ``omega_track``. From the image
-    ``start`` of the point that is touched it ends in the ``image`` of the one that rolls.
+    ``start`` of the point that is touched it ends in the ``image`` of the one that rolls; that
+    is a bar's where it is ``on_bar``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("vector", "image")
@@ -56,6 +57,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     omega_track: int
     start: int
     image: int
+    on_bar: bool = False
 
     def symbols(self) -> Mapping[str, str]:
         """The ends of the radius."""
@@ -86,7 +88,8 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How it is laid off; why it is the whole acceleration, the first time."""
         first = next(self.alike(drawing))
-        return self.told(drawing, "step.lay-off-rolling" if self is first else "step.lay-off-named")
+        key = "step.lay-off-rolling-bar" if self.on_bar else "step.lay-off-rolling"
+        return self.told(drawing, key if self is first else "step.lay-off-named")
 
     def alike(self, drawing: Drawing) -> Iterator[RollingNormal]:
         """Those of its kind on a sheet, in order."""
@@ -146,7 +149,13 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
 
 def rolled_image(
-    pen: Pen, start: int, rolls: str, ends: tuple[str, str], rates: tuple[int, int]
+    pen: Pen,
+    start: int,
+    rolls: str,
+    ends: tuple[str, str],
+    rates: tuple[int, int],
+    *,
+    on_bar: bool = False,
 ) -> int:
     """The second image of a point that ``rolls``, from that of the point which it touches.
 
@@ -174,6 +183,7 @@ def rolled_image(
             vector=vector,
             start=start,
             image=image,
+            on_bar=on_bar,
         )
     )
     return pen.want("acceleration", rolls, image)

@@ -244,7 +244,7 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
     start = carried(pen, wheel, name, "acceleration")
     rates, rim = (omega_of(pen, wheel), omega_of(pen, link)), under(name, link)
-    corner = rolled_image(pen, start, rim, (centre, name), rates)
+    corner = rolled_image(pen, start, rim, (centre, name), rates, on_bar=True)
     turn_from_rim(pen, link, rim, point, corner)
 
 
