@@ -223,6 +223,8 @@ def slips_of(
         wheel, on = track.block, track.on
         starts = {wheel: at_start(rolling, wheel, numbers), on: 0.0}
         turned = counted_at(rolling, numbers)
+        if wheel == FRAME:
+            turned.setdefault(on, at_start(rolling, on, numbers))
         found.append(
             NoSlip((wheel, on), {wheel: size, on: -size}, starts, turned, track, rolling.side)
         )

@@ -35,7 +35,7 @@ def with_keepers(
                 continue
             every[keeper.name] = keeper
             rolls = list(every[name].rolls)
-            rolls[index] = rolling._replace(keeper=keeper.name)
+            rolls[index] = counted_alike(rolling, keeper.name)
             every[name] = every[name]._replace(rolls=tuple(rolls))
     return every.pop(FRAME), every
 
@@ -71,6 +71,16 @@ def keeper_of(
         measures.findings.add(place, f"link {called} is there already", "the name of a new link")
         return None
     return made._replace(name=called)
+
+
+def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
+    """A rolling with its keeper: a block counts its angle as the bar along which it slides."""
+    start, turns = dict(rolling.start), dict(rolling.turns)
+    if rolling.on in start and rolling.angle is not None:
+        start[keeper] = combined("+", start[rolling.on], rolling.angle)
+    if rolling.on in turns and rolling.angle is not None:
+        turns[keeper] = turns[rolling.on]
+    return rolling._replace(keeper=keeper, start=start, turns=turns)
 
 
 def loose_pair(every: Mapping[str, Link], own: Link, on: Link) -> tuple[Wheel, Wheel] | None:

@@ -67,7 +67,9 @@ def groups_at_instant(
             or next_stretched(pinned, grown, left)
             or next_tie(pinned, grown)
         )
-        if each is None or (isinstance(each, Dyad) and any({*each.links} <= three for three in in_line)):
+        if each is None:
+            return ()
+        if isinstance(each, Dyad) and any({*each.links} <= three for three in in_line):
             return ()
         found.append(each)
         settle(each, grown, left)

@@ -16,6 +16,7 @@ from graphkin.construction.guides.set_by_coordinate import set_at, set_point
 from graphkin.construction.links.counted_turn import CountedTurn, counted_link, counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
+from graphkin.construction.links.plate_points import plate_points
 from graphkin.construction.rolling.contact_points import (
     CentreOfBelt,
     CentrePath,
@@ -383,4 +384,5 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
         where = centre, axis_, *ends, shapes.local(link, point), radius, way
         found = pen.want("position", point, pen.draw(rack_at, *where, name=point))
     pen.make(RackPoint(rack=link, wheel=wheel, way=way, point=found))
+    plate_points(pen, shapes, pen.bases[link])  # its track may pass through another point of it
     touch_and_turn(pen, shapes, contact)
