@@ -207,7 +207,7 @@ def whole_turns(drawing: Drawing) -> Iterator[str]:
     steps = drawing.trace.program.steps
     counted = {counted_link(steps[number]) for number in drawing.trace.values}
     for link in scene.links.values():
-        if link.name not in counted:
+        if link.name not in counted or (link.name in scene.unseen and link.slides):
             continue
         stated = next((each.turns[link.name] for each in rolls if link.name in each.turns), None)
         turns = "0" if stated is None else words.decimal(stated.written(scene.values))
