@@ -155,6 +155,16 @@ class Wheel(NamedTuple):
     inside: bool = False
 
 
+def of_one_size(one: Wheel, other: Wheel) -> bool:
+    """Whether two wheels are as large whatever the parameters: written alike, or equal numbers."""
+    r, s = one.radius, other.radius
+    if r is None or s is None:
+        return False
+    if r.uses() or s.uses():
+        return (r.tree, r.unit) == (s.tree, s.unit)
+    return bool(r.number({}) == s.number({}))
+
+
 class Belt(NamedTuple):
     """A belt, chain or rope round two wheels, ``crossed`` or open.
 
@@ -487,6 +497,14 @@ class Scene(Struct, frozen=True):
         """Those that a belt joins."""
         links = self.links.values()
         return tuple((link.name, each.on) for link in links for each in link.rolls if each.belt)
+
+    def turn_alike(self, name: str, rolling: Rolling) -> bool:
+        """Whether an open belt joins a wheel of a link ``name`` with another of its size."""
+        belt = rolling.belt
+        if belt is None or belt.crossed:
+            return False
+        own, other = belt.wheels
+        return of_one_size(self.link(name).wheels[own], self.link(rolling.on).wheels[other])
 
     @property
     def cams(self) -> Mapping[str, Cam]:

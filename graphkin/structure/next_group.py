@@ -78,7 +78,9 @@ def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
 def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> Spun | None:
     """A link that a driver turns and that rolls on a known wheel, on an arm or block of its own."""
     joined = joints.between(link, known)
-    if len(joined) != 1 or not isinstance(joined[0], Contact) or driver.link != link:
+    if len(joined) != 1 or not isinstance(joined[0], Contact) or joined[0].alike:
+        return None
+    if driver.link != link:
         return None
     contact, holder = joined[0], joined[0].arm
     if holder is None or holder in known:
@@ -124,7 +126,8 @@ def train_with(
             continue
         inner = joints.inner(arm, wheel, known)
         outer = joints.between(wheel, known)
-        contacts = [pair for pair in outer if isinstance(pair, Contact) and pair.arm == arm]
+        rolled = [pair for pair in outer if isinstance(pair, Contact) and not pair.alike]
+        contacts = [pair for pair in rolled if pair.arm == arm]
         if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
             return Train(arm, wheel, left[0], inner[0], (contacts[0], contacts[1]))
     return None

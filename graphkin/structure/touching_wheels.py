@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel
+from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, track_line
 from graphkin.structure.turning import LEVEL, stands
@@ -85,10 +85,11 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
     distance = abs(points[wheel.centre] - points[track.centre])
     if distance <= sum(radii) * (1 + TOUCH):
         raise StructureError(overlap(scene, name, rolling, RollingContact(wheel, track, arm)))
-    if not belt.crossed and abs(radii[0] - radii[1]) <= TOUCH * max(radii):
-        found = f"an open belt on two wheels of radius {shown(scene, radii[0])}"
-        expected = "wheels of different radii: these turn alike, and have no relative centre"
-        hint = "a bar parallel to the line of centres, pinned to both wheels, moves them alike"
+    near = abs(radii[0] - radii[1]) <= TOUCH * max(radii)
+    if not belt.crossed and near and not of_one_size(wheel, track):
+        found = f"an open belt on two wheels of radius {shown(scene, radii[0])} by chance"
+        expected = "wheels of different radii for these parameters, or of one radius for all"
+        hint = "wheels of one size turn alike; write the same radius for both"
         raise StructureError(Problem(f"links.{name}.belt", found, expected, hint))
     return RollingContact(wheel, track, arm)
 

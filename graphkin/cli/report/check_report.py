@@ -159,7 +159,7 @@ def turns_lines(trace: Trace, scene: Scene) -> list[str]:
     found = []
     for step in trace.program.steps:
         link = counted_link(step)
-        if link is None or link in scene.unseen and scene.links[link].slides:
+        if link is None or (link in scene.unseen and scene.links[link].slides):
             continue
         angle, near = degrees(trace.value("turned", link)), degrees(trace.values[step.args[-1]])
         found += [

@@ -88,8 +88,8 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             rim = under(contact_name(contact), link)
             return base_of(scene, arm, pivot.point, centre), base_of(scene, link, centre, rim)
         case Spun(link=link, holder=block, pivot=pivot):
-            first = scene.link(link).points[0]
-            return base_of(scene, block, pivot.point, None), base_of(scene, link, first, None)
+            own = scene.link(link).points[0]
+            return base_of(scene, block, pivot.point, None), base_of(scene, link, own, None)
         case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
             rim = under(contact_name(contact), wheel)
             return base_of(scene, arm, pivot, centre), base_of(scene, wheel, centre, rim)
@@ -123,6 +123,8 @@ def leads_of(group: Group) -> dict[str, str]:
             return {each.near: each.far for each in cylinders} | leads_of(dyad)
         case Geared(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
+        case Geared(link=link, contact=contact) if contact.alike:
+            return {link: partner(contact, link)}
         case Spun(link=link, holder=block, held=Sliding()):
             return {block: link}
         case Tie(link=link, second=Sliding() as pair):
@@ -237,6 +239,8 @@ def no_track(link: str) -> StructureError:
 def geared_base(scene: Scene, group: Geared) -> Base:
     """The base of a geared wheel: its centre and its point of contact; a rack only shifts."""
     match group.pair:
+        case Pin(point=point) if group.contact.alike:
+            return base_of(scene, group.link, point, None)
         case Pin(point=point):
             return base_of(scene, group.link, point, under(contact_name(group.contact), group.link))
         case Contact() as own:

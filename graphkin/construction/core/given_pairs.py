@@ -181,6 +181,8 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 other = escape(rolling.on)
                 if rolling.belt is not None:
                     key = BELTS[rolling.on == FRAME, rolling.belt.crossed]
+                    if scene.turn_alike(link.name, rolling):
+                        key = f"{key}_alike"
                     own, there = rolling.belt.wheels
                     fields["k"] = wheel_name(scene, words, link.name, own)
                     other = wheel_name(scene, words, rolling.on, there)

@@ -15,7 +15,19 @@ from graphkin.construction.core.program import is_in_scene
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Line, cross, dot
-from graphkin.scene.model import FRAME, Apart, At, Belt, Link, Polar, Rolling, Scene, Slide, Wheel
+from graphkin.scene.model import (
+    FRAME,
+    Apart,
+    At,
+    Belt,
+    Link,
+    Polar,
+    Rolling,
+    Scene,
+    Slide,
+    Wheel,
+    of_one_size,
+)
 from graphkin.scene.quantity import Quantity
 
 CLEAR = 1.6
@@ -264,7 +276,10 @@ class LinkPoses(Struct, frozen=True, dict=True):
         if one is None or other is None:
             return None
         apart = other.centre - one.centre
-        at = one.centre + apart * (one.radius / (one.radius + belt.sense * other.radius))
+        share = 0.5
+        if belt.crossed or not of_one_size(one.wheel, other.wheel):
+            share = one.radius / (one.radius + belt.sense * other.radius)
+        at = one.centre + apart * share
         return Touch(rolling, one, at, 1j * apart / abs(apart), None, other)
 
 

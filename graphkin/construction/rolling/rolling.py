@@ -190,7 +190,8 @@ def wheel_on_wheel(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     """A wheel on its pin: the contact on the line of centres, its turning by the radii."""
     contact, link = group.contact, group.link
     assert contact.arm is not None
-    touch_wheels(pen, contact, link)
+    if not contact.alike:
+        touch_wheels(pen, contact, link)
     if not pen.has("axis", link):
         roll_round(pen, shapes, contact, link)
 

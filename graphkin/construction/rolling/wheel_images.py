@@ -78,6 +78,8 @@ def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 def geared(pen: Pen, group: Geared) -> None:
     """A wheel or rack: the contact has the velocity of what it touches."""
     link, contact = group.link, group.contact
+    if contact.alike:
+        return
     name = contact_name(contact)
     start = touched(pen, contact, link, partner(contact, link))
     match group.pair:
@@ -207,6 +209,8 @@ def second_train(pen: Pen, group: Train) -> None:
 def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     """A wheel or rack in the acceleration plan, from the contact that settles it."""
     link, contact = group.link, group.contact
+    if contact.alike:
+        return
     match group.pair:
         case Pin():
             second_touched(pen, contact, link, partner(contact, link))
