@@ -76,8 +76,9 @@ def keeper_of(
 def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
     """A rolling with its keeper: a block counts its angle as the bar along which it slides."""
     start, turns = dict(rolling.start), dict(rolling.turns)
-    if rolling.on in start and rolling.angle is not None:
-        start[keeper] = combined("+", start[rolling.on], rolling.angle)
+    if rolling.angle is not None:
+        bar = start.get(rolling.on)
+        start[keeper] = rolling.angle if bar is None else combined("+", bar, rolling.angle)
     if rolling.on in turns and rolling.angle is not None:
         turns[keeper] = turns[rolling.on]
     return rolling._replace(keeper=keeper, start=start, turns=turns)

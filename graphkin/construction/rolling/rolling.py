@@ -373,9 +373,12 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
         turn = angle_of(pen, shapes, wheel)
         if pen.turns(link):
             known = partner(slide, link)
-            own = pen.draw(
-                counted_near, axis_, axis(pen, shapes, known), angle_of(pen, shapes, known)
-            )
+            held = angle_of(pen, shapes, known)
+            if known in pen.scene.keepers and contact.rolling.angle is not None:
+                lean = pen.given("number", contact.rolling.angle)
+                own = pen.draw(difference, held, lean)
+            else:
+                own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
             turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)

@@ -11,6 +11,7 @@ from graphkin.construction.core.bases import contact_name, under
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
+from graphkin.construction.core.vocabulary import sum_of
 from graphkin.construction.guides.coincident_points import carried, omega_of
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.links.counted_turn import counted_near
@@ -39,9 +40,14 @@ def place(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
         set_arm(pen, shapes, group, group.held.point, turn)
     else:
         turned_with(pen, shapes, group.held, group.link)
-        axes = (pen.the("axis", each) for each in group.links)
         with pen.on(Part.POSITION, Plane.NUMBERS):
-            pen.want("turned", group.holder, pen.draw(counted_near, *axes, turn))
+            if group.holder in pen.scene.keepers:
+                lean = pen.given("number", group.contact.rolling.angle)
+                held = pen.draw(sum_of, turn, lean)
+            else:
+                axes = (pen.the("axis", each) for each in group.links)
+                held = pen.draw(counted_near, *axes, turn)
+            pen.want("turned", group.holder, held)
         rolling.rack(pen, shapes, as_rack(group), group.held)
 
 
