@@ -139,6 +139,5 @@ def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver])
     shared = Counter(p for other in every.values() if other is not link for p in other.points)
     pins = sum(shared[point] > 0 for point in link.points)
     slides = [*link.slides, *(s for each in every.values() for s in each.slides if s.on == name)]
-    driven = [d for d in drivers if d.kind != "turn" and name in (d.link, d.against)]
-    turned = [d for d in drivers if d.kind == "turn" and name == d.link and pins]
-    return pins + 2 * len(slides) + 2 * len(driven) + 2 * len(turned)
+    moved = [d for d in drivers if name in (d.link, d.against) and (pins or d.kind != "turn")]
+    return pins + 2 * len(slides) + 2 * len(moved)

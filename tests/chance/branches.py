@@ -84,7 +84,8 @@ def sine_of(standing: Standing, dyad: Dyad, scene: Scene) -> float:
     if dyad.type == "RRR":
         return cross((inner - left) / abs(inner - left), (right - inner) / abs(right - inner))
     if dyad.type == "RRP":
-        return dot(standing.slides[dyad.right.links[0]].along, (inner - left) / abs(inner - left))
+        along = along_of(standing, scene, dyad.right.links[0])
+        return dot(along, (inner - left) / abs(inner - left))
     if dyad.type == "RPR":
         along = along_of(standing, scene, dyad.inner.links[0])
         return dot(along, (right - left) / abs(right - left))
@@ -107,7 +108,7 @@ def words_of(standing: Standing, group: Group, scene: Scene) -> dict[str, str]:
         return {dyad.inner.point: f"{side} of {ends[0]}-{ends[1]}"}
     if dyad.type == "RRP":
         block = dyad.right.links[0]
-        ahead = dot(standing.slides[block].along, inner - left)
+        ahead = dot(along_of(standing, scene, block), inner - left)
         return way(block, ahead if block in dyad.links else -ahead)
     if dyad.type == "RPR":
         block, carrier = dyad.inner.links
