@@ -132,7 +132,7 @@ def block_on(wheel: Wheel, rolling: Rolling, measures: Measures) -> Link | None:
 
 
 def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver]) -> int:
-    """How many pins, slides and drivers hold a link; the frame needs none."""
+    """How many pins, slides, drivers and wheels of its own hold a link; the frame needs none."""
     if name == FRAME:
         return 2
     link = every[name]
@@ -140,4 +140,5 @@ def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver])
     pins = sum(shared[point] > 0 for point in link.points)
     slides = [*link.slides, *(s for each in every.values() for s in each.slides if s.on == name)]
     moved = [d for d in drivers if name in (d.link, d.against) and (pins or d.kind != "turn")]
-    return pins + 2 * len(slides) + 2 * len(moved)
+    wheels = [r for each in every.values() for r in each.rolls if r.on == name and not r.through]
+    return pins + 2 * len(slides) + 2 * len(moved) + len(link.rolls) + len(wheels)
