@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 
+from msgspec.structs import replace
+
 from graphkin.scene.expression import Pair as Sum
 from graphkin.scene.findings import numbered, shown
 from graphkin.scene.measures import Measures
@@ -36,7 +38,7 @@ def with_keepers(
             every[keeper.name] = keeper
             rolls = list(every[name].rolls)
             rolls[index] = counted_alike(rolling, keeper.name)
-            every[name] = every[name]._replace(rolls=tuple(rolls))
+            every[name] = replace(every[name], rolls=tuple(rolls))
     return every.pop(FRAME), every
 
 
@@ -70,7 +72,7 @@ def keeper_of(
     if called in every:
         measures.findings.add(place, f"link {called} is there already", "the name of a new link")
         return None
-    return made._replace(name=called)
+    return replace(made, name=called)
 
 
 def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
@@ -81,7 +83,7 @@ def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
         start[keeper] = rolling.angle if bar is None else combined("+", bar, rolling.angle)
     if rolling.on in turns and rolling.angle is not None:
         turns[keeper] = turns[rolling.on]
-    return rolling._replace(keeper=keeper, start=start, turns=turns)
+    return replace(rolling, keeper=keeper, start=start, turns=turns)
 
 
 def loose_pair(every: Mapping[str, Link], own: Link, on: Link) -> tuple[Wheel, Wheel] | None:

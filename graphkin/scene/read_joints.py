@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from msgspec.structs import replace
+
 from graphkin.scene.expression import Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Table, numbered, one_or_many, shown
@@ -168,7 +170,7 @@ def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
         start = dict(rolling.start)
         if rolling.on in start and rolling.through is not None:
             start.setdefault(FRAME, start[rolling.on].negative())
-        found.append(rolling._replace(start=start))
+        found.append(replace(rolling, start=start))
     return tuple(found)
 
 

@@ -57,13 +57,13 @@ def driven_by(
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
         if pins:
-            return Crank(driver, link, pins[0].point)
+            return Crank(link, driver, pins[0].point)
         return turned_wheel(joints, driver, link) or spun(joints, known, driver, link)
     for pair in joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:
             continue
         if pair.links[0] == driver.link:
-            return Driven(driver, link, pair)
+            return Driven(link, driver, pair)
     return None
 
 
@@ -71,7 +71,7 @@ def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
     """A wheel that a driver turns against the straight track on which it rolls."""
     for pair in joints.between(link, (driver.against,)):
         if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
-            return Driven(driver, link, pair) if link == driver.link and pair.taken == 2 else None
+            return Driven(link, driver, pair) if link == driver.link and pair.taken == 2 else None
     return None
 
 
@@ -92,7 +92,7 @@ def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> S
     slides = contact.track is None and isinstance(held[0], Sliding)
     if not rolls or isinstance(held[0], Contact) or not (contact.track or slides):
         return None
-    return Spun(driver, link, holder, pivots[0], held[0], contact)
+    return Spun(link, driver, holder, pivots[0], held[0], contact)
 
 
 def next_group(joints: Joints, known: Collection[str]) -> Group | None:

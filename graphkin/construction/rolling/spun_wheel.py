@@ -83,7 +83,7 @@ def move(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
     speed = pen.drive(group.driver).speed
     pen.want(OMEGA, group.link, velocities.driven_rate(pen, group, OMEGA, speed))
     if not isinstance(group.held, Pin):
-        wheel_images.geared(pen, as_rack(group))
+        wheel_images.geared(pen, shapes, as_rack(group))
         return
     move_centre(pen, group.link, group.contact, group.held.point)
 
