@@ -49,7 +49,13 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
     keepers = (None, *joints.scene.keepers)
     tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm in keepers)
-    return Unresolved(links, driven, tuple(dict.fromkeys(link for link in tracks if link in links)))
+    straight = {
+        link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
+        for link in links
+    }
+    wedged = tuple(link for link, pairs in straight.items() if len(pairs) > 1)
+    held = tuple(dict.fromkeys(link for link in tracks if link in links))
+    return Unresolved(links, driven, held, wedged)
 
 
 def refuse_far_guides(scene: Scene) -> None:

@@ -314,12 +314,13 @@ class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
 
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links on which wheels roll straight on.
+    its links on which wheels roll straight on, ``wedged`` the wheels between two known tracks.
     """
 
     links: tuple[str, ...]
     driven: tuple[Driver, ...] = ()
     tracks: tuple[str, ...] = ()
+    wedged: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:

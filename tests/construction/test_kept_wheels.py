@@ -326,3 +326,13 @@ def test_wheels_of_two_sizes_under_a_plank_are_refused_by_name():
     )
     with pytest.raises(StructureError, match="hold link 3, a straight track, by wheels and pins"):
         made(text).solve()
+
+
+def test_wheels_between_tracks_at_an_angle_are_refused_by_name():
+    """They would have to slip on one: rollers of two sizes under a plank, written as it slides."""
+    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
+    text = text.replace('through = [0, "2*r"], angle = 0', 'through = [0, "2*r"], angle = 5')
+    with pytest.raises(
+        StructureError, match="wheels 1, 2 between two tracks that are not parallel"
+    ):
+        made(text).solve()

@@ -266,6 +266,14 @@ def no_construction(group: Group) -> StructureError:
     if group.tracks:
         found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
         return StructureError(Problem(place, found, HELD, LEVEL))
+    if group.wedged:
+        wheels = f"wheel {group.wedged[0]}"
+        if len(group.wedged) > 1:
+            wheels = f"wheels {', '.join(group.wedged)}"
+        found = (
+            f"hold {wheels} between two tracks that are not parallel, where they roll on neither"
+        )
+        return StructureError(Problem(place, found, "parallel tracks", SLIPPING))
     found = "close only when two of them are tried at once"
     hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
     return StructureError(Problem(place, found, CLOSING, hint))
@@ -273,4 +281,5 @@ def no_construction(group: Group) -> StructureError:
 
 HELD = "a track that slides, is driven, or belongs to the frame"
 LEVEL = "wheels of one size on one track keep it parallel to that: write slides = { … } for it"
+SLIPPING = "where a wheel slips on one of them, a block at its centre slides beside that instead"
 CLOSING = "links that close on known ones, two at a time or after one of them has been tried"
