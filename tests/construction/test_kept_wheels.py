@@ -329,7 +329,7 @@ def test_wheels_of_two_sizes_under_a_plank_are_refused_by_name():
 
 
 def test_wheels_between_tracks_at_an_angle_are_refused_by_name():
-    """They would have to slip on one: rollers of two sizes under a plank, written as it slides."""
+    """Each track alone says how they roll: only a plank that slides midway lets them do both."""
     text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
     text = text.replace('through = [0, "2*r"], angle = 0', 'through = [0, "2*r"], angle = 5')
     with pytest.raises(

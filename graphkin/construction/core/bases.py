@@ -270,9 +270,7 @@ def no_construction(group: Group) -> StructureError:
         wheels = f"wheel {group.wedged[0]}"
         if len(group.wedged) > 1:
             wheels = f"wheels {', '.join(group.wedged)}"
-        found = (
-            f"hold {wheels} between two tracks that are not parallel, where they roll on neither"
-        )
+        found = f"hold {wheels} between two tracks that are not parallel"
         return StructureError(Problem(place, found, "parallel tracks", SLIPPING))
     found = "close only when two of them are tried at once"
     hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
