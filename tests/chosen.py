@@ -19,7 +19,6 @@ CHOSEN = (
         "cam-rocker",
         "cam-roller",
         "centrodes-roller",
-        "bar-on-drum-rod",
         "bar-on-roller",
         "crank-slot",
         "cylinders-two",

@@ -49,6 +49,8 @@ BELTS = {
     (True, True): "page.belt_crossed_fixed",
 }
 """The sentences of belts to moving wheels and to fixed ones, open and crossed."""
+ALIKE = {False: "page.belt_alike", True: "page.belt_fixed_alike"}
+"""Those of open belts to moving wheels and to fixed ones of the same size."""
 
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -182,7 +184,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 if rolling.belt is not None:
                     key = BELTS[rolling.on == FRAME, rolling.belt.crossed]
                     if scene.turn_alike(link.name, rolling):
-                        key = f"{key}_alike"
+                        key = ALIKE[rolling.on == FRAME]
                     own, there = rolling.belt.wheels
                     fields["k"] = wheel_name(scene, words, link.name, own)
                     other = wheel_name(scene, words, rolling.on, there)
