@@ -19,6 +19,7 @@ CHOSEN = (
         "cam-rocker",
         "cam-roller",
         "centrodes-roller",
+        "bar-on-roller",
         "crank-slot",
         "cylinders-two",
         "excavator-relative",
@@ -35,6 +36,7 @@ CHOSEN = (
         "six-bar",
         "stephenson-2-ternary",
         "trammel",
+        "wheel-in-ring",
     )
 )
 """Those of them that have every action, driver and question that any has."""

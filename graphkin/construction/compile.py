@@ -30,6 +30,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
     Train,
@@ -53,7 +54,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
         place(pen, shapes, group, found)
         if isinstance(group, Tie):
             position.refuse_misfit(pen, shapes, group)
-    if any(link.rolls for link in scene.links.values()):
+    if any(link.rolls for link in scene.every_link):
         from graphkin.construction.rolling import rolling
 
         rolling.refuse_idle_turns(pen)
@@ -109,6 +110,10 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
             from graphkin.construction.rolling import rolling, wheel_images
 
             return rolling.geared, wheel_images.geared, wheel_images.second_geared
+        case Spun():
+            from graphkin.construction.rolling import spun_wheel
+
+            return spun_wheel.place, spun_wheel.move, spun_wheel.accelerate
         case Train():
             from graphkin.construction.rolling import rolling, wheel_images
 

@@ -62,7 +62,10 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     """One row for each angular velocity or acceleration, with its sense."""
     letter, words = drawing.rate.letter, drawing.words
     rows = []
-    for link in drawing.scene.links:
+    scene = drawing.scene
+    for link in scene.links:
+        if link in scene.unseen and link not in (*scene.ask.omega, *scene.ask.epsilon):
+            continue
         value = drawing.turning(link)
         if value is None:
             continue

@@ -12,7 +12,7 @@ from graphkin.text import Words
 def members(drawing: Drawing) -> str:
     """The links by their numbers and the points that they join, as a task tells them."""
     words = drawing.words
-    links = drawing.scene.links.items()
+    links = drawing.scene.bare.links.items()
     told = [f"{escape(name)} = {of_link(words, link)}" for name, link in links]
     return words("page.members", list=words("list_mark").join(told))
 

@@ -18,6 +18,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
 )
@@ -32,18 +33,20 @@ def of_structure(drawing: Drawing) -> Iterator[Relation]:
     singles = words("calculation.counted_singles", pairs=counted.singles) if counted.singles else ""
     pairs = words("calculation.counted", links=counted.moving, pairs=counted.pairs) + singles
     yield Relation(f"*M* = {counted.words} ({pairs})")
-    *groups, last = [group_words(words, group) for group in decompose(drawing.scene)]
+    unseen = drawing.scene.unseen
+    *groups, last = [group_words(words, group, unseen) for group in decompose(drawing.scene)]
     first, *more = [*(f"{group};" for group in groups), last]
     yield Relation(first, more=tuple(more))
 
 
-def group_words(words: Words, group: Group) -> str:
-    """A group with its links, by its kind, class and order."""
-    noun = "one_link" if len(group.links) == 1 else "many_links"
-    numbers = words("list_mark").join(map(escape, sorted(group.links, key=natural)))
+def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()) -> str:
+    """A group with its links, by kind, class and order; unseen keepers go without saying."""
+    seen = sorted({*group.links} - unseen, key=natural)
+    noun = "one_link" if len(seen) == 1 else "many_links"
+    numbers = words("list_mark").join(map(escape, seen))
     links = words(f"calculation.{noun}", links=numbers)
     match group:
-        case Crank() | Driven():
+        case Crank() | Driven() | Spun():
             return words("calculation.group_driven", links=links)
         case Dyad():
             return words("calculation.group_dyad", links=links, type=group.type)

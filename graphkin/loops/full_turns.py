@@ -37,7 +37,7 @@ def settled(loops: Equations, read: Reals, told: Mask) -> tuple[Reals, Mask]:
 def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask) -> None:
     """Settle one group's unknowns, by linear equations first, then as counted from the start."""
     turning = np.arange(len(part)) < loops.turning_count
-    known |= part & told & ~turning
+    known |= part & told & ~turning & ~unrolled(loops, part)
     while (free := part & ~known).any():
         straight, solved = solved_straight(loops, np.where(free, 0, values), free, known)
         if solved.any():
@@ -53,6 +53,21 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
         k = min(np.flatnonzero(ready).tolist(), key=lambda k: precedence(loops, k))
         values[:, k] = counted(loops, values, k)
         known[k] = True
+
+
+def unrolled(loops: Equations, part: Mask) -> Mask:
+    """The coordinates along bars of a group that roll on a wheel which is known before.
+
+    A wheel is as far on its track as it has come; a bar touches its wheel where the bar's angle
+    says, and that is counted within half a turn as one that only pins tell.
+    """
+    found = np.zeros_like(part)
+    free = {0} | {int(k) + 1 for k in np.flatnonzero(part[: loops.turning_count])}
+    for j, guide in enumerate(loops.guides):
+        wheel, bar = loops.turned.of[guide.block], loops.turned.of[guide.on]
+        known = wheel == 0 or wheel not in free
+        found[loops.turning_count + j] = guide.moved_by == "roll" and known and bar in free - {0}
+    return found
 
 
 def precedence(loops: Equations, k: int) -> tuple[bool, float]:

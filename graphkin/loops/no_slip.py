@@ -81,7 +81,7 @@ def gears_of(
 ) -> tuple[tuple[Gear, ...], dict[str, Body]]:
     """Every two wheels that roll on one another, and the bodies of the arms that were put in."""
     gears, added = list[Gear](), dict[str, Body]()
-    for link in scene.links.values():
+    for link in scene.every_link:
         for rolling in link.rolls:
             if rolling.through is not None or rolling.on not in bodies:
                 continue
@@ -101,7 +101,7 @@ def gears_of(
 
 def pair(scene: Scene, name: str, rolling: Rolling, i: int, k: int, numbers: Numbers) -> Gear:
     """The i-th wheel of a link with the k-th of the link that it rolls on, without an arm."""
-    wheels = scene.links[name].wheels[i], scene.link(rolling.on).wheels[k]
+    wheels = scene.link(name).wheels[i], scene.link(rolling.on).wheels[k]
     radii = radius(wheels[0], numbers), radius(wheels[1], numbers)
     sense = -1 if wheels[0].inside or wheels[1].inside else 1
     if rolling.belt is not None:
@@ -114,7 +114,7 @@ def carried_pairs(
 ) -> list[Gear]:
     """Every pair of wheels of two links whose centres a third link carries."""
     found = []
-    for i in range(len(scene.links[name].wheels)):
+    for i in range(len(scene.link(name).wheels)):
         for k in range(len(scene.link(rolling.on).wheels)):
             if rolling.belt is not None and (i, k) != rolling.belt.wheels:
                 continue
@@ -165,7 +165,7 @@ def tracks_of(
     keep its centre, the first written where none do.
     """
     guides, rolled = list(slides), list[tuple[int, Rolling, Real]]()
-    for link in scene.links.values():
+    for link in scene.every_link:
         for number, rolling in enumerate(link.rolls):
             if rolling.through is None or rolling.on not in bodies:
                 continue
@@ -223,6 +223,8 @@ def slips_of(
         wheel, on = track.block, track.on
         starts = {wheel: at_start(rolling, wheel, numbers), on: 0.0}
         turned = counted_at(rolling, numbers)
+        if wheel == FRAME:
+            turned.setdefault(on, at_start(rolling, on, numbers))
         found.append(
             NoSlip((wheel, on), {wheel: size, on: -size}, starts, turned, track, rolling.side)
         )
@@ -292,7 +294,7 @@ def counted_turnings(
     for slip in slips:
         for link, angle in slip.turned.items():
             count(link, angle)
-    order = list(scene.links)
+    order = [FRAME, *scene.links]
     for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
         if slip.track is not None:
             wheel, on = slip.links

@@ -155,6 +155,16 @@ class Wheel(Struct, frozen=True):
     inside: bool = False
 
 
+def of_one_size(one: Wheel, other: Wheel) -> bool:
+    """Whether two wheels are as large whatever the parameters: written alike, or equal numbers."""
+    r, s = one.radius, other.radius
+    if r is None or s is None:
+        return False
+    if r.uses() or s.uses():
+        return (r.tree, r.unit) == (s.tree, s.unit)
+    return bool(r.number({}) == s.number({}))
+
+
 class Belt(Struct, frozen=True):
     """A belt, chain or rope round two wheels, ``crossed`` or open.
 
@@ -175,7 +185,8 @@ class Rolling(Struct, frozen=True):
 
     With a ``belt`` the wheel does not touch the other: the belt joins their rims, without slip.
     ``turns`` are the whole turns to be added to the angle of a link that only its pins show, which
-    is else the one within half a turn of its ``start``.
+    is else the one within half a turn of its ``start``. ``keeper`` is the link without substance
+    that keeps the wheel there, where no link of the scene does.
     """
 
     on: str
@@ -185,12 +196,14 @@ class Rolling(Struct, frozen=True):
     side: int = 1
     turns: Mapping[str, Quantity] = {}
     belt: Belt | None = None
+    keeper: str = ""
 
     def called(self, names: Mapping[str, str]) -> Rolling:
         """The same with links by other names."""
         return replace(
             self,
             on=names.get(self.on, self.on),
+            keeper=names.get(self.keeper, self.keeper),
             start={names.get(name, name): angle for name, angle in self.start.items()},
             turns={names.get(name, name): count for name, count in self.turns.items()},
         )
@@ -468,16 +481,55 @@ class Scene(Struct, frozen=True):
     source: Path | None = None
 
     @property
+    def every_link(self) -> tuple[Link, ...]:
+        """The frame, then the moving links as written."""
+        return (self.frame, *self.links.values())
+
+    @property
+    def keepers(self) -> Mapping[str, tuple[str, Rolling]]:
+        """The links without substance that keep wheels where they roll, with the wheels' links."""
+        every = ((link.name, rolling) for link in self.every_link for rolling in link.rolls)
+        return {rolling.keeper: (name, rolling) for name, rolling in every if rolling.keeper}
+
+    @property
+    def unseen(self) -> frozenset[str]:
+        """The keepers of wheels that no driver moves: links of which nobody need speak."""
+        driven = {end for driver in self.drivers for end in (driver.link, driver.against)}
+        return frozenset(name for name in self.keepers if name not in driven)
+
+    @property
+    def bare(self) -> Scene:
+        """The scene without its unseen keepers: what counts as links and pairs."""
+        if not (unseen := self.unseen):
+            return self
+
+        def less(link: Link) -> Link:
+            rolls = (
+                replace(each, keeper="") if each.keeper in unseen else each for each in link.rolls
+            )
+            return replace(link, rolls=tuple(rolls))
+
+        links = {name: less(link) for name, link in self.links.items() if name not in unseen}
+        return replace(self, frame=less(self.frame), links=links)
+
+    @property
     def touching(self) -> tuple[tuple[str, str], ...]:
         """Each wheel with the link on which it rolls or to which a belt runs, as written."""
-        links = self.links.values()
-        return tuple((link.name, rolling.on) for link in links for rolling in link.rolls)
+        return tuple((link.name, each.on) for link in self.every_link for each in link.rolls)
 
     @property
     def belted(self) -> tuple[tuple[str, str], ...]:
         """Those that a belt joins."""
         links = self.links.values()
         return tuple((link.name, each.on) for link in links for each in link.rolls if each.belt)
+
+    def turn_alike(self, name: str, rolling: Rolling) -> bool:
+        """Whether an open belt joins a wheel of a link ``name`` with another of its size."""
+        belt = rolling.belt
+        if belt is None or belt.crossed:
+            return False
+        own, other = belt.wheels
+        return of_one_size(self.link(name).wheels[own], self.link(rolling.on).wheels[other])
 
     @property
     def cams(self) -> Mapping[str, Cam]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from msgspec.structs import replace
+
 from graphkin.scene.expression import Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Table, numbered, one_or_many, shown
@@ -137,7 +139,7 @@ def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
 
 
 def read_rolling(table: Table, measures: Measures) -> Rolling:
-    """One track: ``{ on, through, angle, start, turns, side }``; on a wheel without a line."""
+    """One track: ``{ on, through, angle, start, turns, side, link }``; a wheel's has no line."""
     on = link_name(table.at("on"), table.take("on"), measures.findings, TRACK) or FRAME
     through, angle = None, None
     if "through" in table or "angle" in table:
@@ -151,8 +153,25 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
     if raw is not None and "through" not in table:
         measures.findings.add(table.at("side"), "a side without through", "a straight track")
     table.take("through"), table.take("angle")
+    keeper = ""
+    if (name := table.take("link")) is not None:
+        keeper = link_name(table.at("link"), name, measures.findings) or ""
     table.finish()
-    return Rolling(on, through, angle, start, side or 1, turns)
+    return Rolling(on, through, angle, start, side or 1, turns, keeper=keeper)
+
+
+def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
+    """The bars that roll on wheels of the frame; ``start`` gives the angle of the bar.
+
+    Against the bar the wheel is then turned as far the other way.
+    """
+    found = []
+    for rolling in read_rolls(table, measures):
+        start = dict(rolling.start)
+        if rolling.on in start and rolling.through is not None:
+            start.setdefault(FRAME, start[rolling.on].negative())
+        found.append(replace(rolling, start=start))
+    return tuple(found)
 
 
 def read_belts(table: Table, measures: Measures) -> tuple[Rolling, ...]:

@@ -14,6 +14,7 @@ from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, shown
+from graphkin.scene.keepers import with_keepers
 from graphkin.scene.link_names import read_names
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Link, Scene
@@ -23,7 +24,7 @@ from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
 from graphkin.scene.read_cams import with_cams
 from graphkin.scene.read_drivers import read_drivers
-from graphkin.scene.read_joints import read_belts, read_rolls, read_slides, read_wheels
+from graphkin.scene.read_joints import read_belts, read_drums, read_rolls, read_slides, read_wheels
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.touching_profiles import normals
@@ -125,7 +126,8 @@ def assembled(
     module = read_module(top, measures)
     title = top.text("title", name)
     frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
-    links = read_links(top, frame, measures, module)
+    links, drivers = read_links(top, frame, measures, module), read_drivers(top, measures)
+    frame, links = with_keepers(frame, links, drivers, measures)
     return Scene(
         name=name,
         title=title,
@@ -133,7 +135,7 @@ def assembled(
         parameters=parameters,
         frame=frame,
         links=links,
-        drivers=read_drivers(top, measures),
+        drivers=drivers,
         branches=read_branches(top.table("branches"), findings),
         ask=Ask(),
         sheet=read_sheet(top.table("sheet"), measures),
@@ -220,10 +222,11 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     points, placings = read_shape(table, measures)
     wheels, profiles = read_wheels(table, measures, module), read_profiles(table)
     if name == FRAME:
-        for key in ("slides", "rolls", "belt", "touches", "cam"):
+        for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
-        return Link(FRAME, points, placings, wheels=wheels, profiles=profiles)
+        rolls = read_drums(table, measures)
+        return Link(FRAME, points, placings, wheels=wheels, rolls=rolls, profiles=profiles)
     slides = read_slides(table, measures)
     rolls = read_rolls(table, measures) + read_belts(table, measures)
     return Link(name, points, placings, slides, wheels, rolls, profiles)

@@ -37,7 +37,7 @@ def cycle(scene: Scene) -> int | None:
     a straight track comes farther with each turn.
     """
     ratios = list[Fraction]()
-    for link in scene.links.values():
+    for link in scene.every_link:
         for rolling in link.rolls:
             found = ratio(scene, link.name, rolling)
             if found is None:
@@ -48,7 +48,7 @@ def cycle(scene: Scene) -> int | None:
 
 def ratio(scene: Scene, name: str, rolling: Rolling) -> Fraction | None:
     """The ratio of two wheels of fixed radii that roll on one another, their links' only ones."""
-    wheels = *scene.links[name].wheels, *scene.link(rolling.on).wheels
+    wheels = *scene.link(name).wheels, *scene.link(rolling.on).wheels
     if rolling.through is not None or len(wheels) != 2:
         return None
     radii = [wheel.radius for wheel in wheels if wheel.radius is not None]

@@ -33,7 +33,9 @@ def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
     """The contacts of wheels with known ones, about arms that do not stand yet."""
     for link in joints.unknown(known):
         for pair in joints.others[link]:
-            if not isinstance(pair, Contact) or pair.track is None or pair.arm in known:
+            if not isinstance(pair, Contact) or pair.track is None or pair.alike:
+                continue
+            if pair.arm in known:
                 continue
             if partner(pair, link) in known:
                 yield pair
@@ -69,6 +71,8 @@ def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared 
     for link in joints.unknown(known):
         joined = tuple(pair for pair in joints.between(link, known) if pair != last)
         wheel = geared_of(link, joined, known)
-        if wheel and isinstance(wheel.pair, Pin) and wheel.contact.track is not None:
+        if wheel is None or wheel.contact.track is None or wheel.contact.alike:
+            continue
+        if isinstance(wheel.pair, Pin):
             return wheel
     return None

@@ -52,8 +52,15 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
-    tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm is None)
-    return Unresolved(links, driven, tuple(dict.fromkeys(link for link in tracks if link in links)))
+    keepers = (None, *joints.scene.keepers)
+    tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm in keepers)
+    straight = {
+        link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
+        for link in links
+    }
+    wedged = tuple(link for link, pairs in straight.items() if len(pairs) > 1)
+    held = tuple(dict.fromkeys(link for link in tracks if link in links))
+    return Unresolved(links, driven, held, wedged)
 
 
 def refuse_far_guides(scene: Scene) -> None:

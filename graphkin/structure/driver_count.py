@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from graphkin.scene.known_names import named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.groups import Crank, Driven, Group, Higher, Stretched, Tie, Unresolved
+from graphkin.structure.groups import Crank, Driven, Group, Higher, Spun, Stretched, Tie, Unresolved
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Pin, all_pairs, sharers
@@ -175,7 +175,7 @@ def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
     taken = list[Driver]()
     for group in groups:
         parts = (*group.chain, group) if isinstance(group, Higher) else (group,)
-        taken += [part.driver for part in parts if isinstance(part, Crank | Driven)]
+        taken += [part.driver for part in parts if isinstance(part, Crank | Driven | Spun)]
         taken += [each for part in parts if isinstance(part, Stretched) for each in part.drivers]
         if isinstance(group, Higher) and isinstance(group.last, Driver):
             taken.append(group.last)

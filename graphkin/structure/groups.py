@@ -172,6 +172,37 @@ class Geared(OneLink, frozen=True):
         return f"{does} link {partner(self.contact, self.link)}"
 
 
+class Spun(Struct, frozen=True):
+    """A wheel or bar whose angle a driver gives, on a ``holder`` that follows from its contact.
+
+    The holder, on a known pin, is the arm of a wheel (``held`` by a pin) or the block along which
+    a bar slides that rolls on a drum.
+    """
+
+    link: str
+    driver: Driver
+    holder: str
+    pivot: Pin
+    held: Pin | Sliding
+    contact: Contact
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.pivot, self.contact
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The holder, and what it holds."""
+        return (self.holder, self.link)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        on = partner(self.contact, self.link)
+        return f"link {self.link} turned by its driver, rolling on link {on}"
+
+
 class Train(Struct, frozen=True):
     """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
 
@@ -283,12 +314,13 @@ class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
 
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links on which wheels roll straight on.
+    its links on which wheels roll straight on, ``wedged`` the wheels between two known tracks.
     """
 
     links: tuple[str, ...]
     driven: tuple[Driver, ...] = ()
     tracks: tuple[str, ...] = ()
+    wedged: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -303,6 +335,7 @@ Group = (
     | CamFollower
     | Stretched
     | Geared
+    | Spun
     | Train
     | Tie
     | CoupledTrain

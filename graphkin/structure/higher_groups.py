@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator
 from msgspec.structs import replace
 
 from graphkin.scene.model import Driver, Scene
-from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Tie, TriedLink
+from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Spun, Tie, TriedLink
 from graphkin.structure.instant_groups import groups_at_instant, pinned_wheels
 from graphkin.structure.joints import Joints
 from graphkin.structure.next_group import (
@@ -111,7 +111,7 @@ def over_given(
 def supports(group: Group) -> set[str]:
     """The links on which a group hangs."""
     found = {link for pair in getattr(group, "outer", ()) for link in pair.links}
-    if isinstance(group, Crank | Driven):
+    if isinstance(group, Crank | Driven | Spun):
         found |= {group.driver.link, group.driver.against}
     return found - set(group.links)
 
@@ -136,6 +136,7 @@ def needed(joints: Joints, chain: list[Group], ends: set[str]) -> Needed:
 def pivots(joints: Joints, group: Group) -> set[str]:
     """The links that own the pin about which a crank turns."""
     pivot = getattr(group, "pivot", None)
+    pivot = pivot.point if isinstance(pivot, Pin) else pivot
     return set(joints.owners[pivot]) - set(group.links) if pivot else set()
 
 

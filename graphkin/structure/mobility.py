@@ -41,11 +41,13 @@ class Count(Struct, frozen=True):
 def count(scene: Scene) -> Count:
     """Gruebler's count of a scene, a pin of k links counted as k - 1 pairs.
 
+    Links put in to keep wheels where they roll count with the contact that they stand for.
     Raises StructureError for wheels that do not touch.
     """
-    every = all_pairs(scene)
+    bare = scene.bare
+    every = all_pairs(bare)
     singles = sum(pair.taken == 1 for pair in every)
-    return Count(len(scene.links), len(every) - singles, singles)
+    return Count(len(bare.links), len(every) - singles, singles)
 
 
 def gruebler(moving: int, lower: int, higher: int = 0) -> int:

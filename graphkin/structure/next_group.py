@@ -14,6 +14,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
     Train,
@@ -30,7 +31,7 @@ def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
             settle(each, known, waiting)
         if isinstance(group.last, Driver):
             waiting.remove(group.last)
-    elif isinstance(group, Crank | Driven):
+    elif isinstance(group, Crank | Driven | Spun):
         waiting.remove(group.driver)
     elif isinstance(group, Stretched):
         for driver in group.drivers:
@@ -51,11 +52,13 @@ def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -
 
 def driven_by(
     joints: Joints, known: Collection[str], driver: Driver, link: str, against: str
-) -> Crank | Driven | None:
+) -> Crank | Driven | Spun | None:
     """The group of one driven link: a crank about any known pin, or along its own guide."""
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
-        return Crank(link, driver, pins[0].point) if pins else turned_wheel(joints, driver, link)
+        if pins:
+            return Crank(link, driver, pins[0].point)
+        return turned_wheel(joints, driver, link) or spun(joints, known, driver, link)
     for pair in joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:
             continue
@@ -70,6 +73,26 @@ def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
         if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
             return Driven(link, driver, pair) if link == driver.link and pair.taken == 2 else None
     return None
+
+
+def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> Spun | None:
+    """A link that a driver turns and that rolls on a known wheel, on an arm or block of its own."""
+    joined = joints.between(link, known)
+    if len(joined) != 1 or not isinstance(joined[0], Contact) or joined[0].alike:
+        return None
+    if driver.link != link:
+        return None
+    contact, holder = joined[0], joined[0].arm
+    if holder is None or holder in known:
+        return None
+    pivots, held = joints.between(holder, known), joints.inner(link, holder, known)
+    if len(pivots) != 1 or len(held) != 1 or not isinstance(pivots[0], Pin):
+        return None
+    rolls = isinstance(held[0], Pin) if contact.track else contact.links[1] == link
+    slides = contact.track is None and isinstance(held[0], Sliding)
+    if not rolls or isinstance(held[0], Contact) or not (contact.track or slides):
+        return None
+    return Spun(link, driver, holder, pivots[0], held[0], contact)
 
 
 def next_group(joints: Joints, known: Collection[str]) -> Group | None:
@@ -103,7 +126,8 @@ def train_with(
             continue
         inner = joints.inner(arm, wheel, known)
         outer = joints.between(wheel, known)
-        contacts = [pair for pair in outer if isinstance(pair, Contact) and pair.arm == arm]
+        rolled = [pair for pair in outer if isinstance(pair, Contact) and not pair.alike]
+        contacts = [pair for pair in rolled if pair.arm == arm]
         if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
             return Train(arm, wheel, left[0], inner[0], (contacts[0], contacts[1]))
     return None

@@ -9,7 +9,7 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.scene.contact_letters import contact_letters
-from graphkin.scene.model import Rolling, Scene, Slide, Wheel
+from graphkin.scene.model import Rolling, Scene, Slide, Wheel, of_one_size
 from graphkin.structure.touching_wheels import radius, touching
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError
@@ -100,6 +100,14 @@ class Contact(Struct, frozen=True):
         """Freedoms that it takes: the slip, and the distance unless an arm keeps that."""
         return 2 if self.arm is None else 1
 
+    @property
+    def alike(self) -> bool:
+        """Whether it is an open belt on wheels of one size: these turn alike, nothing touches."""
+        belt = self.rolling.belt
+        if belt is None or belt.crossed or self.track is None:
+            return False
+        return of_one_size(self.wheel, self.track)
+
     def wheel_of(self, link: str) -> Wheel:
         """The wheel of one of its links."""
         wheel = self.wheel if self.links[0] == link else self.track
@@ -184,7 +192,7 @@ def contacts(scene: Scene) -> tuple[Contact, ...]:
 def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Contact]:
     """The rolling pairs that a link is written with; each may rest on the tracks before it."""
     found: list[Contact] = []
-    for rolling, letter in zip(scene.links[link].rolls, letters, strict=True):
+    for rolling, letter in zip(scene.link(link).rolls, letters, strict=True):
         before = [(each.rolling, each.wheel) for each in found if each.track is None]
         touch = touching(scene, link, rolling, before)
         ends = touch.wheel, touch.track, touch.arm

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel
+from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, track_line
 from graphkin.structure.turning import LEVEL, stands
@@ -55,7 +55,7 @@ def touching(
     """
     if rolling.belt is not None:
         return belted(scene, name, rolling, rolling.belt)
-    link, on = scene.links[name], scene.link(rolling.on)
+    link, on = scene.link(name), scene.link(rolling.on)
     if rolling.through is None:
         kept = list(kept_centres(scene, name, rolling))
         loose = RollingContact(link.wheels[0], on.wheels[0], None)
@@ -86,10 +86,11 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
     distance = abs(points[wheel.centre] - points[track.centre])
     if distance <= sum(radii) * (1 + TOUCH):
         raise StructureError(overlap(scene, name, rolling, RollingContact(wheel, track, arm)))
-    if not belt.crossed and abs(radii[0] - radii[1]) <= TOUCH * max(radii):
-        found = f"an open belt on two wheels of radius {shown(scene, radii[0])}"
-        expected = "wheels of different radii: these turn alike, and have no relative centre"
-        hint = "a bar parallel to the line of centres, pinned to both wheels, moves them alike"
+    near = abs(radii[0] - radii[1]) <= TOUCH * max(radii)
+    if not belt.crossed and near and not of_one_size(wheel, track):
+        found = f"an open belt on two wheels of radius {shown(scene, radii[0])} by chance"
+        expected = "wheels of different radii for these parameters, or of one radius for all"
+        hint = "wheels of one size turn alike; write the same radius for both"
         raise StructureError(Problem(f"links.{name}.belt", found, expected, hint))
     return RollingContact(wheel, track, arm)
 
@@ -116,7 +117,7 @@ def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsAp
     Wheels outside one another touch at the sum of their radii, a ring and a wheel within it at
     the difference; two rings cannot touch, nor a ring a wheel that is larger.
     """
-    for wheel in scene.links[name].wheels:
+    for wheel in scene.link(name).wheels:
         for track in scene.link(rolling.on).wheels:
             arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
             if arm is None or (wheel.inside and track.inside):
@@ -146,7 +147,7 @@ def kept_heights(
     line = track_line(scene, rolling)
     standing = stands(scene, rolling.on, line.along)
     zero = cross(line.along, line.point)
-    link = scene.links[name]
+    link = scene.link(name)
     for arm in (FRAME, *scene.links):
         if arm not in standing or arm in (name, rolling.on):
             continue

@@ -50,7 +50,7 @@ def stated(scene: Scene) -> dict[str, Rolling]:
     """What rolls and states the turns of a link, by the link."""
     found: dict[str, Rolling] = {}
     problems = []
-    for each in scene.links.values():
+    for each in scene.every_link:
         for rolling in each.rolls:
             for link, count in rolling.turns.items():
                 if link in found:

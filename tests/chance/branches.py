@@ -10,7 +10,7 @@ from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import cross, dot
-from graphkin.scene.model import Closure
+from graphkin.scene.model import Closure, Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin, Sliding
@@ -41,12 +41,12 @@ def branches_of(written: Written) -> dict[str, str]:
     higher = []
     for group in open_scene.groups:
         if isinstance(group, Higher):
-            refuse_dead(written.standing, group)
+            refuse_dead(written.standing, group, open_scene.scene)
             first = next(name for name in open_scene.scene.links if name in group.links)
             found[first] = "closure 1"
             higher.append((first, group))
         else:
-            found |= words_of(written.standing, group)
+            found |= words_of(written.standing, group, open_scene.scene)
     for count, (first, group) in enumerate(higher):
         scene = read_text(written.text(found), "made", None, {})
         number = closure_number(written.standing, Mechanism(scene), group, count)
@@ -54,19 +54,28 @@ def branches_of(written: Written) -> dict[str, str]:
     return found
 
 
-def refuse_dead(standing: Standing, group: Higher) -> None:
+def along_of(standing: Standing, scene: Scene, block: str) -> complex:
+    """The direction of a block's guide; of one that keeps a wheel in place that of its track."""
+    if block not in scene.keepers:
+        return standing.slides[block].along
+    wheel, rolling = scene.keepers[block]
+    tracks = (each for each in standing.straights if (each.wheel, each.on) == (wheel, rolling.on))
+    return next(tracks).along
+
+
+def refuse_dead(standing: Standing, group: Higher, scene: Scene) -> None:
     """Raise DeadChainError where a dyad of a group's chain stands on its dead point."""
     for each in group.chain:
         dyad = each.dyad if isinstance(each, Stretched) else each
-        if isinstance(dyad, Dyad) and abs(sine_of(standing, dyad)) < DEAD:
+        if isinstance(dyad, Dyad) and abs(sine_of(standing, dyad, scene)) < DEAD:
             raise DeadChainError(f"links {', '.join(dyad.links)}")
 
 
-def sine_of(standing: Standing, dyad: Dyad) -> float:
+def sine_of(standing: Standing, dyad: Dyad, scene: Scene) -> float:
     """How far a dyad is from its dead point; 1 for those that have none."""
     guides = [pair for pair in (dyad.left, dyad.inner, dyad.right) if isinstance(pair, Sliding)]
     if len(guides) == 2:
-        first, second = (standing.slides[pair.links[0]].along for pair in guides)
+        first, second = (along_of(standing, scene, pair.links[0]) for pair in guides)
         return cross(first, second)
     left, inner, right = (
         standing.place(pair.place) if isinstance(pair, Pin) else 0j
@@ -75,14 +84,15 @@ def sine_of(standing: Standing, dyad: Dyad) -> float:
     if dyad.type == "RRR":
         return cross((inner - left) / abs(inner - left), (right - inner) / abs(right - inner))
     if dyad.type == "RRP":
-        return dot(standing.slides[dyad.right.links[0]].along, (inner - left) / abs(inner - left))
+        along = along_of(standing, scene, dyad.right.links[0])
+        return dot(along, (inner - left) / abs(inner - left))
     if dyad.type == "RPR":
-        along = standing.slides[dyad.inner.links[0]].along
+        along = along_of(standing, scene, dyad.inner.links[0])
         return dot(along, (right - left) / abs(right - left))
     return 1.0
 
 
-def words_of(standing: Standing, group: Group) -> dict[str, str]:
+def words_of(standing: Standing, group: Group, scene: Scene) -> dict[str, str]:
     """The branch of a dyad, if it has two."""
     dyad = group.dyad if isinstance(group, Stretched) else group
     if not isinstance(dyad, Dyad):
@@ -98,12 +108,12 @@ def words_of(standing: Standing, group: Group) -> dict[str, str]:
         return {dyad.inner.point: f"{side} of {ends[0]}-{ends[1]}"}
     if dyad.type == "RRP":
         block = dyad.right.links[0]
-        ahead = dot(standing.slides[block].along, inner - left)
+        ahead = dot(along_of(standing, scene, block), inner - left)
         return way(block, ahead if block in dyad.links else -ahead)
     if dyad.type == "RPR":
         block, carrier = dyad.inner.links
         by_link = dict(zip(dyad.links, (left, right), strict=True))
-        along = standing.slides[block].along
+        along = along_of(standing, scene, block)
         return way(block, dot(along, by_link[block] - by_link[carrier]))
     if dyad.type == "RRW":
         wheel = dyad.right.links[0]
@@ -140,6 +150,7 @@ def closure_number(standing: Standing, mechanism: Mechanism, group: Higher, coun
         [
             abs(found[step] - standing.bodies[name].axis)
             for name, step in zip(links, trying.axes, strict=True)
+            if name in standing.bodies
         ],
         axis=0,
         initial=0.0,

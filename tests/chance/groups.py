@@ -478,6 +478,33 @@ def planet(m: Maker) -> None:
         )
 
 
+def kept_bar(m: Maker) -> None:
+    """A bar that a pin and a wheel alone hold: on a roller about a pin of a body, or on a drum.
+
+    The drum is a wheel of a body that stands, and a further bar leads the end of the first.
+    """
+    a = m.any_body()
+    left = m.anchor(a)
+    way = m.vector()
+    pin, along = (m.name(), left[1] + way), m.beside(way)
+    if m.coin():
+        wheel = wheel_body(m, (m.point(m.any_body(but=[a]), pin[1]), pin[1]))
+        centre = next(p for p, z in m.standing.bodies[wheel].points.items() if z == pin[1])
+        straight(m, wheel, centre, m.body(dict([left])), along, m.length())
+        return
+    drums = [n for n in m.bodies(but=[FRAME]) if not m.standing.bodies[n].wheels]
+    drum = m.rng.choice(drums)
+    centre, place = m.anchor(drum)
+    end = m.name(), place + m.vector()
+    track = m.body({m.name(): place + m.vector(), end[0]: end[1]})
+    found = straight(m, drum, centre, track, m.direction(), m.length())
+    if abs(math.radians(found.start) - m.angle(drum)) > 3:  # a drum on pins counts from there
+        raise LooseError
+    known = m.any_body(but=[drum, track])
+    foot = end[1] + m.vector()
+    bar(m, (m.point(known, foot), foot), end)
+
+
 GROUPS = {
     "crank": crank,
     "driven slide": driven_slide,
@@ -501,6 +528,7 @@ GROUPS = {
     "pinion": pinion,
     "roller": roller,
     "planet": planet,
+    "kept bar": kept_bar,
 }
 STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
 TRIES = 60

@@ -163,7 +163,6 @@ speed = 7
             "overlap or touch: the frame keeps O-P = 80 mm; expected more than the sum",
         ),
         (84, 24, "", ", crossed = true", "expected more than the sum of the radii, 84 mm"),
-        (150, 60, "", "", "an open belt on two wheels of radius 60 mm"),
         (150, 24, ", inside = true", "", "links.3.belt: the wheel of link 3 is a ring"),
         (150, 24, "", ", wheels = [2, 1]", "links.3.belt.wheels: wheel 2 of link 3, which has 1"),
         (150, 24, "", ", wheels = 2", "links.3.belt.wheels: 2; expected [1, 2]"),
@@ -301,3 +300,35 @@ def test_a_belt_from_a_crank_to_a_wheel_on_its_coupler(crossed):
     against = links["1"].omega - links["2"].omega
     ratio = -30 / 45 if crossed else 30 / 45
     assert links["4"].omega - links["2"].omega == pytest.approx(ratio * against)
+
+
+def test_an_open_belt_on_equal_wheels_turns_them_alike():
+    """On an arm too: v_Q = v_P + ω·PQ with the sun's ω, a_Q alike; no point of contact is drawn."""
+    one = load(FOLDER / "belts-equal.toml")
+    found = one.solve()
+    sun, wheel = found.links["1"], found.links["3"]
+    assert (wheel.omega, wheel.epsilon) == (sun.omega, sun.epsilon) == (-2, 5)
+    p, q = found.points["P"], found.points["Q"]
+    way = q.position - p.position
+    assert q.velocity - p.velocity == pytest.approx(1j * -2 * way)
+    assert q.acceleration - p.acceleration == pytest.approx((5j - 4) * way)
+    assert way == pytest.approx(35e-3 * np.exp(1j * np.radians(90 + 20)))
+    assert not any(of.startswith("T") for what, of in one.program.targets if what == "position")
+
+
+def test_a_wheel_belted_to_a_fixed_one_of_its_size_only_shifts():
+    """Ferguson: on its arm it keeps its direction; all its points move alike."""
+    text = HEAD + ON_ARM.format(crossed="false").replace("radius = 24", "radius = 60")
+    text = text.replace("[links.1]\nO-S = 45\nwheel", "wheel").replace("{ on = 1", "{ on = 0")
+    text = text[: text.rindex("[[drivers]]")]
+    found = answers(text)
+    assert (found.links["3"].omega, found.links["3"].epsilon) == (0, 0)
+    assert found.points["Q"].velocity == pytest.approx(found.points["P"].velocity)
+    assert found.points["Q"].acceleration == pytest.approx(found.points["P"].acceleration)
+
+
+def test_wheels_that_are_equal_by_chance_are_refused():
+    """A variant would tear them apart: the same radius is written for both."""
+    text = HEAD + "[parameters]\nr = 60\n" + ON_ARM.format(crossed="false")
+    with pytest.raises(StructureError, match="of radius 60 mm by chance; expected wheels of"):
+        answers(text.replace("radius = 24", 'radius = "r"'))

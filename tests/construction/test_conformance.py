@@ -54,7 +54,13 @@ FAILING = {"at_end", "failing", "found_link", "in_line", "lies_along", "points",
 """Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
-WIDE = {"GuideLine", "NormalComponent", "PerpendicularThrough", "SetByCoordinate"}
+WIDE = {
+    "GuideLine",
+    "NormalComponent",
+    "PerpendicularThrough",
+    "RollingNormal",
+    "SetByCoordinate",
+}
 """Kinds of which narrower ones exist that are drawn themselves."""
 UNREACHED = {
     "AccelerationPole.mark_far",

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
@@ -110,3 +111,49 @@ def test_platform_on_three_cylinders():
     vx, vy, omega = np.linalg.solve(rows, values)
     assert solution.points["D"].velocity == pytest.approx(complex(vx, vy), rel=1e-10)
     assert solution.links["7"].omega == pytest.approx(omega, rel=1e-10)
+
+
+def test_a_platform_closes_in_all_six_ways_that_elimination_finds():
+    """Hunt; Gosselin and Merlet: D follows linearly from two legs' difference, at each angle of the
+    plate; the third then is a polynomial of the sixth degree in the tangent of half that angle."""
+    mechanism = load(SCENES / "platform-six.toml")
+    a, b, c = (0, 0.24), (0.26, 0.29), (0.1 + 0.24j, 0.19)
+    edge = 0.3
+    x = (edge**2 + 0.14**2 - 0.18**2) / (2 * edge)
+    corner = x + 1j * np.sqrt(0.14**2 - x**2)
+
+    def eliminated(angle):
+        """D by the two linear equations, and what the first leg misses, times the determinant."""
+        turn = np.exp(1j * angle)
+        one, two = b[0] - turn * edge, c[0] - turn * corner
+        r, s = (
+            (a[1] ** 2 - length**2 + abs(z) ** 2) / 2 for z, (_, length) in ((one, b), (two, c))
+        )
+        det = (np.conj(one) * two).imag
+        place = (r * two.imag - s * one.imag) + 1j * (one.real * s - two.real * r)
+        return place, det, abs(place) ** 2 - (a[1] * det) ** 2
+
+    grid = np.linspace(0, 2 * np.pi, 7201)
+    missed = eliminated(grid)[2]
+    places = []
+    for n in np.flatnonzero(np.diff(np.sign(missed))):
+        low, high = grid[n], grid[n + 1]
+        for _ in range(60):
+            middle = (low + high) / 2
+            same = np.sign(eliminated(middle)[2]) == np.sign(missed[n])
+            low, high = (middle, high) if same else (low, middle)
+        place, det, _ = eliminated(low)
+        places.append(place / det)
+    assert len(places) == 6
+    (choice,) = choices(mechanism.scene, mechanism.groups, mechanism.program)
+    assert len(choice.closures) == 6
+    text = (SCENES / "platform-six.toml").read_text(encoding="utf-8")
+    found = []
+    for number in range(1, 7):
+        one = Mechanism(read_text(text.replace("closure 3", f"closure {number}"), "six"))
+        solution = one.solve()
+        assert one.witness(solution).agrees
+        found.append(solution.points["D"].position)
+        nearest = min(places, key=lambda z: abs(z - found[-1]))
+        assert found[-1] == pytest.approx(nearest, rel=1e-8)
+    assert len({complex(round(z.real, 6), round(z.imag, 6)) for z in found}) == 6

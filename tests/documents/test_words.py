@@ -204,6 +204,7 @@ def test_every_sentence_is_used():
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
     every = [mechanism_named(lab, 7) for lab in SHIPPED[1:]]
     more = (
+        "bar-on-drum",
         "belts-arm",
         "belts-crossed",
         "cam-flat",
@@ -211,6 +212,7 @@ def test_every_sentence_is_used():
         "cam-lever",
         "cam-table",
         "gears-ravigneaux",
+        "rope-on-drum",
         "stephenson-2-binary",
         "two-loops",
     )

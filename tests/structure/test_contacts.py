@@ -164,10 +164,13 @@ def test_a_ring_may_roll_about_a_wheel():
     assert refusal(inside_out).endswith("expected a ring that is larger than the wheel within it")
 
 
-def test_a_wheel_on_a_wheel_without_an_arm_takes_two():
-    text = scene_text("structure/wheel-on-a-wheel")
-    (contact,) = contacts(made(text))
+def test_a_wheel_on_a_wheel_without_an_arm_counts_two_freedoms():
+    """A bar between the centres is put in, which does not count."""
+    scene = made(scene_text("structure/wheel-on-a-wheel"))
+    (contact,) = contacts(scene.bare)
     assert (contact.track.centre, contact.arm, contact.taken) == ("O", None, 2)
+    (kept,) = contacts(scene)
+    assert (kept.arm, kept.taken) == (next(iter(scene.keepers)), 1)
 
 
 def test_gears_mesh_on_the_axles_of_the_frame_teeth_for_radii():

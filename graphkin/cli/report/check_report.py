@@ -20,7 +20,7 @@ from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.mechanism import Mechanism
 from graphkin.scene.findings import numbered
-from graphkin.scene.known_names import named
+from graphkin.scene.known_names import named, place_of
 from graphkin.scene.model import Scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import driver_problem
@@ -161,7 +161,7 @@ def turns_lines(trace: Trace, scene: Scene) -> list[str]:
     found = []
     for step in trace.program.steps:
         link = counted_link(step)
-        if link is None:
+        if link is None or (link in scene.unseen and scene.links[link].slides):
             continue
         angle, near = degrees(trace.value("turned", link)), degrees(trace.values[step.args[-1]])
         found += [
@@ -177,8 +177,8 @@ def place_of_turns(scene: Scene, link: str) -> str:
     """The key of what rolls and counts the angle of a link."""
     rolling = counting(scene).get(link)
     return next(
-        numbered(f"links.{each.name}.rolls", n, len(each.rolls))
-        for each in scene.links.values()
+        numbered(f"{place_of(each.name)}.rolls", n, len(each.rolls))
+        for each in scene.every_link
         for n, own in enumerate(each.rolls)
         if own is rolling or rolling is None
     )

@@ -16,6 +16,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Tie,
     Train,
 )
@@ -35,15 +36,28 @@ def structure(scene: Scene) -> Iterator[str]:
 
     Raises StructureError for wheels that do not touch, after the links.
     """
-    moving = listed(scene.links)
-    yield from labelled("links", [f"{len(scene.links)} moving ({moving}), and the frame"])
-    joined = (*pairs(scene), *contacts(scene))
+    bare = scene.bare
+    moving = listed(bare.links)
+    yield from labelled("links", [f"{len(bare.links)} moving ({moving}), and the frame"])
+    joined = (*pairs(bare), *contacts(bare))
     yield from labelled("pairs", [f"{len(joined)}:", *map(pair_words, joined)])
     counted = count(scene)
-    yield from labelled("count", [f"{counted.words}, mobility by the count", *count_notes(scene)])
+    yield from labelled("count", [f"{counted.words}, mobility by the count", *count_notes(bare)])
     yield from labelled("loops", loop_lines(scene))
     drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
     yield from labelled("drivers", drivers)
+    yield from labelled("put in", list(keeper_lines(scene)))
+
+
+def keeper_lines(scene: Scene) -> Iterator[str]:
+    """Each link that the scene does not have, put in to keep a wheel where it rolls."""
+    for name, (wheel, rolling) in scene.keepers.items():
+        link = scene.links[name]
+        what = f"{link.points[0]}, a block on the parallel to the track through the centre"
+        if rolling.through is None:
+            what = f"{'-'.join(link.points)}, the line of centres"
+        pair = f"the wheel of {link_words(wheel)} on {link_words(rolling.on)}"
+        yield f"link {name}: {what}; it keeps {pair} and takes nothing from the motion"
 
 
 # --- pairs and the count -------------------------------------------------------------------------
@@ -62,7 +76,7 @@ def contact_words(contact: Contact) -> str:
     """A rolling pair, with the freedoms that it takes where an arm spares it one."""
     link, on = contact.links
     track = "a track" if contact.track is None else f"wheel {contact.track.centre}"
-    words = f"wheel {contact.wheel.centre} of link {link} on {track} of {link_words(on)}"
+    words = f"wheel {contact.wheel.centre} of {link_words(link)} on {track} of {link_words(on)}"
     if contact.rolling.belt is not None:
         kind = "crossed" if contact.rolling.belt.crossed else "open"
         words = f"{kind} belt to wheel {contact.wheel.centre} of link {link}"
@@ -111,7 +125,7 @@ def loop_lines(scene: Scene) -> list[str]:
         return ["none: an open chain"]
     noun = "closed loop" if loops == 1 else "independent closed loops"
     lines = [f"{loops} {noun}"]
-    single = single_loops(scene)
+    single = [loop for loop in single_loops(scene) if not scene.unseen & {*loop.links}]
     for loop in single[:MOST_LOOPS]:
         lines += single_loop_lines(scene, loop)
     if len(single) > MOST_LOOPS:
@@ -226,6 +240,10 @@ def group_words(group: Group) -> str:
         case Geared(link, pair, contact):
             other = link_words(partner(contact, link))
             return f"link {link} on {pair_name(pair)}, moved by its contact with {other}"
+        case Spun(link, _, holder, pivot, _, contact):
+            other = link_words(partner(contact, link))
+            follows = f"link {holder} on {pair_name(pivot)} follows"
+            return f"link {link} driven (class I): it rolls on {other}; {follows}"
         case Train(arm, wheel, pivot, _, rolled):
             others = listed(link_words(partner(contact, wheel)) for contact in rolled)
             return f"arm {arm} on {pair_name(pivot)} with wheel {wheel}, which rolls on {others}"

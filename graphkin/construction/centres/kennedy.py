@@ -97,8 +97,14 @@ class Finder:
 
     @cached_property
     def touching(self) -> frozenset[Pair]:
-        """Each wheel and the link that it touches: their centre is where they do."""
-        return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.touching)
+        """Each wheel and the link that it touches: their centre is where they do.
+
+        Wheels that an open belt turns alike have none.
+        """
+        scene = self.pen.scene
+        every = ((link.name, each) for link in scene.every_link for each in link.rolls)
+        pairs = ((name, each.on) for name, each in every if not scene.turn_alike(name, each))
+        return frozenset(ordered(self.links, *pair) for pair in pairs)
 
     @cached_property
     def ways(self) -> dict[Pair, tuple[str, str] | None]:

@@ -16,6 +16,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
     Tie,
     Train,
@@ -83,6 +84,12 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
             return own_first(first), tubes[0], own_first(second), *tubes[1:]
         case Geared():
             return (geared_base(scene, group),)
+        case Spun(link=link, holder=arm, pivot=pivot, held=Pin(point=centre), contact=contact):
+            rim = under(contact_name(contact), link)
+            return base_of(scene, arm, pivot.point, centre), base_of(scene, link, centre, rim)
+        case Spun(link=link, holder=block, pivot=pivot):
+            own = scene.link(link).points[0]
+            return base_of(scene, block, pivot.point, None), base_of(scene, link, own, None)
         case Train(arm, wheel, Pin(point=pivot), Pin(point=centre), (contact, _)):
             rim = under(contact_name(contact), wheel)
             return base_of(scene, arm, pivot, centre), base_of(scene, wheel, centre, rim)
@@ -116,6 +123,10 @@ def leads_of(group: Group) -> dict[str, str]:
             return {each.near: each.far for each in cylinders} | leads_of(dyad)
         case Geared(link=link, pair=Sliding() as pair):
             return {link: partner(pair, link)}
+        case Geared(link=link, contact=contact) if contact.alike:
+            return {link: partner(contact, link)}
+        case Spun(link=link, holder=block, held=Sliding()):
+            return {block: link}
         case Tie(link=link, second=Sliding() as pair):
             return {link: partner(pair, link)}
         case Dyad(links=(first, second), left=Pin(), inner=Sliding(), right=Sliding() as right):
@@ -228,6 +239,8 @@ def no_track(link: str) -> StructureError:
 def geared_base(scene: Scene, group: Geared) -> Base:
     """The base of a geared wheel: its centre and its point of contact; a rack only shifts."""
     match group.pair:
+        case Pin(point=point) if group.contact.alike:
+            return base_of(scene, group.link, point, None)
         case Pin(point=point):
             return base_of(scene, group.link, point, under(contact_name(group.contact), group.link))
         case Contact() as own:
@@ -253,6 +266,12 @@ def no_construction(group: Group) -> StructureError:
     if group.tracks:
         found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
         return StructureError(Problem(place, found, HELD, LEVEL))
+    if group.wedged:
+        wheels = f"wheel {group.wedged[0]}"
+        if len(group.wedged) > 1:
+            wheels = f"wheels {', '.join(group.wedged)}"
+        found = f"hold {wheels} between two tracks that are not parallel"
+        return StructureError(Problem(place, found, "parallel tracks", SLIPPING))
     found = "close only when two of them are tried at once"
     hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
     return StructureError(Problem(place, found, CLOSING, hint))
@@ -260,4 +279,5 @@ def no_construction(group: Group) -> StructureError:
 
 HELD = "a track that slides, is driven, or belongs to the frame"
 LEVEL = "wheels of one size on one track keep it parallel to that: write slides = { … } for it"
+SLIPPING = "where a wheel slips on one of them, a block at its centre slides beside that instead"
 CLOSING = "links that close on known ones, two at a time or after one of them has been tried"

@@ -15,6 +15,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Spun,
     Stretched,
 )
 from graphkin.structure.pairs import Pin
@@ -74,7 +75,7 @@ def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
 def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
     """What settles a link or a point that needs no branch."""
     match group_of(scene, groups, name):
-        case Crank(driver=driver) | Driven(driver=driver):
+        case Crank(driver=driver) | Driven(driver=driver) | Spun(driver=driver):
             return (
                 f"link {driver.link} is driven: nothing is left to choose at {called(scene, name)}"
             )

@@ -85,7 +85,7 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
         *sides(scene, words),
         *(
             of_guide(drawing, link, slide)
-            for link in scene.links.values()
+            for link in scene.bare.links.values()
             if link.name not in scene.cam_links
             for slide in link.slides
         ),
@@ -240,7 +240,7 @@ def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
     """The lengths of bars, those of equal length together."""
     equal: dict[str, list[str]] = {}
     first: dict[str, Quantity] = {}
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.bare.every_link:
         for placing in link.placings:
             for p, q, length in placing.lengths():
                 text = after_parameter(scene, words, length)

@@ -49,6 +49,8 @@ BELTS = {
     (True, True): "page.belt_crossed_fixed",
 }
 """The sentences of belts to moving wheels and to fixed ones, open and crossed."""
+ALIKE = {False: "page.belt_alike", True: "page.belt_fixed_alike"}
+"""Those of open belts to moving wheels and to fixed ones of the same size."""
 
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
@@ -171,7 +173,7 @@ def tracks(drawing: Drawing) -> Iterator[str]:
     """What rolls on what in which point, and the start it counts from; that there is no slip."""
     scene, words = drawing.scene, drawing.words
     letters = contact_letters(scene)
-    for link in scene.links.values():
+    for link in scene.every_link:
         for rolling, contact in zip(link.rolls, letters.get(link.name, ()), strict=True):
             fields = {"k": escape(link.name), "touch": symbol(contact)}
             if rolling.angle is None:
@@ -181,6 +183,8 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 other = escape(rolling.on)
                 if rolling.belt is not None:
                     key = BELTS[rolling.on == FRAME, rolling.belt.crossed]
+                    if scene.turn_alike(link.name, rolling):
+                        key = ALIKE[rolling.on == FRAME]
                     own, there = rolling.belt.wheels
                     fields["k"] = wheel_name(scene, words, link.name, own)
                     other = wheel_name(scene, words, rolling.on, there)
@@ -189,9 +193,13 @@ def tracks(drawing: Drawing) -> Iterator[str]:
                 fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")
                 fields["start"] = start_on_track(drawing, link, rolling)
                 fields["positive"] = positive_track(drawing, link, rolling)
+                if keeper := scene.links.get(rolling.keeper):
+                    fields["side"] += which_way(drawing, keeper, keeper.slides[0])
                 key = "page.rack" if any(w.teeth for w in link.wheels) else "page.rolls"
+                if link.name == FRAME:
+                    key, fields["k"] = "page.rolls_on_drum", escape(rolling.on)
                 yield words(key, line=straight(drawing, rolling), **fields)
-    if any(link.rolls for link in scene.links.values()):
+    if any(link.rolls for link in scene.every_link):
         yield words("page.no_slip")
     yield from whole_turns(drawing)
 
@@ -199,11 +207,11 @@ def tracks(drawing: Drawing) -> Iterator[str]:
 def whole_turns(drawing: Drawing) -> Iterator[str]:
     """How far links have turned since the start, where wheels depend on it and pins do not say."""
     scene, words = drawing.scene, drawing.words
-    rolls = [rolling for link in scene.links.values() for rolling in link.rolls]
+    rolls = [rolling for link in scene.every_link for rolling in link.rolls]
     steps = drawing.trace.program.steps
     counted = {counted_link(steps[number]) for number in drawing.trace.values}
     for link in scene.links.values():
-        if link.name not in counted:
+        if link.name not in counted or (link.name in scene.unseen and link.slides):
             continue
         stated = next((each.turns[link.name] for each in rolls if link.name in each.turns), None)
         turns = "0" if stated is None else words.decimal(stated.written(scene.values))
@@ -215,7 +223,8 @@ def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     """Words for where a wheel touches a straight track at the start, and how it then stands."""
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
-    angles = stands(drawing, link, rolling)
+    turned = drawing.scene.link(rolling.on) if link.name == FRAME else link
+    angles = stands(drawing, turned, rolling)
     return words("page.start", through=through, angles=angles)
 
 

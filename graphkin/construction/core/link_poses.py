@@ -12,7 +12,19 @@ from graphkin.construction.core.program import is_in_scene
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Line, cross, dot
-from graphkin.scene.model import FRAME, Apart, At, Belt, Link, Polar, Rolling, Scene, Slide, Wheel
+from graphkin.scene.model import (
+    FRAME,
+    Apart,
+    At,
+    Belt,
+    Link,
+    Polar,
+    Rolling,
+    Scene,
+    Slide,
+    Wheel,
+    of_one_size,
+)
 from graphkin.scene.quantity import Quantity
 
 CLEAR = 1.6
@@ -133,7 +145,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
         """Every guide in the plane, in the order written."""
         found = (
             self.guideway(link, slide)
-            for link in self.scene.links.values()
+            for link in self.scene.bare.links.values()
             for slide in link.slides
         )
         return tuple(way for way in found if way is not None)
@@ -161,7 +173,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def touches(self) -> tuple[Touch, ...]:
         """Every place where a wheel touches its track."""
         found = []
-        for link in self.scene.links.values():
+        for link in self.scene.every_link:
             own = [disc for disc in self.discs if disc.link == link.name]
             for rolling in link.rolls:
                 touch = self.on_line(own, rolling) if rolling.angle else self.on_wheel(own, rolling)
@@ -221,14 +233,17 @@ class LinkPoses(Struct, frozen=True, dict=True):
         self, own: list[Disc], others: list[Disc], rolling: Rolling, belt: Belt
     ) -> Touch | None:
         """A belt: where its strands meet the line of the centres."""
-        wheels = self.scene.links[own[0].link].wheels if own else ()
+        wheels = self.scene.link(own[0].link).wheels if own else ()
         tracks = self.scene.link(rolling.on).wheels
         one = next((d for d in own if d.wheel is wheels[belt.wheels[0]]), None)
         other = next((d for d in others if d.wheel is tracks[belt.wheels[1]]), None)
         if one is None or other is None:
             return None
         apart = other.centre - one.centre
-        at = one.centre + apart * (one.radius / (one.radius + belt.sense * other.radius))
+        share = 0.5
+        if belt.crossed or not of_one_size(one.wheel, other.wheel):
+            share = one.radius / (one.radius + belt.sense * other.radius)
+        at = one.centre + apart * share
         return Touch(rolling, one, at, 1j * apart / abs(apart), None, other)
 
 

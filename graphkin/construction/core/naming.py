@@ -12,7 +12,7 @@ from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.model import Driver
+from graphkin.scene.model import FRAME, Driver
 from graphkin.text import Words
 
 NAUGHT = 1e-6
@@ -30,8 +30,14 @@ def called(drawing: Drawing) -> str:
 
 
 def way_of(drawing: Drawing, name: str) -> str:
-    """A guide by its block, or a straight track by its wheel."""
-    link = drawing.scene.links.get(name)
+    """A guide by its block, a straight track by its wheel; on a fixed wheel by its bar."""
+    scene = drawing.scene
+    if name in scene.keepers:
+        name = scene.keepers[name][0]
+    if name == FRAME:
+        on = next(rolling.on for rolling in scene.frame.rolls)
+        return drawing.words("page.track_of_bar", g=escape(on))
+    link = scene.links.get(name)
     key = "page.guide_of" if link is None or link.slides else "page.track_of"
     return drawing.words(key, g=escape(name))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.given_data import angle_symbol
@@ -108,12 +108,13 @@ class ClosedGroup(Construction, frozen=True):
         """How the position of the group is found."""
         if role != "closing":
             return ""
-        listed = escape(", ".join(self.closes))
-        fields = {"k": escape(self.group.trial.link), "n": str(self.number), "list": listed}
+        listed = escape(", ".join(seen(drawing, self.closes)))
+        (tried,) = seen(drawing, [self.group.trial.link])
+        fields = {"k": escape(tried), "n": str(self.number), "list": listed}
         if self.driver is not None:
             fields["what"] = angle_symbol(drawing.scene, self.driver)
             return drawing.words("step.close-driver", **fields)
-        drawn = self.links_drawn(drawing)
+        drawn = seen(drawing, self.links_drawn(drawing))
         key = "step.close-links" if len(drawn) > 1 else "step.close-link"
         fields["draw"] = drawing.words(key, list=escape(", ".join(drawn)))
         fields["q"] = symbol(self.locus)
@@ -136,7 +137,19 @@ class ClosedGroup(Construction, frozen=True):
         """Which of the ways in which it closes is meant."""
         return drawing.words(
             "page.closure",
-            list=escape(", ".join(self.closes)),
+            list=escape(", ".join(seen(drawing, self.closes))),
             number=str(self.number),
             axis=axis_of(drawing, drawing.scene.link(self.counted)),
         )
+
+
+def seen(drawing: Drawing, links: Iterable[str]) -> list[str]:
+    """Links as sentences name them: what keeps a wheel in place by the wheel, or bar, it keeps."""
+    scene, found = drawing.scene, list[str]()
+    for name in links:
+        if name in scene.unseen:
+            wheel, rolling = scene.keepers[name]
+            found.append(rolling.on if rolling.through is not None else wheel)
+        else:
+            found.append(name)
+    return [*dict.fromkeys(found)]

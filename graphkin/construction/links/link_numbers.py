@@ -57,7 +57,7 @@ class Body(NamedTuple):
 def draw_numbers(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The number or name of each link in its balloon."""
     bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
-    for name, link in drawing.scene.links.items():
+    for name, link in drawing.scene.bare.links.items():
         others = [body for other, body in bodies.items() if body and other != name]
         wished = wish(board, drawing, field, link, bodies[name], others)
         if wished is not None:

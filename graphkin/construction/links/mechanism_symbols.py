@@ -226,6 +226,9 @@ def draw_body(board: FieldContent, drawing: Drawing, field: Field, link: Link) -
     places = places_of(drawing, link.name)
     if len(places) < 2:
         return
+    if link.name in drawing.scene.unseen:
+        board.marks.append(LineMark(*field(places[0]), *field(places[1]), "locus", link.name))
+        return
     corners = corners_of(drawing, link)
     if corners is None:
         first, last = farthest(places)

@@ -56,6 +56,9 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
             "angle": words.fixed(degrees(phase(spot(self.name) - spot(self.start))), 1),
         }
         turned = self.turned(drawing)
+        if self.link in drawing.scene.unseen:
+            wheel, _ = drawing.scene.keepers[self.link]
+            return words("step.beside-led", **fields | {"g": escape(wheel)})
         if drawing.scene.links[self.link].slides:
             return words("step.beside", **fields)
         if turned is None:

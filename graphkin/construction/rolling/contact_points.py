@@ -105,7 +105,8 @@ class Track(Construction, frozen=True, kw_only=True):
             return drawing.words("step.guide-named", guide=way_of(drawing, self.wheel))
         line = straight(drawing, self.rolling, on_paper=True)
         names = {"g": escape(self.wheel), "h": escape(self.rolling.on)}
-        return drawing.words("step.track-of", line=line, **names)
+        key = "step.track-of-bar" if self.wheel == FRAME else "step.track-of"
+        return drawing.words(key, line=line, **names)
 
 
 class CentrePath(Construction, frozen=True, kw_only=True):
@@ -168,6 +169,7 @@ class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the perpendicular."""
         key = "contact-on-track" if self.on == FRAME else "contact-on-track-of"
+        key = "contact-on-bar" if self.wheel == FRAME else key
         return drawing.words(f"step.{key}", **self.symbols())
 
 
@@ -207,20 +209,34 @@ class CentreOfBelt(PointOfContact, frozen=True, kw_only=True):
 
 
 class RackPoint(Construction, frozen=True, kw_only=True):
-    """A ``point`` of a ``rack``, from the wheel that has rolled a ``way`` along it."""
+    """A ``point`` of a ``rack``, from the ``wheel`` that has rolled a ``way`` along it.
+
+    It is a rack by name where the wheel has teeth; a strand of a rope or a bar moves alike.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
-    reasons: ClassVar[Mapping[str, str]] = {"point": "why.rack"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
 
     rack: str
+    wheel: str
     way: int
     point: int
 
+    def is_toothed(self, drawing: Drawing) -> bool:
+        """Whether its wheel is a gear."""
+        return any(wheel.teeth for wheel in drawing.scene.link(self.wheel).wheels)
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """It moves as far as the rim."""
+        if role != "point":
+            return ""
+        return "why.rack" if self.is_toothed(drawing) else "why.strand"
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the arc that the wheel has turned through."""
+        key = "step.rack-at" if self.is_toothed(drawing) else "step.strand-at"
         return drawing.words(
-            "step.rack-at",
+            "step.bar-at" if self.wheel == FRAME else key,
             name=symbol(drawing.trace.program.steps[self.point].name),
             g=escape(self.rack),
             arc=drawn_amount(drawing, abs(float(drawing.trace.values[self.way]))),

@@ -10,8 +10,10 @@ from graphkin.construction.guides.coincident_points import carried, omega_of
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.rolling import wheel_images
 from graphkin.construction.rolling.rolling_normal import rolled_image
+from graphkin.construction.rolling.rolling_on_wheel import rolled_on
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.structure.groups import Group, Higher
+from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact
 
 Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
@@ -21,7 +23,7 @@ Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 def move(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The velocity plan: every wheel moves with its track where they touch."""
     for contact in group.wheels:
-        wheel_images.touch(pen, contact)
+        wheel_images.touched(pen, contact, *own_and_known(group, contact))
     for link in group.links:
         pen.leads.pop(link, None)
     for member in group.at_instant:
@@ -34,15 +36,31 @@ def move(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
 def accelerate(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The acceleration plan: there it moves against its track to its centre only."""
     for contact in group.wheels:
-        second_image_of_rim(pen, contact)
+        second_image_of_rim(pen, contact, *own_and_known(group, contact))
     for member in group.at_instant:
         each(pen, shapes, member, tuple(pen.bases[link] for link in member.links))
 
 
+def own_and_known(group: Higher, contact: Contact) -> tuple[str, str]:
+    """The link of a contact that belongs to a group, and the one that it rolls on or under."""
+    own = next(link for link in contact.links if link in group.links)
+    return own, partner(contact, own)
+
+
 @by_contact
-def second_image_of_rim(pen: Pen, contact: Contact) -> None:
-    """The second image of a wheel's point of contact, from the track's point under it."""
-    (wheel, on), name = contact.links, contact_name(contact)
-    start = carried(pen, on, name, "acceleration")
-    rates = omega_of(pen, wheel), omega_of(pen, on)
-    rolled_image(pen, start, under(name, wheel), (name, contact.wheel.centre), rates)
+def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> None:
+    """The second image of a point of contact, from that of the point which it touches.
+
+    A wheel's moves towards its centre, on a straight track with the square of its turning times its
+    radius; a bar's away from the centre of the wheel on which the bar rolls.
+    """
+    name = contact_name(contact)
+    start = carried(pen, known, name, "acceleration")
+    rates, rim = (omega_of(pen, own), omega_of(pen, known)), under(name, own)
+    if contact.track is not None:
+        hubs = contact.wheel_of(own).centre, contact.wheel_of(known).centre
+        rolled_on(pen, start, rim, (name, *hubs), rates)
+    elif own == contact.links[0]:
+        rolled_image(pen, start, rim, (name, contact.wheel.centre), rates)
+    else:
+        rolled_image(pen, start, rim, (contact.wheel.centre, name), rates[::-1], on_bar=True)

@@ -16,6 +16,7 @@ from graphkin.construction.guides.set_by_coordinate import set_at, set_point
 from graphkin.construction.links.counted_turn import CountedTurn, counted_link, counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
+from graphkin.construction.links.plate_points import plate_points
 from graphkin.construction.rolling.contact_points import (
     CentreOfBelt,
     CentrePath,
@@ -189,7 +190,8 @@ def wheel_on_wheel(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     """A wheel on its pin: the contact on the line of centres, its turning by the radii."""
     contact, link = group.contact, group.link
     assert contact.arm is not None
-    touch_wheels(pen, contact, link)
+    if not contact.alike:
+        touch_wheels(pen, contact, link)
     if not pen.has("axis", link):
         roll_round(pen, shapes, contact, link)
 
@@ -371,9 +373,12 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
         turn = angle_of(pen, shapes, wheel)
         if pen.turns(link):
             known = partner(slide, link)
-            own = pen.draw(
-                counted_near, axis_, axis(pen, shapes, known), angle_of(pen, shapes, known)
-            )
+            held = angle_of(pen, shapes, known)
+            if known in pen.scene.keepers and contact.rolling.angle is not None:
+                lean = pen.given("number", contact.rolling.angle)
+                own = pen.draw(difference, held, lean)
+            else:
+                own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
             turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)
@@ -382,5 +387,6 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
     with pen.on(Part.POSITION, Plane.MECHANISM):
         where = centre, axis_, *ends, shapes.local(link, point), radius, way
         found = pen.want("position", point, pen.draw(rack_at, *where, name=point))
-    pen.make(RackPoint(rack=link, way=way, point=found))
+    pen.make(RackPoint(rack=link, wheel=wheel, way=way, point=found))
+    plate_points(pen, shapes, pen.bases[link])  # its track may pass through another point of it
     touch_and_turn(pen, shapes, contact)

@@ -39,7 +39,8 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
     It leads along the radius from the point ``p`` to ``q``, whose places are ``foot`` and ``head``;
     the link of the point turns by ``omega``, what it rolls on by ``omega_track``. From the image
-    ``start`` of the point that is touched it ends in the ``image`` of the one that rolls.
+    ``start`` of the point that is touched it ends in the ``image`` of the one that rolls; that
+    is a bar's where it is ``on_bar``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("vector", "image")
@@ -56,6 +57,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     omega_track: int
     start: int
     image: int
+    on_bar: bool = False
 
     def symbols(self) -> Mapping[str, str]:
         """The ends of the radius."""
@@ -71,6 +73,8 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     def rate(self, drawing: Drawing) -> str:
         """How fast it turns against what it rolls on."""
         own, other = (rate_symbol(drawing, each) for each in (self.omega, self.omega_track))
+        if not drawing.trace.values[self.omega]:
+            return other
         return f"({own} − {other})" if drawing.trace.values[self.omega_track] else own
 
     def formula(self, drawing: Drawing) -> str:
@@ -83,10 +87,19 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How it is laid off; why it is the whole acceleration, the first time."""
+        first = next(self.alike(drawing))
+        key = "step.lay-off-rolling-bar" if self.on_bar else "step.lay-off-rolling"
+        return self.told(drawing, key if self is first else "step.lay-off-named")
+
+    def alike(self, drawing: Drawing) -> Iterator[RollingNormal]:
+        """Those of its kind on a sheet, in order."""
+        return (each for each in components_on(drawing) if type(each) is type(self))
+
+    def told(self, drawing: Drawing, key: str, **fields: str) -> str:
+        """A sentence of how it is laid off."""
         steps = drawing.trace.program.steps
-        first = next(each for each in components_on(drawing) if isinstance(each, RollingNormal))
         return drawing.words(
-            "step.lay-off-rolling" if self is first else "step.lay-off-named",
+            key,
             s=symbol(steps[self.start].name),
             name=symbol(steps[self.image].name),
             vector=self.symbol,
@@ -95,6 +108,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
                 drawing.words, drawn_between(drawing, self.start, self.image, drawing.plane)
             ),
             **self.symbols(),
+            **fields,
         )
 
     def section(self) -> str:
@@ -135,7 +149,13 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
 
 def rolled_image(
-    pen: Pen, start: int, rolls: str, ends: tuple[str, str], rates: tuple[int, int]
+    pen: Pen,
+    start: int,
+    rolls: str,
+    ends: tuple[str, str],
+    rates: tuple[int, int],
+    *,
+    on_bar: bool = False,
 ) -> int:
     """The second image of a point that ``rolls``, from that of the point which it touches.
 
@@ -163,6 +183,7 @@ def rolled_image(
             vector=vector,
             start=start,
             image=image,
+            on_bar=on_bar,
         )
     )
     return pen.want("acceleration", rolls, image)

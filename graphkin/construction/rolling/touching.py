@@ -11,7 +11,7 @@ from msgspec import Struct
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.groups import Geared, Train
+from graphkin.structure.groups import Geared, Spun, Train
 from graphkin.structure.pairs import Contact, contacts, meshes
 
 P = ParamSpec("P")
@@ -40,7 +40,7 @@ def contact_among(args: tuple[Any, ...]) -> Contact:
         match arg:
             case Contact():
                 return arg
-            case Geared(contact=contact):
+            case Geared(contact=contact) | Spun(contact=contact):
                 return contact
             case Train(contacts=contacts):
                 return contacts[0]

@@ -67,6 +67,19 @@ def arm_between(
     return (far - near) / (first - second)
 
 
+@action("arm-rolled")
+def arm_rolled(
+    turn: Real, start: Real, track_turn: Real, arm_start: Real, track: Real, wheel: Real
+) -> Real:
+    """The angle of an arm whose wheel has turned so far on another (Willis).
+
+    ``turn`` and ``start`` are the wheel's angles now and at the start, ``track_turn`` is how far
+    the other has turned since; radii of the other and of the wheel, a ring's negative. Equal ones
+    of a ring leave the arm free: they raise ZeroDivisionError on a scalar.
+    """
+    return arm_start + (turn - start + track_turn * (track / wheel)) / (1 + track / wheel)
+
+
 @action("axis")
 def axis_turned(turn: Real) -> Point:
     """Axis of a link at an angle in radians."""

@@ -78,6 +78,8 @@ def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     """A wheel or rack: the contact has the velocity of what it touches."""
     link, contact = group.link, group.contact
+    if contact.alike:
+        return
     name = contact_name(contact)
     start = touched(pen, contact, link, partner(contact, link))
     match group.pair:
@@ -207,6 +209,8 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
 def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     """A wheel or rack in the acceleration plan, from the contact that settles it."""
     link, contact = group.link, group.contact
+    if contact.alike:
+        return
     match group.pair:
         case Pin():
             second_touched(pen, contact, link, partner(contact, link))
@@ -244,12 +248,25 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
     start = carried(pen, wheel, name, "acceleration")
     rates, rim = (omega_of(pen, wheel), omega_of(pen, link)), under(name, link)
-    corner = rolled_image(pen, start, rim, (centre, name), rates)
-    ends = pen.the("position", name), pen.the("position", point)
+    corner = rolled_image(pen, start, rim, (centre, name), rates, on_bar=True)
+    turn_from_rim(pen, link, rim, point, corner)
+
+
+def turn_from_rim(pen: Pen, link: str, rim: str, point: str, start: int) -> None:
+    """Second image of a point of a link whose rates are known, from that of its point of contact.
+
+    There is no tangential component where a driver turns the link steadily.
+    """
+    ends = pen.the("position", rim), pen.the("position", point)
     turning, twist = omega_of(pen, link), omega_of(pen, link, EPSILON)
+    name, steady = second_image(point), pen.is_nought(twist)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        end = pen.draw(centripetal, corner, *ends, turning)
-        found = pen.draw(driven_tangential, end, *ends, twist, name=second_image(point))
+        end = pen.draw(centripetal, start, *ends, turning, name=name if steady else "")
+        component_arrow(pen, start, end, "ν", point, rim)
+        found = end
+        if not steady:
+            found = pen.draw(driven_tangential, end, *ends, twist, name=name)
+            component_arrow(pen, end, found, "τ", point, rim)
         pen.make(
             TurnedAcceleration(
                 p=letter(rim),
@@ -258,15 +275,13 @@ def turning_rack(pen: Pen, group: Geared) -> None:
                 whole=point,
                 base=owned(rim),
                 link=link,
-                start=corner,
+                start=start,
                 omega=turning,
-                epsilon=twist,
+                epsilon=None if steady else twist,
                 end=end,
-                image=found,
+                image=None if steady else found,
             )
         )
-        component_arrow(pen, corner, end, "ν", point, rim)
-        component_arrow(pen, end, found, "τ", point, rim)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
 

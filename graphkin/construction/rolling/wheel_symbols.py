@@ -21,7 +21,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched
 from graphkin.numbers.arithmetic import Real, at, larger, pick, smaller, sqrt
 from graphkin.numbers.plane import cross, dot
-from graphkin.scene.model import FRAME, Link
+from graphkin.scene.model import FRAME, Link, of_one_size
 
 RIM = 2.4
 """Width of a ring without teeth, in mm."""
@@ -66,12 +66,20 @@ def draw_contacts(board: FieldContent, drawing: Drawing, field: Field) -> None:
         board.marks += spokes(drawing, field, disc)
     for touch in drawing.standing.touches:
         board.marks += within(strands(field, touch), field.rect)
+        if touch.other is not None and is_parallel(touch, touch.other):
+            continue
         here, name = field(touch.at), drawing.standing.name_at(touch.at)
         board.marks.append(CircleMark(*here, CONTACT, "contact", touch.disc.link))
         if name:
             board.labels.append(
                 Label(symbol(name), "", here, 2.5, name, priority=1, radius=CONTACT)
             )
+
+
+def is_parallel(touch: Touch, other: Disc) -> bool:
+    """Whether the strands of a belt are parallel, so that they do not meet."""
+    belt = touch.rolling.belt
+    return belt is not None and not belt.crossed and of_one_size(touch.disc.wheel, other.wheel)
 
 
 def strands(field: Field, touch: Touch) -> Iterator[Mark]:
@@ -87,7 +95,7 @@ def strands(field: Field, touch: Touch) -> Iterator[Mark]:
         start = touch.disc.centre + touch.disc.radius * normal
         end = other.centre - belt.sense * other.radius * normal
         yield LineMark(*field(start), *field(end), "belt", touch.disc.link)
-        if not belt.crossed:
+        if not belt.crossed and not is_parallel(touch, other):
             nearer = start if touch.disc.radius < other.radius else end
             yield LineMark(*field(nearer), *field(touch.at), "locus", touch.disc.link)
 

@@ -21,7 +21,7 @@ from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.perpendicular_through import perpendicular_through
 from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
-from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
+from graphkin.structure.groups import Crank, Driven, Dyad, Spun, Tie, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
 
@@ -44,7 +44,7 @@ def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
         turn_tip(pen, group.link, pivot, tip)
 
 
-def driven_rate(pen: Pen, group: Crank, quantity: str, given: int) -> int:
+def driven_rate(pen: Pen, group: Crank | Spun, quantity: str, given: int) -> int:
     """Angular velocity or acceleration of a driven link: the given one, on top of the other's."""
     against = other_of(group.driver, group.link)
     if not pen.turns(against):

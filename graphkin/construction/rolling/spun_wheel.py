@@ -1,0 +1,132 @@
+"""A wheel, or a bar that rolls on a drum, whose own angle a driver gives: it leads what holds it.
+
+Where it touches a known link it moves with that. The holder, an arm or a block on a known pin, has
+turned as far as the rolling says.
+"""
+
+from __future__ import annotations
+
+from graphkin.construction.core.arrows import velocity_arrows
+from graphkin.construction.core.bases import contact_name, under
+from graphkin.construction.core.pen import Pen, against, image, letter
+from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import EPSILON, OMEGA
+from graphkin.construction.core.vocabulary import sum_of
+from graphkin.construction.guides.coincident_points import carried, omega_of
+from graphkin.construction.guides.guides import turned_with
+from graphkin.construction.links.counted_turn import counted_near
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.placed_point import place_point
+from graphkin.construction.rolling import rolling, wheel_images
+from graphkin.construction.rolling.rolling_on_wheel import rolled_on
+from graphkin.construction.rolling.touching import by_contact
+from graphkin.construction.rolling.wheel_actions import arm_rolled, axis_turned
+from graphkin.construction.velocity import velocity as velocities
+from graphkin.construction.velocity.turned_velocity import turned_image
+from graphkin.structure.groups import Geared, Spun
+from graphkin.structure.joints import partner
+from graphkin.structure.pairs import Contact, Pin
+
+# --- the mechanism -------------------------------------------------------------------------------
+
+
+def place(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
+    """The driven link at its angle, and its holder where that has brought it."""
+    turn = rolling.angle_of(pen, shapes, group.link)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        if not pen.has("axis", group.link):
+            pen.want("axis", group.link, pen.draw(axis_turned, turn))
+    if isinstance(group.held, Pin):
+        set_arm(pen, shapes, group, group.held.point, turn)
+    else:
+        turned_with(pen, shapes, group.held, group.link)
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            if group.holder in pen.scene.keepers:
+                lean = pen.given("number", group.contact.rolling.angle)
+                held = pen.draw(sum_of, turn, lean)
+            else:
+                axes = (pen.the("axis", each) for each in group.links)
+                held = pen.draw(counted_near, *axes, turn)
+            pen.want("turned", group.holder, held)
+        rolling.rack(pen, shapes, as_rack(group), group.held)
+
+
+@by_contact
+def set_arm(pen: Pen, shapes: LinkShapes, group: Spun, centre: str, turn: int) -> None:
+    """The arm turned about its pin, the wheel's centre, and where the wheel touches."""
+    contact, arm, pivot = group.contact, group.holder, group.pivot.point
+    side = rolling.seen_from(pen, contact, group.link)
+    ends = turn, rolling.start_turn(pen, contact, group.link)
+    since = rolling.turned_by(pen, shapes, contact, side.other)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        radii = side.track_radius, side.radius
+        start = rolling.start_turn(pen, contact, arm)
+        rolling.settle_turn(pen, arm, pen.draw(arm_rolled, *ends, since, start, *radii))
+    local = shapes.local(arm, pivot), shapes.local(arm, centre)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        here, lead = pen.the("position", pivot), pen.the("axis", arm)
+        found = place_point(pen, arm, (pivot, centre), here, lead, *local)
+    pen.want("position", centre, found)
+    rolling.touch_wheels(pen, contact, group.link)
+
+
+def as_rack(group: Spun) -> Geared:
+    """A bar that slides on its holder, seen as what its contact moves along that."""
+    return Geared(group.link, group.held, group.contact)
+
+
+# --- the plans -----------------------------------------------------------------------------------
+
+
+def move(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
+    """Velocities: it turns at the given rate, and moves with the other where it touches."""
+    speed = pen.drive(group.driver).speed
+    pen.want(OMEGA, group.link, velocities.driven_rate(pen, group, OMEGA, speed))
+    if not isinstance(group.held, Pin):
+        wheel_images.geared(pen, shapes, as_rack(group))
+        return
+    move_centre(pen, group.link, group.contact, group.held.point)
+
+
+@by_contact
+def move_centre(pen: Pen, link: str, contact: Contact, centre: str) -> None:
+    """The image of a wheel's centre from that of its point of contact."""
+    name = contact_name(contact)
+    rim = under(name, link)
+    start = wheel_images.touched(pen, contact, link, partner(contact, link))
+    places = pen.the("position", name), pen.the("position", centre)
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        found = turned_image(
+            pen,
+            link,
+            (letter(name), centre),
+            start,
+            places,
+            name=image(centre),
+            omega=omega_of(pen, link),
+            index=against(pen, centre, rim),
+        )
+    pen.want("velocity", centre, found)
+    velocity_arrows(pen, centre, None)
+
+
+def accelerate(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
+    """Accelerations: the point of contact moves against the other's along the normal alone."""
+    given = pen.drive(group.driver).acceleration
+    pen.want(EPSILON, group.link, velocities.driven_rate(pen, group, EPSILON, given))
+    if not isinstance(group.held, Pin):
+        wheel_images.second_geared(pen, shapes, as_rack(group))
+        return
+    accelerate_centre(pen, group.link, group.contact, group.held.point)
+
+
+@by_contact
+def accelerate_centre(pen: Pen, link: str, contact: Contact, centre: str) -> None:
+    """The second image of a wheel's centre from that of its point of contact."""
+    name, other = contact_name(contact), partner(contact, link)
+    start = carried(pen, other, name, "acceleration")
+    rates = omega_of(pen, link), omega_of(pen, other)
+    rim = under(name, link)
+    track = contact.wheel_of(other).centre
+    corner = rolled_on(pen, start, rim, (name, centre, track), rates)
+    wheel_images.turn_from_rim(pen, link, rim, centre, corner)

@@ -1,0 +1,146 @@
+"""Links without substance that keep a wheel on what it rolls on, where no link of the scene does.
+
+Two wheels that touch keep the distance of their centres: a bar joins these. A wheel on a straight
+track that pins and wheels alone hold keeps its centre on a parallel to the track: a block is there.
+Neither takes anything from the motion, and both count as the contact does that they stand for.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+
+from msgspec.structs import replace
+
+from graphkin.scene.expression import Pair as Sum
+from graphkin.scene.findings import numbered, shown
+from graphkin.scene.measures import Measures
+from graphkin.scene.model import FRAME, Apart, At, Driver, Link, Rolling, Slide, Wheel
+from graphkin.scene.quantity import Quantity, exact
+from graphkin.scene.read_cams import next_name
+
+
+def with_keepers(
+    frame: Link, links: Mapping[str, Link], drivers: Sequence[Driver], measures: Measures
+) -> tuple[Link, dict[str, Link]]:
+    """The frame and the links, those that wheels need to stay where they roll put in.
+
+    A name that a scene gives one, ``rolls = { …, link = "arm" }``, asks for it.
+    """
+    written = {FRAME: frame, **links}
+    held = {name: joints_of(written, name, drivers) for name in written}
+    every = dict(written)
+    for name, link in written.items():
+        for index, rolling in enumerate(link.rolls):
+            keeper = keeper_of(every, name, index, held, measures)
+            if keeper is None:
+                continue
+            every[keeper.name] = keeper
+            rolls = list(every[name].rolls)
+            rolls[index] = counted_alike(rolling, keeper.name)
+            every[name] = replace(every[name], rolls=tuple(rolls))
+    return every.pop(FRAME), every
+
+
+def keeper_of(
+    every: Mapping[str, Link],
+    name: str,
+    index: int,
+    held: Mapping[str, int],
+    measures: Measures,
+) -> Link | None:
+    """The link that keeps a wheel on what it rolls on; None where there is no need of one."""
+    own, rolling = every[name], every[name].rolls[index]
+    on = every.get(rolling.on)
+    if on is None or on is own or not own.wheels or rolling.belt is not None:
+        return None
+    asked = rolling.keeper
+    if rolling.through is None:
+        pair = loose_pair(every, own, on)
+        made = bar_between(*pair, measures) if pair else None
+    else:
+        needed = rolling.on != FRAME and (asked or held[rolling.on] < 2)
+        made = block_on(own.wheels[0], rolling, measures) if needed else None
+    place = f"{'frame' if name == FRAME else f'links.{name}'}.rolls"
+    place = f"{numbered(place, index, len(own.rolls))}.link"
+    if made is None:
+        if asked:
+            found = f"{shown(asked)}: this wheel is kept where it rolls"
+            measures.findings.add(place, found, "no name here")
+        return None
+    called = asked or next_name({each: link for each, link in every.items() if each != FRAME})
+    if called in every:
+        measures.findings.add(place, f"link {called} is there already", "the name of a new link")
+        return None
+    return replace(made, name=called)
+
+
+def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
+    """A rolling with its keeper: a block counts its angle as the bar along which it slides."""
+    start, turns = dict(rolling.start), dict(rolling.turns)
+    if rolling.angle is not None:
+        bar = start.get(rolling.on)
+        start[keeper] = rolling.angle if bar is None else combined("+", bar, rolling.angle)
+    if rolling.on in turns and rolling.angle is not None:
+        turns[keeper] = turns[rolling.on]
+    return replace(rolling, keeper=keeper, start=start, turns=turns)
+
+
+def loose_pair(every: Mapping[str, Link], own: Link, on: Link) -> tuple[Wheel, Wheel] | None:
+    """The wheel that rolls and that on which it does, where no third link carries the centres."""
+    pairs = [(w, t) for w in own.wheels for t in on.wheels if not (w.inside and t.inside)]
+    others = [set(link.points) for link in every.values() if link is not own and link is not on]
+    kept = any({w.centre, t.centre} <= points for w, t in pairs for points in others)
+    return pairs[0] if pairs and not kept and pairs[0][0].centre != pairs[0][1].centre else None
+
+
+def bar_between(wheel: Wheel, track: Wheel, measures: Measures) -> Link | None:
+    """The bar from the centre of the wheel rolled on to that of the wheel that rolls there.
+
+    None where a ring is no larger than the wheel within it, which is told elsewhere.
+    """
+    if wheel.radius is None or track.radius is None:
+        return None
+    own, other = wheel.radius, track.radius
+    if wheel.inside:
+        length = combined("-", own, other)
+    else:
+        length = combined("-" if track.inside else "+", other, own)
+    if not length.number(measures.values) > 0:
+        return None
+    ends = track.centre, wheel.centre
+    return Link("", ends, (origin(ends[0], measures), Apart(ends[1], ends[0], length)))
+
+
+def origin(point: str, measures: Measures) -> At:
+    """A point at the origin of its link."""
+    nought = exact(0, measures.units["length"])
+    return At(point, nought, nought)
+
+
+def combined(sign: str, one: Quantity, other: Quantity) -> Quantity:
+    """The sum or the difference of two lengths, in their unit."""
+    text = f"({one.text}) {sign} ({other.text})"
+    return Quantity(text, Sum(sign, one.tree, other.tree), one.unit, one.place)
+
+
+def block_on(wheel: Wheel, rolling: Rolling, measures: Measures) -> Link | None:
+    """The block at a wheel's centre that slides along the track, at the radius from it."""
+    if wheel.radius is None or rolling.angle is None:
+        return None
+    offset = wheel.radius if rolling.side > 0 else wheel.radius.negative()
+    slide = Slide(rolling.on, rolling.through, rolling.angle, None, offset)
+    return Link("", (wheel.centre,), (origin(wheel.centre, measures),), (slide,))
+
+
+def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver]) -> int:
+    """How many pins, slides, drivers and wheels of its own hold a link; the frame needs none."""
+    if name == FRAME:
+        return 2
+    link = every[name]
+    shared = Counter(p for other in every.values() if other is not link for p in other.points)
+    pins = sum(shared[point] > 0 for point in link.points)
+    slides = [*link.slides, *(s for each in every.values() for s in each.slides if s.on == name)]
+    moved = [d for d in drivers if name in (d.link, d.against) and (pins or d.kind != "turn")]
+    wheels = [r for each in every.values() for r in each.rolls if r.on == name and not r.through]
+    return pins + 2 * len(slides) + 2 * len(moved) + len(link.rolls) + len(wheels)

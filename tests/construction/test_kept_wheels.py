@@ -1,0 +1,338 @@
+"""Wheels that nothing but rolling keeps in place: in rings, under bars, on drums, on ropes."""
+
+from __future__ import annotations
+
+from cmath import exp, phase
+from functools import cache
+from math import atan, cos, pi, radians, sin, sqrt
+
+import pytest
+from msgspec.structs import replace
+
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.higher_class.two_trials import TwoTrials
+from graphkin.construction.rolling.rolling_on_wheel import RollingOnWheel
+from graphkin.loops.assemble import assemble
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.read_scene import read_text
+from graphkin.structure.groups import Higher, Spun
+from graphkin.structure.mobility import count
+from graphkin.text.errors import SceneError, StructureError
+from tests.chosen import FOLDER
+
+SCENES = (
+    "wheel-in-ring",
+    "wheel-in-ring-rod",
+    "bar-on-drum",
+    "bar-on-drum-rod",
+    "rope-on-drum",
+    "bar-on-roller",
+)
+HEAD = """
+graphkin = 1
+title = "kept"
+units = {{ length = "m", angle = "rad", speed = "rad/s" }}
+"""
+WHEEL = (
+    HEAD
+    + """
+[frame]
+O = [0, 0]
+wheel = {{ centre = "O", radius = "{track}"{ring} }}
+[links.1]
+P-Q = "{reach}"
+wheel = {{ centre = "P", radius = "{radius}"{round} }}
+rolls = {{ on = 0 }}
+[[drivers]]
+turn = 1
+angle = "{turn}"
+speed = "{speed}"
+acceleration = "{rate}"
+"""
+)
+
+
+@cache
+def example(name, **settings):
+    """A scene of the examples."""
+    return load(FOLDER / f"{name}.toml", **settings)
+
+
+def told(found, point):
+    """Place, velocity and acceleration of a point."""
+    motion = found.points[point]
+    return motion.position, motion.velocity, motion.acceleration
+
+
+def made(text):
+    """The mechanism of a text."""
+    return Mechanism(read_text(text, "kept"))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_it_counts_one_freedom_without_what_was_put_in(name):
+    scene = example(name).scene
+    assert len(scene.keepers) == 1
+    assert set(scene.bare.links) == set(scene.links) - set(scene.keepers)
+    assert count(scene).mobility == 1
+    assert count(scene).singles == 0
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_loops_that_know_no_such_link_agree(name):
+    """The vector loops of the bare scene, led to the same closure, put in nothing."""
+    one = example(name)
+    found = one.solve()
+    assert one.witness(found).agrees
+    bare, wheels = one.scene.bare, {name: wheel for name, (wheel, _) in one.scene.keepers.items()}
+    branches = {wheels.get(name, name): branch for name, branch in bare.branches.items()}
+    motion = assemble(replace(bare, branches=branches)).motion
+    for point in (point for point in found.points if "@" not in point):
+        own = motion.point(point)
+        for got, want in zip(
+            (own.place, own.velocity, own.acceleration), told(found, point), strict=True
+        ):
+            assert complex(got[0]) == pytest.approx(want, abs=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("radius", "track", "inside"),
+    [
+        (0.05, 0.15, "track"),
+        (1e-3, 0.7, "track"),
+        (0.2, 0.3, ""),
+        (3.0, 1e-2, ""),
+        (0.4, 0.1, "own"),
+    ],
+)
+@pytest.mark.parametrize("turn", [0.3, 2.5, -7.0])
+def test_a_driven_wheel_leads_its_centre_about_the_other(radius, track, inside, turn):
+    """Its centre goes round at c = R ± r with ω·r/c, the wheel's rim with r (closed form).
+
+    The same wheel in a ring, beside a wheel, and as a ring about one.
+    """
+    speed, rate, reach = 2.0, 5.0, 0.6 * radius
+    own, other = (-radius if inside == "own" else radius, -track if inside == "track" else track)
+    flags = {"ring": inside == "track", "round": inside == "own"}
+    text = WHEEL.format(
+        radius=radius,
+        track=track,
+        reach=reach,
+        turn=turn,
+        speed=speed,
+        rate=rate,
+        **{key: ", inside = true" if on else "" for key, on in flags.items()},
+    )
+    one = made(text)
+    assert isinstance(one.groups[0], Spun)
+    found, share = one.solve(), own / (own + other)
+    arm = {"ring": track - radius, "round": radius - track}
+    far = next((arm[key] for key, on in flags.items() if on), track + radius)
+
+    def at(way, turning):
+        """A vector with its first two derivatives, of length ``way`` at ``turning`` times φ."""
+        place = way * exp(1j * turning * turn)
+        v = 1j * turning * speed * place
+        return place, v, 1j * turning * rate * place - (turning * speed) ** 2 * place
+
+    centre, pin = at(far, share), at(reach, 1.0)
+    size = far + reach
+    for got, want in zip(told(found, "P"), centre, strict=True):
+        assert got == pytest.approx(want, abs=1e-12 * size * 50)
+    for got, one_, two in zip(told(found, "Q"), centre, pin, strict=True):
+        assert got == pytest.approx(one_ + two, abs=1e-12 * size * 50)
+
+
+def test_the_rim_of_a_wheel_in_a_ring_is_accelerated_to_its_centre():
+    """a_T = ω²·rR/(R - r) against the ring: 16·50·150/100 mm/s², the scene's comment."""
+    one = example("wheel-in-ring")
+    trace = one.trace()
+    (rolls,) = (k for k in constructions(one.program, RollingOnWheel) if k.vector in trace.values)
+    assert abs(trace.values[rolls.vector]) == pytest.approx(1.2)
+
+
+@pytest.mark.parametrize("phi", [20, 60, 120])
+def test_a_bar_on_a_drum_draws_involutes(phi):
+    """Huygens: A = r·(sin φ - φ cos φ, -cos φ - φ sin φ), which starts below the drum."""
+    found, r, turn, speed = example("bar-on-drum", phi=phi).solve(), 0.06, radians(phi), 4.0
+    place, velocity, acceleration = told(found, "A")
+    u = exp(1j * turn)
+    assert place == pytest.approx(-r * (1j + turn) * u)
+    assert velocity == pytest.approx(-1j * r * turn * speed * u)
+    assert acceleration == pytest.approx(r * speed**2 * (turn - 1j) * u)
+
+
+@pytest.mark.parametrize("extra", [0, 3])
+def test_a_driven_bar_counts_its_turns_as_written(extra):
+    """After whole turns more the drum has taken up so many more rims of the bar."""
+    text = (FOLDER / "bar-on-drum.toml").read_text(encoding="utf-8")
+    text = text.replace('angle = "phi"', f'angle = "phi + {360 * extra}"')
+    place = made(text).solve().points["A"].position
+    u, turn = exp(1j * pi / 3), pi / 3 + 2 * pi * extra
+    assert place == pytest.approx(-0.06 * (1j + turn) * u)
+
+
+@pytest.mark.parametrize("s", [200, 300, 400])
+def test_a_rope_keeps_its_length(s):
+    """v·u = ωr along the strand; strand and what is wound up are as long as before."""
+    found = example("rope-on-drum", s=s).solve()
+    end, r = found.points["A"], 0.06
+    way = abs(end.position)
+    strand = sqrt(way**2 - r**2)
+    rise = end.position / way * (-strand / way) + 1j * (end.position / way) * (r / way)
+    rise /= abs(rise)  # from the slider towards the drum
+    omega = found.links["1"].omega
+    assert abs(omega * r) == pytest.approx(abs((end.velocity.conjugate() * rise).real))
+
+
+def test_what_a_rope_winds_is_what_its_strand_loses():
+    """Between two places of the slider the rim turns as strand and its angle say together."""
+    r, lengths, turns = 0.06, [], []
+    for s in (250, 260):
+        one = example("rope-on-drum", s=s)
+        found = one.solve()
+        end, drum = found.points["A"].position, found.points["C"].position
+        lengths.append(sqrt(abs(end) ** 2 - r**2))
+        turns.append((drum, end))
+    angle = [phase(drum) for drum, _ in turns]
+    strand = [
+        phase(end) + atan(length / r) for (_, end), length in zip(turns, lengths, strict=True)
+    ]
+    wound = r * ((angle[1] - angle[0]) - (strand[1] - strand[0]))
+    assert abs(wound) == pytest.approx(lengths[1] - lengths[0])
+
+
+@pytest.mark.parametrize("phi", [0, 60, 130, 250])
+def test_a_bar_lies_on_its_roller(phi):
+    """The bar is the tangent from the crank's pin; the roller turns as the strand of a belt."""
+    found, r = example("bar-on-roller", phi=phi).solve(), 0.03
+    pin, far, centre = found.points["A"], found.points["B"], 0.2 + 0.04j
+    along = (far.position - pin.position) / abs(far.position - pin.position)
+    beside = centre - pin.position
+    assert (along.conjugate() * beside).imag == pytest.approx(-r)
+    touch = centre + 1j * along * r
+    rim = 1j * found.links["3"].omega * (touch - centre)
+    bar = pin.velocity + 1j * found.links["2"].omega * (touch - pin.position)
+    assert rim == pytest.approx(bar)
+
+
+def test_a_hinged_bar_on_a_roller_as_hibbeler_prints_it():
+    """Problem 16-50: ω = (2v/r)·sin²(θ/2), α = (2v²/r²)·sin θ·sin²(θ/2)."""
+    for theta in (30, 60, 85):
+        found, turn = example("plank-hinged", theta=theta).solve(), radians(theta)
+        half = sin(turn / 2) ** 2
+        bar = found.links["2"]
+        assert bar.omega == pytest.approx(2 * 0.1 / 0.05 * half)
+        assert bar.epsilon == pytest.approx(2 * (0.1 / 0.05) ** 2 * sin(turn) * half)
+        assert found.points["B"].position == pytest.approx(0.2 * (cos(turn) + 1j * sin(turn)))
+
+
+@pytest.mark.parametrize("name", ["wheel-in-ring-rod", "bar-on-drum-rod"])
+def test_the_plans_of_what_turns_about_its_contact_need_no_trial(name):
+    """Only the place needs one: the wheel or the bar turns about T at the instant."""
+    one = example(name)
+    (group,) = (each for each in one.groups if isinstance(each, Higher))
+    assert group.at_instant
+    assert not [*constructions(one.program, TwoTrials)]
+
+
+def test_an_arm_and_its_wheel_are_no_dyad_at_an_instant():
+    """Both centres and the contact lie in line; such a group is tried in the plans too."""
+    one = load(FOLDER.parents[1] / "tests" / "scenes" / "two-gear-crank.toml")
+    (group,) = (each for each in one.groups if isinstance(each, Higher))
+    assert not group.at_instant
+
+
+def test_a_planet_may_be_driven_itself_as_by_its_arm():
+    """Between a turning sun and its own driver: as when the arm is driven to where that leads."""
+    text = (
+        HEAD
+        + """
+[frame]
+O = [0, 0]
+[links.sun]
+O = [0, 0]
+wheel = {{ centre = "O", radius = 0.06 }}
+[links.arm]
+O-P = 0.1
+[links.planet]
+P-Q = 0.03
+wheel = {{ centre = "P", radius = 0.04 }}
+rolls = {{ on = "sun" }}
+[[drivers]]
+turn = "sun"
+angle = 0.4
+speed = -3
+acceleration = 2
+[[drivers]]
+turn = "{driven}"
+angle = {angle}
+speed = {speed}
+acceleration = {rate}
+"""
+    )
+    by_arm = made(text.format(driven="arm", angle=0.7, speed=5, rate=-1)).solve()
+    turn = 0.7 - (0.4 - 0.7) * 1.5
+    speed, rate = 5 - (-3 - 5) * 1.5, -1 - (2 + 1) * 1.5
+    own = made(text.format(driven="planet", angle=turn, speed=speed, rate=rate))
+    assert any(isinstance(group, Spun) for group in own.groups)
+    by_planet = own.solve()
+    for point in ("P", "Q"):
+        for got, want in zip(told(by_planet, point), told(by_arm, point), strict=True):
+            assert got == pytest.approx(want)
+
+
+def test_the_line_of_centres_may_be_named_and_driven():
+    text = WHEEL.format(
+        radius=0.05,
+        track=0.15,
+        reach=0.02,
+        turn=0.6,
+        speed=2,
+        rate=0,
+        ring=", inside = true",
+        round="",
+    )
+    named = text.replace("rolls = { on = 0 }", 'rolls = { on = 0, link = "arm" }')
+    one = made(named.replace("turn = 1", 'turn = "arm"'))
+    assert one.solve().links["1"].omega == pytest.approx(-2 * 0.1 / 0.05)
+    assert "arm" in one.scene.bare.links
+
+
+def test_a_name_is_asked_for_only_where_there_is_something_to_name():
+    text = WHEEL.format(
+        radius=0.05,
+        track=0.15,
+        reach=0.02,
+        turn=0.6,
+        speed=2,
+        rate=0,
+        ring=", inside = true",
+        round="",
+    )
+    kept = text.replace("rolls = { on = 0 }", 'rolls = { on = 0, link = "k" }')
+    with pytest.raises(SceneError, match="this wheel is kept where it rolls"):
+        read_text(kept + "[links.2]\nO-P = 0.1\n", "kept")
+    with pytest.raises(SceneError, match="link 1 is there already"):
+        read_text(kept.replace('"k"', '"1"'), "kept")
+
+
+def test_wheels_of_two_sizes_under_a_plank_are_refused_by_name():
+    """No wheel leads a plank that wheels alone hold: as dyads the parallel tracks are singular."""
+    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
+    text = text.replace('slides = { on = 0, through = [0, "2*r"], angle = 0 }', "")
+    text = text.replace(
+        'slide = 3\nposition = 70\nspeed = "v"', 'roll = 1\nposition = 70\nspeed = "v"'
+    )
+    with pytest.raises(StructureError, match="hold link 3, a straight track, by wheels and pins"):
+        made(text).solve()
+
+
+def test_wheels_between_tracks_at_an_angle_are_refused_by_name():
+    """Each track alone says how they roll: only a plank that slides midway lets them do both."""
+    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
+    text = text.replace('through = [0, "2*r"], angle = 0', 'through = [0, "2*r"], angle = 5')
+    with pytest.raises(
+        StructureError, match="wheels 1, 2 between two tracks that are not parallel"
+    ):
+        made(text).solve()
