@@ -19,6 +19,7 @@ from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component import klein
 from graphkin.construction.rolling import rolling, wheel_images
+from graphkin.construction.rolling.kutzbach import draw_ladder
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
@@ -53,6 +54,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
     rolling.refuse_idle_turns(pen)
     write_turning(pen, shapes)
     write_velocities(pen, shapes, standing)
+    draw_ladder(pen)
     write_accelerations(pen, shapes, standing)
     klein.refuse_unused(pen)
     every = [base for _, found in standing for base in found]

@@ -15,6 +15,7 @@ from graphkin.construction.normal_component.normal_component import (
     NormalComponent,
     with_normals_together,
 )
+from graphkin.construction.rolling.kutzbach import with_ladder_together
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.construction.rolling.touching import TOUCHING, TouchingEffect
 
@@ -27,5 +28,6 @@ TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (
     with_starts_together,
     with_centres_together,
     with_normals_together,
+    with_ladder_together,
 )
 """What says several constructions of a kind in one sentence, in the order in which it is done."""

@@ -394,7 +394,8 @@ class Ask(NamedTuple):
 class Sheet(NamedTuple):
     """What the title block and the page say beyond the drawing.
 
-    ``method`` is how normal components are constructed: by right triangles, or Klein's way.
+    ``method`` is how normal components are constructed: by right triangles, or Klein's way;
+    ``plan`` what velocities are drawn as: images alone, or Kutzbach's plan of a train with them.
     ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
     the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
     plan or one for both.
@@ -412,6 +413,7 @@ class Sheet(NamedTuple):
     enlarge: tuple[Quantity, ...] = ()
     ka: Quantity | None = None
     method: str = "triangles"
+    plan: str = "images"
 
 
 class Scene(Struct, frozen=True):

@@ -23,6 +23,7 @@ ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
 METHODS = ("triangles", "klein")
+PLANS = ("images", "kutzbach")
 RULES = ("largest", "lab")
 """How normal components are constructed."""
 MOST = 500
@@ -144,6 +145,9 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
     method = table.text("method", METHODS[0])
     if method not in METHODS:
         findings.add(table.at("method"), shown(method), listed(METHODS), nearest(method, METHODS))
+    plan = table.text("plan", PLANS[0])
+    if plan not in PLANS:
+        findings.add(table.at("plan"), shown(plan), listed(PLANS), nearest(plan, PLANS))
     rule = table.text("rule", RULES[0])
     if rule not in RULES:
         findings.add(table.at("rule"), shown(rule), listed(RULES), nearest(rule, RULES))
@@ -164,6 +168,7 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         enlarge=read_enlarge(table, measures, rule),
         ka=read_positive(table, measures, "ka"),
         method=method,
+        plan=plan,
     )
     table.finish()
     return sheet
