@@ -24,7 +24,6 @@ from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.coincident_points import carried
-from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -67,6 +66,12 @@ def tip_over(
     """Square to the axis the velocity of a point, which is square to its line from p to q."""
     square = 1j * (q - p) / abs(q - p) * side
     return foot + 1j * axis.along / abs(axis.along) * dot(square, velocity - o)
+
+
+@action("ladder-ray")
+def ray_through(first: Point, last: Point, *others: Point) -> Line:
+    """The line through the tips of two points of a link, on which those of its others lie too."""
+    return Line(first, last - first)
 
 
 @action("ladder-speeds")
@@ -137,7 +142,6 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
     laid_off: ClassVar[frozenset[str]] = frozenset({"foot", "tip"})
 
     point: str
-    pole: int
     before: int
     velocity: int | None
     foot: int
@@ -323,7 +327,7 @@ def short(drawing: Drawing, number: int) -> str:
 # --- which wheels it holds -----------------------------------------------------------------------
 
 
-class Standing(NamedTuple):
+class OnAxis(NamedTuple):
     """A point on the axis: its foot, its tip, and where it stands at the scene's own numbers."""
 
     foot: int
@@ -337,18 +341,18 @@ class Ladder:
     def __init__(self, pen: Pen) -> None:
         self.pen, self.scene = pen, pen.scene
         self.meshes = [each for each in contacts(pen.scene) if is_mesh(each)]
-        self.centres: dict[str, Standing] = {}
-        self.on: dict[str, list[Standing]] = {}
+        self.centres: dict[str, OnAxis] = {}
+        self.on: dict[str, list[OnAxis]] = {}
         self.axis, self.seconds = 0, 0
 
     # --- finding its points ----------------------------------------------------------------------
 
     def refusal(self) -> str:
         """Why a scene has no such plan; nothing where it has one."""
-        if not self.meshes:
-            return "no wheels touch"
         if any(each not in self.meshes for each in contacts(self.scene)):
             return "a belt, a rack or a rolling wheel belongs to it"
+        if not self.meshes:
+            return "no wheels touch"
         if self.turner() is None:
             return "no driver turns with a speed"
         for point in self.moving():
@@ -369,10 +373,11 @@ class Ladder:
         return [centre for centre in found if centre not in self.scene.frame.points]
 
     def fixed(self) -> list[str]:
-        """The centres that stand still, and the pins of arms."""
+        """The centres that stand still, and the pins of arms, in the order of the frame."""
         every = (centre for each in self.meshes for centre in centres_of(each))
         arms = (arm[1] for centre in self.moving() if (arm := self.arm_of(centre)))
-        return [p for p in dict.fromkeys((*every, *arms)) if p in self.scene.frame.points]
+        found = {*every, *arms}
+        return [point for point in self.scene.frame.points if point in found]
 
     def arm_of(self, centre: str) -> tuple[str, str] | None:
         """The link that carries a moving centre about a fixed pin, and that pin."""
@@ -421,16 +426,13 @@ class Ladder:
         )
         names = {"p": first, "q": other, "name": foot_name(first)}
         pen.make(LadderAxis(**names, axis=self.axis, start=start))
-        self.centres[first] = Standing(start, start, 0.0)
+        self.centres[first] = OnAxis(start, start, 0.0)
 
     def place_fixed(self) -> None:
-        """The other fixed centres, each beyond one that its wheels touch."""
+        """The other fixed centres, each beyond one that its wheels touch, else beyond the first."""
         waiting = [centre for centre in self.fixed() if centre not in self.centres]
         while waiting:
-            found = next(self.reached(waiting), None)
-            if found is None:
-                break
-            known, centre = found
+            known, centre = next(self.reached(waiting), (next(iter(self.centres)), waiting[0]))
             self.put(centre, known, (known, centre), 1, moves=False)
             waiting.remove(centre)
 
@@ -452,7 +454,7 @@ class Ladder:
             self.carry(wheel, self.centres[centre])
 
     def place_contact(self, contact: Contact) -> None:
-        """A pitch point, on the line from a fixed centre; that of two planets is not on the axis."""
+        """A pitch point on the line from a fixed centre; that of two planets is off the axis."""
         fixed = [c for c in centres_of(contact) if c in self.scene.frame.points]
         if not fixed:
             return
@@ -479,10 +481,11 @@ class Ladder:
             velocity = self.velocity(point)
             known = foot, self.axis, *ends, o, velocity
             tip = pen.draw(tip_over, *known, extra=(side,), name=tip_name(point))
-        own = {"before": start.foot, "velocity": velocity, "foot": foot, "tip": tip}
-        pen.make(LadderPoint(point=str(point), pole=o, **own))
+        pen.make(
+            LadderPoint(point=str(point), before=start.foot, velocity=velocity, foot=foot, tip=tip)
+        )
         at = start.at + side * abs(self.spot(line[1]) - self.spot(line[0]))
-        self.centres[point] = Standing(foot, foot if tip is None else tip, at)
+        self.centres[point] = OnAxis(foot, foot if tip is None else tip, at)
 
     def velocity(self, point: str) -> int:
         """The image of a point; of a pitch point that of either wheel."""
@@ -499,7 +502,7 @@ class Ladder:
         links = self.scene.links.values()
         return [link.name for link in links if any(w.centre == centre for w in link.wheels)]
 
-    def carry(self, link: str, *points: Standing) -> None:
+    def carry(self, link: str, *points: OnAxis) -> None:
         """Points that a link carries, each once."""
         own = self.on.setdefault(link, [])
         own += [point for point in points if point not in own]
@@ -512,8 +515,7 @@ class Ladder:
                 problem(f"link {link} touches no wheel about a fixed centre, so that it has no ray")
             )
         ends = own[0].tip, own[-1].tip
-        with self.pen.on(Part.VELOCITY, Plane.VELOCITIES):
-            ray = self.pen.draw(line_through, *ends)
+        ray = self.pen.draw(ray_through, *ends, *(each.tip for each in own[1:-1]))
         return self.pen.make(LadderRay(link=link, first=ends[0], last=ends[1], ray=ray)).ray
 
     def speed_pole(self) -> SpeedPole:
@@ -525,14 +527,18 @@ class Ladder:
         end = next(name for name, each in self.centres.items() if each is far)
         span = tuple(pen.the("position", point) for point in (near, end))
         aside = far.foot, self.axis, *span, self.seconds
-        pole = pen.draw(foot_beyond, *aside, extra=(BESIDE,), name="S")
+        pole = pen.draw(foot_beyond, *aside, extra=(BESIDE,), name=self.free_letter())
         p, q = min(centres_of(contact), key=lambda c: self.rim(c, contact)), contact_name(contact)
         width = tuple(pen.the("position", point) for point in (p, q))
-        start = pen.draw(
-            foot_beyond, pole, self.axis, *width, self.seconds, extra=(1,), name="n_0"
-        )
+        start = pen.draw(foot_beyond, pole, self.axis, *width, self.seconds, extra=(1,), name="n_0")
         line = pen.draw(line_of_speeds, start, self.axis)
         return pen.make(SpeedPole(p=p, q=str(q), pole=pole, start=start, line=line))
+
+    def free_letter(self) -> str:
+        """The letter of the pole of speeds: one that no point of the scene has."""
+        links = (self.scene.frame, *self.scene.links.values())
+        taken = {point for link in links for point in link.points}
+        return next(letter for letter in ("S", "H", "Z", "Sn") if letter not in taken)
 
     def rim(self, centre: str, contact: Contact) -> float:
         """The distance of a centre from a pitch point."""
@@ -558,8 +564,9 @@ class Ladder:
                     read = pen.draw(speed_cut, *args)
                 rate = pen.draw(kept, known, name=link, by_hand=read)
             pen.want(OMEGA, link, rate)
-        made = {"parallel": parallel, "cut": cut, "read": read, "rate": rate}
-        pen.make(SpeedRead(link=link, scale=scale, **made))
+        pen.make(
+            SpeedRead(link=link, scale=scale, parallel=parallel, cut=cut, read=read, rate=rate)
+        )
 
 
 def is_mesh(contact: Contact) -> bool:
