@@ -17,7 +17,7 @@ from math import comb
 import numpy as np
 from msgspec import Struct
 
-from graphkin.loops.equations import Equations, equations
+from graphkin.loops.equations import Equations, equations, tied_by
 from graphkin.loops.poses import setting_of
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
@@ -141,7 +141,7 @@ def joints(loops: Equations) -> tuple[Joint, ...]:
 def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
     """Wheels that touch with their arm, and drivers: they tie coordinates of links alone."""
     wheels = [Joint((*gear.links, gear.arm)) for gear in loops.gears]
-    drivers = [Joint((each.link, each.against), drives=True) for each in scene.drivers]
+    drivers = [Joint(tied_by(each), drives=True) for each in scene.drivers]
     return (*wheels, *drivers)
 
 
@@ -285,7 +285,7 @@ def sure_crank(scene: Scene, group: Group) -> bool:
     """Whether a group is one link turned about a pin, or slid along its guide."""
     if not group.is_driven:
         return False
-    wanted = {tuple(sorted(joint.links)) for joint in group.ties}
+    wanted = {tuple(sorted(joint.links[:2])) for joint in group.ties}
     kinds = {d.kind for d in scene.drivers if tuple(sorted((d.link, d.against))) in wanted}
     return kinds == ({"turn"} if group.outer[0].pin else {"slide"})
 

@@ -13,7 +13,6 @@ from graphkin.scene.known_names import all_points, known_link, known_point, name
 from graphkin.scene.link_names import check_names
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
 from graphkin.scene.quantity import shortest
-from graphkin.scene.read_cams import check_cams
 from graphkin.scene.read_profiles import check_profiles
 from graphkin.text.errors import Hint, Mend
 
@@ -27,7 +26,6 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     check_alone(scene, findings)
     check_blocks(scene, findings)
     check_drivers(scene, findings)
-    check_cams(scene, findings)
     check_branches(scene, findings)
     check_names(scene, findings)
     check_far(scene, findings)

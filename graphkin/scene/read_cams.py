@@ -11,9 +11,9 @@ from collections.abc import Mapping
 
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
-from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, shown
+from graphkin.scene.findings import Table, listed, nearest, numbered, shown
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Driver, Link, Scene, Slide
+from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Link, Slide
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
 
@@ -254,20 +254,3 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures) -> None:
     if abs(lift) > 1e-9 * size:
         found = f"the rises add up to {lift:g}"
         findings.add(place, found, "0: after a whole turn the follower stands as before")
-
-
-def turning_driver(scene: Scene, cam: Cam) -> Driver | None:
-    """The driver that turns a cam against the frame by the angle of its x axis."""
-    for driver in scene.drivers:
-        if driver.kind == "turn" and (driver.link, driver.against) == (cam.on, FRAME):
-            return driver if driver.of is None else None
-    return None
-
-
-def check_cams(scene: Scene, findings: Findings) -> None:
-    """Every cam is turned by a driver, by whose angle the law is read."""
-    for follower, cam in scene.cams.items():
-        if turning_driver(scene, cam) is None:
-            found = f"no driver turns link {cam.on} against the frame by its own x axis"
-            expected = f"[[drivers]] turn = {cam.on}, without against and of"
-            findings.add(f"links.{follower}.cam.on", found, expected)
