@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from msgspec import Struct
 
@@ -34,6 +34,8 @@ from graphkin.text.hooks import service
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+K = TypeVar("K")
+V = TypeVar("V")
 Which = Literal["mechanism", "velocity", "acceleration"]
 """The drawings of a mechanism that can be put into axes."""
 
@@ -57,6 +59,17 @@ def load(name: str | Path, /, **settings: object) -> Mechanism:
     Raises SceneError or StructureError with everything that is wrong.
     """
     return Mechanism(read_scene(scene_files.find(str(name)), settings))
+
+
+LAST = 6
+"""How many slices and drawings a mechanism keeps."""
+
+
+def kept(memory: dict[K, V], key: K, value: V) -> None:
+    """Keep a value, and forget the oldest of too many."""
+    memory[key] = value
+    if len(memory) > LAST:
+        del memory[next(iter(memory))]
 
 
 class Mechanism(Struct, frozen=True, dict=True):
@@ -85,6 +98,30 @@ class Mechanism(Struct, frozen=True, dict=True):
     def trial_rates(self) -> Mapping[int, float]:
         """What the hand tries in the trial plans of groups of higher class, by the step."""
         return trial_rates(self.scene, self.program)
+
+    @cached_property
+    def sliced(self) -> dict[tuple[tuple[Target, ...], bool], tuple[int, ...]]:
+        """The steps that targets need, of those that were asked for last."""
+        return {}
+
+    @cached_property
+    def drawings(self) -> dict[tuple[int, ...], Trace]:
+        """What was drawn last of some steps, at one scale of velocities or another."""
+        return {}
+
+    def steps_of(self, targets: tuple[Target, ...], by_hand: bool) -> tuple[int, ...]:
+        """The steps that targets need, sliced once."""
+        key = targets, by_hand
+        if key not in self.sliced:
+            kept(self.sliced, key, self.program.needed(targets, by_hand=by_hand))
+        return self.sliced[key]
+
+    def drawn_at(self, needed: tuple[int, ...], overrides: Mapping[int, Any]) -> Trace:
+        """The drawn steps at a scale of velocities: only what depends on that is drawn anew."""
+        program, begun = self.program, self.drawings.get(needed)
+        trace = run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
+        kept(self.drawings, needed, trace)
+        return trace
 
     def spoken(self, language: str | None) -> Mechanism:
         """The same with its links called as in a language; in the scene's own if None."""
@@ -120,11 +157,14 @@ class Mechanism(Struct, frozen=True, dict=True):
         ClosureError for a step that cannot be drawn.
         """
         program = self.program
-        needed = program.needed(program.answers if targets is None else targets, by_hand=by_hand)
+        wanted = program.answers if targets is None else tuple(targets)
+        needed = self.steps_of(wanted, by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         overrides |= self.trial_rates if by_hand else {}
         try:
-            if kind is FLOAT:
+            if kind is FLOAT and by_hand and program.seconds is not None:
+                trace = self.drawn_at(needed, overrides)
+            elif kind is FLOAT:
                 trace = run_settled(self.scene, program, needed, overrides=overrides)
             else:
                 with kind.working():
