@@ -7,6 +7,7 @@ points before it; where a link is put in the plane is for the construction to fi
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -416,7 +417,7 @@ class Sheet(NamedTuple):
     plan: str = "images"
 
 
-class Scene(Struct, frozen=True):
+class Scene(Struct, frozen=True, dict=True):
     """A planar mechanism in one position, with what is asked of it.
 
     ``near`` are angles within half a turn of which those of links are taken, where a motion says
@@ -455,20 +456,26 @@ class Scene(Struct, frozen=True):
         links = self.links.values()
         return tuple((link.name, each.on) for link in links for each in link.rolls if each.belt)
 
-    @property
+    @cached_property
     def cams(self) -> Mapping[str, Cam]:
         """The cams by the links that they lift."""
         return {link.name: link.cam for link in self.links.values() if link.cam is not None}
 
-    @property
+    @cached_property
     def cam_links(self) -> Mapping[str, str]:
         """The links of equivalent linkages, with the follower that each moves."""
         return {cam.link: follower for follower, cam in self.cams.items()}
 
-    @property
+    @cached_property
     def cam_centres(self) -> Mapping[str, str]:
         """The centres of curvature of cams, with the follower that each moves."""
         return {cam.centre: follower for follower, cam in self.cams.items()}
+
+    @cached_property
+    def points(self) -> Mapping[str, None]:
+        """Every point of every link, once, in the order written."""
+        every = (self.frame, *self.links.values())
+        return dict.fromkeys(point for link in every for point in link.points)
 
     def link(self, name: str) -> Link:
         """The link of a name, the frame included."""

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
-from graphkin.scene.known_names import all_points, known_link, known_point
+from graphkin.scene.known_names import known_link, known_point
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
 from graphkin.scene.phrases import asked_point, branch_hint, branch_words, link_name, point_name
@@ -73,7 +73,7 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
         return name if link is not None else None
     name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
     point, _, of = (name or "").partition("@")
-    if name is None or not known_point(point, all_points(scene), "the mechanism", place, findings):
+    if name is None or not known_point(point, scene.points, "the mechanism", place, findings):
         return None
     return None if of and known_link(scene, of, place, findings) is None else name
 
