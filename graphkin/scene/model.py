@@ -234,6 +234,13 @@ class CamLever(NamedTuple):
     face: Quantity
 
 
+class Conjugate(NamedTuple):
+    """A second roller of a follower, about its point ``at``, on a second profile of the cam."""
+
+    at: str
+    roller: Quantity
+
+
 class Cam(NamedTuple):
     """What lifts a follower, by its law: the disc of link ``on``, which turns about ``pivot``.
 
@@ -241,6 +248,7 @@ class Cam(NamedTuple):
     its centre, its edge, a point of it. A ``lever`` swings, else the follower slides. The law
     counts from the cam's angle ``start``, ``sense`` +1 counter-clockwise. The equivalent linkage
     of an instant joins the centre of curvature ``centre``, a point of the cam, by link ``link``.
+    A ``conjugate`` roller closes it; it takes nothing from the motion.
     """
 
     on: str
@@ -255,6 +263,7 @@ class Cam(NamedTuple):
     link: str
     point: str
     lever: CamLever | None = None
+    conjugate: Conjugate | None = None
 
     @property
     def is_flat(self) -> bool:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.accuracy.certified import Certifier
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.construction.cams import cam_centre
-from graphkin.construction.core.cam_profiles import CamProfile
+from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.numbers.cam_motions import MOTIONS
@@ -412,6 +412,30 @@ def test_a_table_moves_the_follower_by_the_periodic_spline_through_it():
         assert slide.speed == pytest.approx(rate * omega, abs=1e-10)
         assert slide.acceleration == pytest.approx(bend * omega**2, abs=1e-8)
         assert mechanism.witness(solution).agrees
+
+
+@pytest.mark.parametrize("slides", [False, True])
+def test_the_second_roller_touches_the_conjugate_profile_all_the_way_round(slides):
+    """Its circle keeps its radius from the profile, and is nowhere nearer; the motion stays."""
+    text = (SCENES / "cam-conjugate.toml").read_text(encoding="utf-8")
+    if slides:
+        roller = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+        text = roller.replace("B = [0, 0]", "B = [0, 0]\nC = [-110, 6]", 1)
+        text = text.replace("law = [", 'conjugate = { at = "C", roller = 12 }\nlaw = [', 1)
+    scene = read_text(text, "cam")
+    (follower,) = scene.cams
+    both = profiles_of(scene, follower, 1440)
+    radius = both[1].roller
+    for at in range(0, 360, 30):
+        here = Mechanism(replace(scene, values={**scene.values, "angle": Fraction(at)}))
+        solution = here.solve()
+        cam = np.exp(1j * np.radians(at))
+        place = (solution.points["C"].position - solution.points["O"].position) / cam
+        away = abs(both[1].outline - place)
+        assert away.min() == pytest.approx(radius, rel=2e-3)
+        single = read_text(text.replace("conjugate = ", "# "), "cam")
+        alone = Mechanism(replace(single, values=here.scene.values)).solve()
+        assert alone.points["B"].acceleration == solution.points["B"].acceleration
 
 
 def test_lifts_of_a_table_may_be_expressions():
