@@ -470,7 +470,7 @@ def test_a_cam_that_any_link_turns_lifts_by_its_law(name):
     (follower,) = scene.cams
     cam = scene.cams[follower]
     for at in np.linspace(0, 360, 12, endpoint=False) + 7.1:
-        turned = scene.drivers[0]._replace(position=exact(Fraction(float(at)), "deg"))
+        turned = replace(scene.drivers[0], position=exact(Fraction(float(at)), "deg"))
         mechanism = Mechanism(replace(scene, drivers=(turned,)))
         trace, solution = mechanism.trace(), mechanism.solve()
         shaft = solution.links[cam.on]
