@@ -10,6 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.branches import has_two_ways
+from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed, Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
@@ -203,7 +204,7 @@ def closure(
     try:
         trace, failing = run_positions(scene, program, every, known), ""
     except StepFailed as failed:
-        failing = failed.step.name or f"step {failed.number}"
+        failing = letter_of(program, failed.number) or f"step {failed.number}"
         try:
             trace = run_positions(scene, program, program.needed([target]), known)
         except StepFailed:
