@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from msgspec import Struct
 
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
     from graphkin.construction.tape.batch_runner import BatchRunner
 
+K = TypeVar("K")
+V = TypeVar("V")
 Which = Literal["mechanism", "velocity", "acceleration"]
 """The drawings of a mechanism that can be put into axes."""
 
@@ -54,6 +56,17 @@ def load(name: str | Path, /, **settings: object) -> Mechanism:
     Raises SceneError or StructureError with everything that is wrong.
     """
     return Mechanism(read_scene(scene_files.find(str(name)), settings))
+
+
+LAST = 6
+"""How many slices and drawings a mechanism keeps."""
+
+
+def kept(memory: dict[K, V], key: K, value: V) -> None:
+    """Keep a value, and forget the oldest of too many."""
+    memory[key] = value
+    if len(memory) > LAST:
+        del memory[next(iter(memory))]
 
 
 class Mechanism(Struct, frozen=True, dict=True):
@@ -94,6 +107,23 @@ class Mechanism(Struct, frozen=True, dict=True):
 
         return trial_rates(self.scene, self.program)
 
+    @cached_property
+    def sliced(self) -> dict[tuple[tuple[Target, ...], bool], tuple[int, ...]]:
+        """The steps that targets need, of those that were asked for last."""
+        return {}
+
+    @cached_property
+    def drawings(self) -> dict[tuple[int, ...], Trace]:
+        """What was drawn last of some steps, at one scale of velocities or another."""
+        return {}
+
+    def steps_of(self, targets: tuple[Target, ...], by_hand: bool) -> tuple[int, ...]:
+        """The steps that targets need, sliced once."""
+        key = targets, by_hand
+        if key not in self.sliced:
+            kept(self.sliced, key, self.program.needed(targets, by_hand=by_hand))
+        return self.sliced[key]
+
     def spoken(self, language: str | None) -> Mechanism:
         """The same with its links called as in a language; in the scene's own if None."""
         scene = in_language(self.scene, language or self.scene.sheet.language)
@@ -128,11 +158,15 @@ class Mechanism(Struct, frozen=True, dict=True):
         ClosureError for a step that cannot be drawn.
         """
         program = self.program
-        needed = program.needed(program.answers if targets is None else targets, by_hand=by_hand)
+        wanted = program.answers if targets is None else tuple(targets)
+        needed = self.steps_of(wanted, by_hand)
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         overrides |= self.trial_rates if by_hand else {}
         try:
-            if kind is FLOAT:
+            if kind is FLOAT and by_hand and program.seconds is not None:
+                trace = self.in_doubles(needed, overrides, self.drawings.get(needed))
+                kept(self.drawings, needed, trace)
+            elif kind is FLOAT:
                 trace = self.in_doubles(needed, overrides)
             else:
                 with kind.working():
@@ -145,13 +179,17 @@ class Mechanism(Struct, frozen=True, dict=True):
             service("refuse_touching")(self.scene, trace)
         return trace
 
-    def in_doubles(self, needed: Sequence[int], overrides: Mapping[int, Any]) -> Trace:
-        """The values of some steps in doubles. Raises StepFailed."""
+    def in_doubles(
+        self, needed: Sequence[int], overrides: Mapping[int, Any], begun: Trace | None = None
+    ) -> Trace:
+        """The values of some steps in doubles, what was ``begun`` at another scale of velocities
+        kept where it does not depend on that. Raises StepFailed."""
+        program, values = self.program, self.scene.values
         if not self.is_of_higher_class:
-            return run(self.program, needed, self.scene.values, FLOAT, overrides=overrides)
+            return run(program, needed, values, FLOAT, overrides=overrides, begun=begun)
         from graphkin.construction.higher_class.settling import run_settled
 
-        return run_settled(self.scene, self.program, needed, overrides=overrides)
+        return run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
 
     def solve(self, *, asked: bool = False) -> Solution:
         """The motion of every point and link, or only what the scene asks for."""

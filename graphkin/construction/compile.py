@@ -60,6 +60,10 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
         rolling.refuse_idle_turns(pen)
     write_turning(pen, shapes)
     write_velocities(pen, shapes, standing)
+    if scene.sheet.plan == "kutzbach":
+        from graphkin.construction.rolling.kutzbach import draw_ladder
+
+        draw_ladder(pen)
     write_accelerations(pen, shapes, standing)
     klein.refuse_unused(pen)
     every = [base for _, found in standing for base in found]

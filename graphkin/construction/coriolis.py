@@ -41,7 +41,6 @@ from graphkin.construction.normal_component.normal_component import set_velocity
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import all_points
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
 
@@ -456,7 +455,7 @@ def similar_triangles(
 
 def corners(scene: Scene) -> str:
     """The letters of a Coriolis triangle's corners: e and f, or others where points bear these."""
-    points = {name[0].lower() for name in all_points(scene)}
+    points = {name[0].lower() for name in scene.points}
     return next((pair for pair in CORNERS if not points & {*pair}), CORNERS[0])
 
 

@@ -18,6 +18,7 @@ from graphkin.construction.normal_component.normal_component import (
     with_normals_together,
 )
 from graphkin.construction.rolling.contact_points import of_contacts
+from graphkin.construction.rolling.kutzbach import with_ladder_together
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.construction.rolling.touching import TOUCHING, TouchingEffect
 
@@ -40,5 +41,6 @@ TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (
     with_starts_together,
     with_centres_together,
     with_normals_together,
+    with_ladder_together,
 )
 """What says several constructions of a kind in one sentence, in the order in which it is done."""

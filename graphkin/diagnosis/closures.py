@@ -10,6 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.branches import has_two_ways
+from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed, Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
@@ -43,7 +44,8 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
     """The closures of every group that closes in more than one way."""
     found: list[Choice] = []
     taken: set[int] = set()
-    stated = values_as_stated(scene, program)
+    every = placing(program)
+    stated = values_as_stated(scene, program, every)
     for whole in groups:
         group = whole.dyad if isinstance(whole, Stretched) else whole
         number = choosing_step(scene, group, program, taken)
@@ -52,12 +54,12 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
         taken.add(number)
         point = shown_point(scene, group, program)
         if isinstance(group, Dyad):
-            both = [
-                dyad_closure(scene, program, number, group, point, way, stated) for way in (1, -1)
-            ]
+            own = program, number, group, point
+            both = [dyad_closure(scene, *own, way, every, stated) for way in (1, -1)]
             found.append(Choice(group.links, point, tuple(both)))
         else:
-            found.append(Choice(group.links, point, numbered(scene, program, number, point)))
+            every_one = numbered(scene, program, number, point, every)
+            found.append(Choice(group.links, point, every_one))
     return tuple(found)
 
 
@@ -118,6 +120,7 @@ def dyad_closure(
     dyad: Dyad,
     point: str,
     way: int,
+    every: tuple[int, ...],
     before: Mapping[int, Any],
 ) -> GroupClosure:
     """One closure of a dyad: the picked crossing (way +1) or the other one (-1).
@@ -127,10 +130,12 @@ def dyad_closure(
     step = program.steps[number]
     other = replaced(program, number, replace(step, extra=(way * step.extra[0], *step.extra[1:])))
     words = words_of(scene, point, dyad, way)
-    return closure(scene, other, number, words, point, chosen=way > 0, before=before)
+    return closure(scene, other, number, words, point, every, chosen=way > 0, before=before)
 
 
-def numbered(scene: Scene, program: Program, number: int, point: str) -> tuple[GroupClosure, ...]:
+def numbered(
+    scene: Scene, program: Program, number: int, point: str, every: tuple[int, ...]
+) -> tuple[GroupClosure, ...]:
     """All closures of a group of higher class, in the order of their numbers."""
     step = program.steps[number]
     closer = closer_of(step)
@@ -145,7 +150,7 @@ def numbered(scene: Scene, program: Program, number: int, point: str) -> tuple[G
         action = replace(step.action, value=replace(closer, number=k))
         other = replaced(program, number, replace(step, action=action))
         chosen = k == closer.number
-        found.append(closure(scene, other, number, f"closure {k}", point, chosen=chosen))
+        found.append(closure(scene, other, number, f"closure {k}", point, every, chosen=chosen))
     return tuple(found)
 
 
@@ -156,12 +161,17 @@ def replaced(program: Program, number: int, step: Step) -> Program:
     return replace(program, steps=tuple(steps))
 
 
-def values_as_stated(scene: Scene, program: Program) -> Mapping[int, Any]:
+def values_as_stated(scene: Scene, program: Program, every: tuple[int, ...]) -> Mapping[int, Any]:
     """The values of the positions as the scene states its branches; none where these fail."""
     try:
-        return run_positions(scene, program, program.needed(positions_of(program))).values
+        return run_positions(scene, program, every).values
     except StepFailed:
         return {}
+
+
+def placing(program: Program) -> tuple[int, ...]:
+    """The steps that place all points."""
+    return program.needed(positions_of(program))
 
 
 def positions_of(program: Program) -> list[Target]:
@@ -175,21 +185,26 @@ def closure(
     number: int,
     words: str,
     point: str,
+    every: tuple[int, ...],
     *,
     chosen: bool,
     before: Mapping[int, Any] = MappingProxyType({}),
 ) -> GroupClosure:
     """A closure in words: where it puts a point (m), and what then cannot be drawn.
 
-    ``number`` is the step that picks it: what comes earlier is as ``before``, and all of the
-    ``chosen`` one.
+    ``number`` is the step that picks it: what does not depend on that is as ``before``, and all of
+    the ``chosen`` one. ``every`` are the steps that place all points.
     """
-    known = {step: value for step, value in before.items() if chosen or step < number}
-    target, every = ("position", point), program.needed(positions_of(program))
+    target = ("position", point)
+    if chosen and before:
+        place = before.get(program.targets.get(target, -1))
+        return GroupClosure(words, place if isinstance(place, complex) else None, chosen, "")
+    changed = program.descendants(number, every)
+    known = {step: value for step, value in before.items() if step not in changed}
     try:
         trace, failing = run_positions(scene, program, every, known), ""
     except StepFailed as failed:
-        failing = failed.step.name or f"step {failed.number}"
+        failing = letter_of(program, failed.number) or f"step {failed.number}"
         try:
             trace = run_positions(scene, program, program.needed([target]), known)
         except StepFailed:

@@ -13,6 +13,7 @@ from graphkin.construction.core.program import PLACES, Target
 from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.solution import Curve, Solution, Verdict
+from graphkin.construction.rolling.kutzbach import SPEEDS
 from graphkin.documents.composing import Needs, Search, Stated, searched
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
@@ -34,10 +35,8 @@ def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
         asked += mechanism.program.also_found(later, ("velocity", OMEGA), asked)
     if not asked and not (kind == "velocity" and (ask.curves or ask.centrodes)):
         return ()
-    positions = [
-        target for target in mechanism.program.targets if target[0] in ("position", *PLACES)
-    ]
-    return (*positions, *asked)
+    drawn = ("position", *PLACES, *((SPEEDS,) if kind == "velocity" else ()))
+    return (*(t for t in mechanism.program.targets if t[0] in drawn), *asked)
 
 
 def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:

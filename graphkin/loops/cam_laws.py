@@ -1,37 +1,33 @@
-"""Cams in the loops: a follower driven along its guide, or turned, by s(φ), s'ω and s"ω² + s'ε.
+"""Cams in the loops: a follower's coordinate, or its angle, less what the law of its cam gives.
 
-The equivalent linkage is taken out: the loops know nothing of centres of curvature.
+The equivalent linkage is taken out: the loops know nothing of centres of curvature. The law is an
+equation between the follower's unknown and the cam's angle, whatever turns the cam.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from msgspec.structs import replace
 
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.rigid_bodies import Numbers, bodies_of, guide_line
-from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real, phase, turn_by
+from graphkin.numbers.arithmetic import Point, Real, turn_by
 from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.expression import Number
 from graphkin.scene.model import FRAME, Cam, Driver, Scene
-from graphkin.scene.quantity import Quantity
-from graphkin.scene.read_cams import turning_driver
+from graphkin.scene.quantity import Quantity, exact
 
 
 @dataclass(frozen=True, slots=True)
 class ByLaw(Quantity):
-    """The coordinate or the angle of a follower, its speed or its acceleration, in SI.
-
-    ``order`` tells which of the three.
+    """The coordinate or the angle of a follower, which its cam's angle gives; its rates are none
+    of their own.
     """
 
     scene: Scene | None = None
     follower: str = ""
-    order: int = 0
 
     @property
     def cam(self) -> Cam:
@@ -39,34 +35,24 @@ class ByLaw(Quantity):
         assert self.scene is not None
         return self.scene.cams[self.follower]
 
-    def rise(self, values: Mapping[str, Any], kind: Kind) -> tuple[Rise, Driver]:
-        """The displacement, by the angle of the driver that turns the cam."""
-        assert self.scene is not None
+    def start(self, numbers: Numbers) -> Point:
+        """Where the follower rests on the base circle: its coordinate, or a lever's direction."""
+        return self.resting(numbers) if self.cam.lever else self.least(numbers)
+
+    def at(self, turn: Point, numbers: Numbers, start: Point) -> Rise:
+        """By the direction of the cam's x axis: the coordinate (m) or the direction of a lever's
+        bar, then its first and second derivative by the cam's angle, of the lever's angle."""
         cam = self.cam
-        driver = turning_driver(self.scene, cam)
-        assert driver is not None
-        turn = driver.position.direction(values, kind)
-        return cam.displacement(turn, values, kind), driver
+        rise = cam.displacement(turn, numbers.values, numbers.kind)
+        if cam.lever is None:
+            return Rise(rise.at + start, rise.rate, rise.bend)
+        away = -cam.lever.side
+        return Rise(start * turn_by(away * rise.at), away * rise.rate, away * rise.bend)
 
-    def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
-        """By the law; of a lever the angle of its bar in the frame."""
-        rise, driver = self.rise(values, kind)
-        if self.order == 0:
-            if self.cam.lever:
-                return phase(self.direction(values, kind))
-            return rise.at + self.least(values)
-        away = -self.cam.lever.side if self.cam.lever else 1
-        omega = driver.speed.si(values, kind)
-        if self.order == 1:
-            return away * rise.rate * omega
-        push = driver.acceleration.si(values, kind)
-        return away * (rise.bend * omega**2 + rise.rate * push)
-
-    def direction(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Point:
-        """The direction of a lever: on the base circle by half angles, then swung by the law."""
-        numbers, cam, lever = Numbers.of(values), self.cam, self.cam.lever
-        assert lever is not None and self.scene is not None
-        rise, _ = self.rise(values, kind)
+    def resting(self, numbers: Numbers) -> Point:
+        """The direction of a lever on the base circle, by half angles."""
+        cam, lever = self.cam, self.cam.lever
+        assert lever is not None
         bodies, _ = bodies_of(self.without_cams(), numbers)
         bar = bodies[FRAME][cam.pivot] - bodies[FRAME][lever.pin]
         near, sqrt = abs(bar), numbers.kind.sqrt
@@ -79,13 +65,11 @@ class ByLaw(Quantity):
             prime = numbers.si(cam.base) + numbers.si(cam.roller)
             over, under = (prime - near + arm) * (prime + near - arm), near + arm
             half = sqrt(over / ((under - prime) * (under + prime)))
-        begun = (1 - lever.side * half * 1j) ** 2 / (1 + half * half)
-        return bar / near * begun * turn_by(-lever.side * rise.at)
+        return bar / near * (1 - lever.side * half * 1j) ** 2 / (1 + half * half)
 
-    def least(self, values: Mapping[str, Any]) -> Real:
+    def least(self, numbers: Numbers) -> Real:
         """The coordinate of a sliding follower on the base circle."""
         assert self.scene is not None
-        numbers = Numbers.of(values)
         cam, slide = self.cam, self.scene.link(self.follower).slides[0]
         bodies, starts = bodies_of(replace(self.scene, links={}), numbers)
         through, along = guide_line(slide, bodies[FRAME], starts[FRAME], numbers)
@@ -114,16 +98,12 @@ def by_law(scene: Scene) -> Scene:
         for name, link in scene.links.items()
         if name not in out
     }
+    none = exact(0, scene.units["length"])
     drivers = [*scene.drivers]
     for follower, cam in scene.cams.items():
-        place, speed, push = (
-            ByLaw("", Number(Fraction(0)), "", "", scene, follower, order) for order in range(3)
-        )
-        if cam.lever:
-            line = cam.lever.pin, cam.point
-            drivers.append(Driver("turn", follower, FRAME, place, speed, push, line))
-        else:
-            drivers.append(Driver("slide", follower, FRAME, place, speed, push))
+        law = ByLaw("", Number(Fraction(0)), "", "", scene, follower)
+        line = (cam.lever.pin, cam.point) if cam.lever else None
+        drivers.append(Driver("turn" if line else "slide", follower, FRAME, law, none, none, line))
     return replace(scene, links=links, drivers=tuple(drivers))
 
 

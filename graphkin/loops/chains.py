@@ -20,12 +20,13 @@ class Linear(NamedTuple):
     """The vectors of all chains in one position, split by the unknown that moves them.
 
     ``turned`` (N, R, K) is the part of each chain that turns with θ_k, ``along`` (N, R, m) its
-    derivative by s_j, ``place`` (N, R) its end.
+    derivative by s_j, ``place`` (N, R) its end, ``unknowns`` (N, K + m) those of the position.
     """
 
     place: Complexes
     turned: Complexes
     along: Complexes
+    unknowns: Reals
 
 
 class Chains(Struct, frozen=True, eq=False):
@@ -47,7 +48,7 @@ class Chains(Struct, frozen=True, eq=False):
         turned = self.fixed * turn[:, None, :]
         for j, k in enumerate(self.carrier):
             turned[:, :, k] += along[:, :, j] * slides[:, None, j]
-        return Linear(turned.sum(axis=-1), turned[:, :, 1:], along)
+        return Linear(turned.sum(axis=-1), turned[:, :, 1:], along, unknowns)
 
     def split(self, unknowns: Reals) -> tuple[Reals, Reals]:
         """Angles of all turnings, the frame's zero first, and slide coordinates."""

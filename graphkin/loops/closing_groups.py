@@ -17,7 +17,7 @@ from math import comb
 import numpy as np
 from msgspec import Struct
 
-from graphkin.loops.equations import Equations, equations
+from graphkin.loops.equations import Equations, equations, tied_by
 from graphkin.loops.poses import setting_of
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
@@ -86,6 +86,13 @@ class Group(Struct, frozen=True):
             and bool(self.outer[0].pin or self.outer[0].turns_alike)
         )
 
+    @property
+    def is_geared(self) -> bool:
+        """One wheel that turns about a known pin, as one other wheel or belt leads its rim."""
+        if not (len(self.links) == len(self.outer) == len(self.ties) == 1 and self.outer[0].pin):
+            return False
+        return not self.ties[0].drives and self.links[0] in self.ties[0].links[:2]
+
 
 def groups(scene: Scene, loops: Equations) -> list[Group]:
     """The groups of two links and more, in the order in which one after the other is known."""
@@ -141,7 +148,7 @@ def joints(loops: Equations) -> tuple[Joint, ...]:
 def tied(scene: Scene, loops: Equations) -> tuple[Joint, ...]:
     """Wheels that touch with their arm, and drivers: they tie coordinates of links alone."""
     wheels = [Joint((*gear.links, gear.arm)) for gear in loops.gears]
-    drivers = [Joint((each.link, each.against), drives=True) for each in scene.drivers]
+    drivers = [Joint(tied_by(each), drives=True) for each in scene.drivers]
     return (*wheels, *drivers)
 
 
@@ -264,7 +271,7 @@ def among(links: set[str], every: tuple[Joint, ...], met: set[str]) -> tuple[Joi
 def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool:
     """Whether the equations up to a group determine it, by their rank in some open position."""
     exact = taken == 3 * len(group.links)
-    if exact and ((group.is_dyad and len(group.slides) < 3) or sure_crank(scene, group)):
+    if exact and ((group.is_dyad and len(group.slides) < 3) or is_sure(scene, group)):
         return True
     try:
         part = equations(scene, setting_of(loops, 0), group.known | set(group.links))
@@ -281,11 +288,12 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
     return bool(values.min(initial=np.inf) > FULL * values.max(initial=0))
 
 
-def sure_crank(scene: Scene, group: Group) -> bool:
-    """Whether a group is one link turned about a pin, or slid along its guide."""
+def is_sure(scene: Scene, group: Group) -> bool:
+    """Whether a group is one link turned about a pin, by a driver or by a wheel that it touches, or
+    slid along its guide."""
     if not group.is_driven:
-        return False
-    wanted = {tuple(sorted(joint.links)) for joint in group.ties}
+        return group.is_geared
+    wanted = {tuple(sorted(joint.links[:2])) for joint in group.ties}
     kinds = {d.kind for d in scene.drivers if tuple(sorted((d.link, d.against))) in wanted}
     return kinds == ({"turn"} if group.outer[0].pin else {"slide"})
 

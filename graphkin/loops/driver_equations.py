@@ -8,11 +8,35 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from graphkin.loops.cam_laws import ByLaw
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
+from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.whole_turns import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
+
+
+class Lift(Struct, frozen=True, eq=False):
+    """A follower whose coordinate, driver ``row``, its cam's angle gives by a ``law``.
+
+    ``turning`` is the cam's turning (0 the frame), ``lean`` (N,) the direction of its x axis there;
+    the follower rests at ``start``.
+    """
+
+    row: int
+    law: ByLaw
+    turning: int
+    lean: Complexes
+    start: Complexes
+    numbers: Numbers
+
+    def at(self, unknowns: Reals) -> Rise:
+        """What the law gives at some unknowns, with its derivatives by the cam's angle."""
+        turn = np.ones(len(unknowns), dtype=np.complex128)
+        if self.turning:
+            turn = np.exp(1j * unknowns[:, self.turning - 1])
+        return self.law.at(turn * self.lean, self.numbers, self.start)
 
 
 class Drives(Struct, frozen=True, eq=False):
@@ -33,15 +57,58 @@ class Drives(Struct, frozen=True, eq=False):
     whole: bool
     speed: Reals
     acceleration: Reals
+    lifts: tuple[Lift, ...] = ()
 
     def residual(self, unknowns: Reals) -> Reals:
         """Driven coordinate less given value, angles within half a turn unless whole: (N, D)."""
         coordinate = unknowns @ self.selects.T
-        angle = np.angle(np.exp(1j * coordinate) * self.lean * self.aim.conj())
+        aim, given = self.aimed(unknowns)
+        angle = np.angle(np.exp(1j * coordinate) * self.lean * aim.conj())
         if self.whole:
-            turned = coordinate + self.leaning - self.given - angle
+            turned = coordinate + self.leaning - given - angle
             angle = angle + 2 * np.pi * np.rint(turned / (2 * np.pi))
-        return np.where(self.turns, angle, coordinate - self.aim.real)
+        return np.where(self.turns, angle, coordinate - aim.real)
+
+    def aimed(self, unknowns: Reals) -> tuple[Complexes, Reals]:
+        """The given values, those of followers by their cams: (N, D)."""
+        if not self.lifts:
+            return self.aim, self.given
+        shape = len(unknowns), len(self.turns)
+        aim = np.array(np.broadcast_to(self.aim, shape))
+        given = np.array(np.broadcast_to(self.given, shape))
+        for lift in self.lifts:
+            aim[:, lift.row] = lift.at(unknowns).at
+            given[:, lift.row] = np.angle(aim[:, lift.row])
+        return aim, given
+
+    def rows(self, unknowns: Reals) -> Reals:
+        """Derivative of the residual: (N, D, K + m)."""
+        rows = np.broadcast_to(self.selects, (len(unknowns), *self.selects.shape))
+        if not self.lifts:
+            return rows
+        rows = np.array(rows)
+        for lift in self.lifts:
+            if lift.turning:
+                rows[:, lift.row, lift.turning - 1] -= lift.at(unknowns).rate
+        return rows
+
+    def second(self, unknowns: Reals, u: Reals, v: Reals) -> Reals:
+        """Second derivative in two directions, which laws alone have: (N, D)."""
+        found = np.zeros((len(unknowns), len(self.turns)))
+        for lift in self.lifts:
+            if lift.turning:
+                both = u[:, lift.turning - 1] * v[:, lift.turning - 1]
+                found[:, lift.row] -= lift.at(unknowns).bend * both
+        return found
+
+    @property
+    def waits(self) -> Reals:
+        """The unknowns to be known before an equation tells its coordinate: (D, K + m)."""
+        found = np.zeros_like(self.selects)
+        for lift in self.lifts:
+            if lift.turning:
+                found[lift.row, lift.turning - 1] = 1
+        return found
 
     def none(self) -> Drives:
         """No driver of them."""
@@ -75,15 +142,31 @@ def drives_of(
             lean[:, d] = line * leans
             turned_by = turned.angle[driver.link] - turned.angle[driver.against]
             leaning[:, d] = np.angle(line) + turned_by
-            aim[:, d] = numbers.direction(driver.position)
-            given[:, d] = numbers.si(whole_turned(scene, driver))
+            if not isinstance(driver.position, ByLaw):
+                aim[:, d] = numbers.direction(driver.position)
+                given[:, d] = numbers.si(whole_turned(scene, driver))
         else:
             selects[d, turned.count + driven_slide(d, driver, guides)] = 1
-            aim[:, d] = numbers.si(driver.position)
+            if not isinstance(driver.position, ByLaw):
+                aim[:, d] = numbers.si(driver.position)
         speed[:, d] = numbers.si(driver.speed)
         acceleration[:, d] = numbers.si(driver.acceleration)
     turning = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
-    return Drives(selects[:, 1:], turning, lean, leaning, aim, given, whole, speed, acceleration)
+    rates = speed, acceleration
+    lifts = lifts_of(scene, turned, numbers)
+    return Drives(selects[:, 1:], turning, lean, leaning, aim, given, whole, *rates, lifts)
+
+
+def lifts_of(scene: Scene, turned: Turnings, numbers: Numbers) -> tuple[Lift, ...]:
+    """The followers that cams lift, by the numbers of their drivers."""
+    found = []
+    for d, driver in enumerate(scene.drivers):
+        law = driver.position
+        if isinstance(law, ByLaw):
+            cam = law.cam.on
+            lean, start = (numbers.complexes(z) for z in (turned.lean[cam], law.start(numbers)))
+            found.append(Lift(d, law, int(turned.of[cam]), lean, start, numbers))
+    return tuple(found)
 
 
 def driven_line(driver: Driver, bodies: Mapping[str, Body]) -> Any:

@@ -16,7 +16,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.loops.cam_laws import by_law
+from graphkin.loops.cam_laws import ByLaw, by_law
 from graphkin.loops.chains import Chains, Linear, packed
 from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
@@ -39,7 +39,7 @@ from graphkin.loops.rigid_bodies import (
     longest,
 )
 from graphkin.loops.vector_chains import Tree, Turnings, refuse_unknown_lean, turnings
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.text.errors import Problem, StructureError
 
 CANCELLED = 2.0**-48
@@ -126,7 +126,10 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         return np.concatenate([slipped, self.drives.residual(unknowns)], axis=1)
 
     def linear_rows(self, driven: bool = True) -> Reals:
-        """Derivative of the linear equations: shape (N, R + D, K + m)."""
+        """Derivative of the linear equations: shape (N, R + D, K + m).
+
+        Of a follower that a cam lifts that by its own coordinate.
+        """
         if not driven:
             return self.slips.rows
         shape = (self.numbers.count, *self.drives.selects.shape)
@@ -137,15 +140,16 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
     def jacobian(self, linear: Linear, driven: bool = True) -> Reals:
         """∂f/∂φ: shape (N, equations, K + m); without the drivers' rows on request."""
         rows = np.concatenate([1j * linear.turned, linear.along], axis=-1)
-        closed, straight = self.closures(rows), self.linear_rows(driven)
-        straight = np.broadcast_to(straight, (len(closed), *straight.shape[1:]))
-        return np.concatenate([closed, straight], axis=1)
+        closed, slips = self.closures(rows), self.slips.rows
+        slips = np.broadcast_to(slips, (len(closed), *slips.shape[1:]))
+        own = [self.drives.rows(linear.unknowns)] if driven else []
+        return np.concatenate([closed, slips, *own], axis=1)
 
     def second(self, linear: Linear, u: Reals, v: Reals) -> Reals:
         """Second derivative of f in two directions: linear equations give none."""
         closed = self.closures(self.chains.second(linear, u, v))
-        straight = len(self.slips.links) + len(self.drives.turns)
-        return np.concatenate([closed, np.zeros((len(closed), straight))], axis=1)
+        slips = np.zeros((len(closed), len(self.slips.links)))
+        return np.concatenate([closed, slips, self.drives.second(linear.unknowns, u, v)], axis=1)
 
     def guide_index(self, block: str, on: str | None = None) -> int | None:
         """The slide or track of a link: on a given link, or the one it names first."""
@@ -182,7 +186,7 @@ def equations(
         gears = tuple(gear for gear in gears if {*gear.links, gear.arm} <= names)
         slips = tuple(slip for slip in slips if names.issuperset(slip.links))
         scene = replace(
-            scene, drivers=tuple(d for d in scene.drivers if {d.link, d.against} <= names)
+            scene, drivers=tuple(d for d in scene.drivers if names.issuperset(tied_by(d)))
         )
         turned = turnings(tuple(bodies), guides)
     tree = Tree(bodies, guides, turned)
@@ -210,6 +214,13 @@ def equations(
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
     )
+
+
+def tied_by(driver: Driver) -> tuple[str, ...]:
+    """The links whose coordinates a driver ties: the driven one, the other, the cam that lifts."""
+    law = driver.position
+    cams = (law.cam.on,) if isinstance(law, ByLaw) else ()
+    return (driver.link, driver.against, *cams)
 
 
 def undriven(loops: Equations) -> Equations:

@@ -59,8 +59,9 @@ def start_values(
 def driven_coordinate(loops: Equations, j: int) -> Reals | None:
     """The coordinate on guide j that a driver gives, None where none does."""
     column = loops.drives.selects[:, loops.turning_count + j]
-    found = np.flatnonzero(column)
-    return loops.drives.aim[:, found[0]].real if len(found) else None
+    lifted = [lift.row for lift in loops.drives.lifts]
+    found = [d for d in np.flatnonzero(column) if d not in lifted]
+    return loops.drives.aim[:, found[0]].real if found else None
 
 
 def turns_of_bars(
@@ -120,11 +121,12 @@ def turns_of_blocks(
 def turns_of_drivers(loops: Equations, turn: Mapping[int, Complexes]) -> dict[int, Complexes]:
     """e^{iθ} of a turning that a driver turns against a known one."""
     found: dict[int, Complexes] = {}
+    lifted = [lift.row for lift in loops.drives.lifts]
     for d, row in enumerate(loops.drives.selects):
         raised = [int(k) + 1 for k in np.flatnonzero(row[: loops.turning_count] > 0)]
         lowered = [int(k) + 1 for k in np.flatnonzero(row[: loops.turning_count] < 0)]
         base = lowered[0] if lowered else 0
-        if not loops.drives.turns[d] or not raised or raised[0] in turn:
+        if d in lifted or not loops.drives.turns[d] or not raised or raised[0] in turn:
             continue
         if base in turn or base in found:
             against = turn[base] if base in turn else found[base]

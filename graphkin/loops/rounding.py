@@ -210,10 +210,13 @@ def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) ->
         longer = rows.plus(moved)
         velocity = moved.sum(speed)
         linear = straight(loops, rates) + touching(loops, speed, places)
-        slower = split(found.led(velocity, linear))
+        linear += lifted(loops, unknowns, found.off, (rates, None, None))
+        less = found.led(velocity, linear)
+        slower = split(less)
         carried = rows.carried(speed, thrust)
         acceleration = moved.sum(carried) + longer.sum(rows.carried_more(speed, slower))
         linear = straight(loops, seconds) + touching(loops, carried, places)
+        linear += lifted(loops, unknowns, found.off, (rates, seconds, less))
         later = split(found.led(acceleration, linear))
         every = PlaceBound(
             rows.moved(off, places).turned.sum(axis=-1) + places[:, :1],
@@ -277,6 +280,29 @@ def touching(loops: Equations, loads: Loads, places: Reals) -> Reals:
     turned = (abs(loops.slips.rows) > 0)[:, :, : loops.turning_count]
     slips = (turned @ (loads.turned * places)[:, 1:, None])[:, :, 0]
     return np.concatenate([slips, np.zeros((len(slips), len(loops.drives.turns)))], axis=1)
+
+
+def lifted(
+    loops: Equations, unknowns: Reals, off: Reals, motion: tuple[Reals, Reals | None, Reals | None]
+) -> Reals:
+    """What the errors ``off`` of cams' angles add to the rates of their followers: (N, R + D).
+
+    To the first ones by the rates of the unknowns; to the second with these, the second ones and
+    the bounds of the first.
+    """
+    found = np.zeros((len(unknowns), len(loops.slips.links) + len(loops.drives.turns)))
+    rates, seconds, slower = motion
+    for lift in (each for each in loops.drives.lifts if each.turning):
+        k, shaken = lift.turning - 1, unknowns.copy()
+        shaken[:, k] += off[:, k]
+        here, there = lift.at(unknowns), lift.at(shaken)
+        slope, turn = abs(there.rate - here.rate), abs(rates[:, k])
+        added = slope * turn
+        if seconds is not None and slower is not None:
+            added = slope * abs(seconds[:, k]) + abs(there.bend - here.bend) * turn**2
+            added += 2 * abs(here.bend) * turn * slower[:, k]
+        found[:, len(loops.slips.links) + lift.row] = added
+    return found
 
 
 def whole_turns(loops: Equations) -> Reals:

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
+from graphkin.scene.expression import Number, Pair, Tree
 from graphkin.scene.findings import numbered, shown
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import CamPiece
-from graphkin.scene.quantity import exact
+from graphkin.scene.quantity import Quantity, exact
 
 LEAST_POINTS = 4
 MOST_POINTS = 72
@@ -35,22 +36,21 @@ def read_table(
         findings.add(place, f"{len(raw)} points", expected)
         return ()
     lifted = measures.angle if swings else measures.length
-    angles, lifts = list[Fraction](), list[Fraction]()
+    angles, lifts = list[Fraction](), list[Quantity]()
     for index, pair in enumerate(raw):
         where = numbered(place, index, len(raw))
         if not isinstance(pair, list) or len(pair) != 2:
             findings.add(where, shown(pair), "two numbers [angle, lift]")
             continue
-        read = measures.angle(where, pair[0]), lifted(where, pair[1])
-        known = [each.number({}) for each in read if not each.uses()]
-        if len(known) < 2:
-            findings.add(where, shown(pair), "two numbers [angle, lift], without parameters")
+        read, lift = measures.angle(where, pair[0]), lifted(where, pair[1])
+        if read.uses():
+            findings.add(where, shown(pair), "an angle without parameters")
             continue
-        angle, lift = map(Fraction, known)
+        angle = Fraction(read.number({}))
         if angles and angle <= angles[-1]:
             found = f"{float(angle):g} after {float(angles[-1]):g}"
             findings.add(where, found, "angles that grow")
-        if lift < 0:
+        if lift.number(measures.values) < 0:
             hint = "the base circle is the smallest: let the table begin at the lowest place"
             findings.add(where, shown(pair), "a lift of 0 or more", hint)
         angles.append(angle)
@@ -58,7 +58,7 @@ def read_table(
     if len(findings.problems) > before:
         return ()
     whole = Fraction(360) if measures.units["angle"] == "deg" else None
-    if angles[0] != 0 or lifts[0] != 0:
+    if angles[0] != 0 or not lifts[0].is_zero():
         findings.add(numbered(place, 0, len(raw)), shown(raw[0]), "[0, 0]")
     if whole is None:
         findings.add(place, "a table with angles in rad", 'units = { angle = "deg", … }')
@@ -71,25 +71,43 @@ def read_table(
 
 
 def cubics(
-    angles: Sequence[Fraction], lifts: Sequence[Fraction], whole: Fraction, unit: str
+    angles: Sequence[Fraction], lifts: Sequence[Quantity], whole: Fraction, unit: str
 ) -> tuple[CamPiece, ...]:
-    """The pieces of the spline through the points, with ``unit`` that of lifts."""
+    """The pieces of the spline through the points, with ``unit`` that of lifts.
+
+    All is linear in the lifts: what those with parameters add, each for itself, is an expression.
+    """
     spans = [b - a for a, b in zip(angles, [*angles[1:], whole], strict=True)]
+    known = [Fraction(0) if lift.uses() else Fraction(lift.number({})) for lift in lifts]
+    plain = shares(spans, known)
+    open_ = [(i, lift.tree) for i, lift in enumerate(lifts) if lift.uses()]
+    added = [(shares(spans, [Fraction(i == k) for k in range(len(lifts))]), t) for i, t in open_]
+    found = []
+    for i, end in enumerate([*angles[1:], whole]):
+        rise, begin, finish = (
+            summed(plain[i][k], [(each[i][k], tree) for each, tree in added], unit)
+            for k in range(3)
+        )
+        found.append(CamPiece(exact(end, "deg"), rise, TABLE, (begin, finish)))
+    return tuple(found)
+
+
+def shares(spans: Sequence[Fraction], lifts: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
+    """Of each piece its rise, and its slopes at both ends times its angle."""
     rises = [b - a for a, b in zip(lifts, [*lifts[1:], lifts[0]], strict=True)]
     slopes = periodic_slopes(spans, rises)
-    following = [*slopes[1:], slopes[0]]
-    ends = [*angles[1:], whole]
-    return tuple(
-        CamPiece(
-            exact(end, "deg"),
-            exact(rise, unit),
-            TABLE,
-            (exact(begin * span, unit), exact(finish * span, unit)),
-        )
-        for end, rise, begin, finish, span in zip(
-            ends, rises, slopes, following, spans, strict=True
-        )
-    )
+    ends = zip(slopes, [*slopes[1:], slopes[0]], spans, strict=True)
+    pairs = [(begin * span, finish * span) for begin, finish, span in ends]
+    return [(rise, *pair) for rise, pair in zip(rises, pairs, strict=True)]
+
+
+def summed(plain: Fraction, parts: Sequence[tuple[Fraction, Tree]], unit: str) -> Quantity:
+    """A number and multiples of expressions as one quantity."""
+    tree: Tree = Number(plain)
+    for times, each in parts:
+        if times:
+            tree = Pair("+", tree, Pair("*", Number(times), each))
+    return exact(plain, unit) if tree == Number(plain) else Quantity("", tree, unit)
 
 
 def periodic_slopes(spans: Sequence[Fraction], rises: Sequence[Fraction]) -> list[Fraction]:

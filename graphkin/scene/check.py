@@ -9,11 +9,10 @@ from graphkin.scene.check_blocks import check_blocks
 from graphkin.scene.check_drivers import check_drivers
 from graphkin.scene.check_far import check_far
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known_names import all_points, known_link, known_point, named, place_of, quoted
+from graphkin.scene.known_names import known_link, known_point, named, place_of, quoted
 from graphkin.scene.link_names import check_names
 from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
 from graphkin.scene.quantity import shortest
-from graphkin.scene.read_cams import check_cams
 from graphkin.scene.read_profiles import check_profiles
 from graphkin.text.errors import Hint, Mend
 
@@ -27,7 +26,6 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     check_alone(scene, findings)
     check_blocks(scene, findings)
     check_drivers(scene, findings)
-    check_cams(scene, findings)
     check_branches(scene, findings)
     check_names(scene, findings)
     check_far(scene, findings)
@@ -35,7 +33,7 @@ def check_scene(scene: Scene, findings: Findings) -> None:
 
 def check_namespace(scene: Scene, findings: Findings) -> None:
     """One name, one thing: a point and a link do not share it."""
-    points = all_points(scene)
+    points = scene.points
     for name in scene.links:
         if name in points:
             findings.add(f"links.{name}", f"{name} is a point too", "one name for one thing")
@@ -191,7 +189,7 @@ def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings:
 
 def check_branches(scene: Scene, findings: Findings) -> None:
     """A side is chosen for a point, a way or a closure for a link."""
-    points = all_points(scene)
+    points = scene.points
     for name, branch in scene.branches.items():
         place = f"branches.{name}"
         if name not in points and name not in scene.links:

@@ -8,12 +8,6 @@ from graphkin.scene.findings import Findings, listed, nearest
 from graphkin.scene.model import FRAME, Link, Scene
 
 
-def all_points(scene: Scene) -> dict[str, None]:
-    """Every point of every link, once, in the order written."""
-    every = (scene.frame, *scene.links.values())
-    return dict.fromkeys(point for link in every for point in link.points)
-
-
 def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
     """The link of a name; None, with a problem noted, when there is none."""
     if name == FRAME or name in scene.links:

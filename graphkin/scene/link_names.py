@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from msgspec.structs import astuple, replace
 
 from graphkin.scene.findings import Findings, Table, shown
-from graphkin.scene.known_names import all_points, known_link
+from graphkin.scene.known_names import known_link
 from graphkin.scene.model import Ask, Driver, Scene
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME
 from graphkin.scene.requests import LANGUAGES
@@ -40,7 +40,7 @@ def is_printable_name(text: str) -> bool:
 def check_names(scene: Scene, findings: Findings) -> None:
     """Only links are given names, each its own, which is no point's and no other link's."""
     for language, names in scene.names.items():
-        used = {*all_points(scene), *(link for link in scene.links if link not in names)}
+        used = {*scene.points, *(link for link in scene.links if link not in names)}
         for link, name in names.items():
             place = f"names.{language}.{link}"
             if known_link(scene, link, place, findings) is scene.frame:

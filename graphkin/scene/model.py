@@ -7,6 +7,7 @@ points before it; where a link is put in the plane is for the construction to fi
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -248,6 +249,13 @@ class CamLever(Struct, frozen=True):
     face: Quantity
 
 
+class Conjugate(Struct, frozen=True):
+    """A second roller of a follower, about its point ``at``, on a second profile of the cam."""
+
+    at: str
+    roller: Quantity
+
+
 class Cam(Struct, frozen=True):
     """What lifts a follower, by its law: the disc of link ``on``, which turns about ``pivot``.
 
@@ -255,6 +263,7 @@ class Cam(Struct, frozen=True):
     its centre, its edge, a point of it. A ``lever`` swings, else the follower slides. The law
     counts from the cam's angle ``start``, ``sense`` +1 counter-clockwise. The equivalent linkage
     of an instant joins the centre of curvature ``centre``, a point of the cam, by link ``link``.
+    A ``conjugate`` roller closes it; it takes nothing from the motion.
     """
 
     on: str
@@ -269,6 +278,7 @@ class Cam(Struct, frozen=True):
     link: str
     point: str
     lever: CamLever | None = None
+    conjugate: Conjugate | None = None
 
     @property
     def is_flat(self) -> bool:
@@ -420,7 +430,8 @@ class Ask(Struct, frozen=True):
 class Sheet(Struct, frozen=True):
     """What the title block and the page say beyond the drawing.
 
-    ``method`` is what gives components of accelerations: triangles, or Klein's construction.
+    ``method`` is what gives components of accelerations: triangles, or Klein's construction;
+    ``plan`` what velocities are drawn as: images alone, or Kutzbach's plan of a train with them.
     ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
     the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
     plan or one for both.
@@ -438,6 +449,7 @@ class Sheet(Struct, frozen=True):
     enlarge: tuple[Quantity, ...] = ()
     ka: Quantity | None = None
     method: str = "triangles"
+    plan: str = "images"
 
 
 def quantities_within(part: object) -> Iterator[Quantity]:
@@ -453,7 +465,7 @@ def quantities_within(part: object) -> Iterator[Quantity]:
             yield from quantities_within(each)
 
 
-class Scene(Struct, frozen=True):
+class Scene(Struct, frozen=True, dict=True):
     """A planar mechanism in one position, with what is asked of it.
 
     ``near`` are angles within half a turn of which those of links are taken, where a motion says
@@ -531,20 +543,26 @@ class Scene(Struct, frozen=True):
         own, other = belt.wheels
         return of_one_size(self.link(name).wheels[own], self.link(rolling.on).wheels[other])
 
-    @property
+    @cached_property
     def cams(self) -> Mapping[str, Cam]:
         """The cams by the links that they lift."""
         return {link.name: link.cam for link in self.links.values() if link.cam is not None}
 
-    @property
+    @cached_property
     def cam_links(self) -> Mapping[str, str]:
         """The links of equivalent linkages, with the follower that each moves."""
         return {cam.link: follower for follower, cam in self.cams.items()}
 
-    @property
+    @cached_property
     def cam_centres(self) -> Mapping[str, str]:
         """The centres of curvature of cams, with the follower that each moves."""
         return {cam.centre: follower for follower, cam in self.cams.items()}
+
+    @cached_property
+    def points(self) -> Mapping[str, None]:
+        """Every point of every link, once, in the order written."""
+        every = (self.frame, *self.links.values())
+        return dict.fromkeys(point for link in every for point in link.points)
 
     def link(self, name: str) -> Link:
         """The link of a name, the frame included."""

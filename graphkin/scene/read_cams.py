@@ -13,9 +13,9 @@ from msgspec.structs import replace
 
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
-from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, shown
+from graphkin.scene.findings import Table, listed, nearest, numbered, shown
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Driver, Link, Scene, Slide
+from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
 
@@ -75,7 +75,7 @@ def read_cam(
     measures: Measures,
     letter: str,
 ) -> Cam | None:
-    """One cam, ``{ on, tip, base, roller, law, start, clockwise, side, face }``; None where none
+    """One cam, as ``{ on, tip, base, roller, law, start, … }``; None where none
     can be."""
     findings = measures.findings
     before = len(findings.problems)
@@ -99,6 +99,8 @@ def read_cam(
     centre = table.text("centre", letter)
     name = table.text("link", next_name(links))
     found = lever_of(follower, tip, table, frame, links, measures) if swings else None
+    first = found[0] if found else next(iter(links[follower].points), "")
+    conjugate = conjugate_of(follower, first, table, frame, links, measures)
     table.finish()
     if not swings:
         check_guide(follower, links, table)
@@ -114,7 +116,35 @@ def read_cam(
     if lever and lever.pin == pivot:
         findings.add(table.at("on"), f"both links turn about {pivot}", "a cam on another pin")
         return None
-    return Cam(on, pivot, tip, base, roller, law, start, sense, centre, name, point, lever)
+    parts = on, pivot, tip, base, roller, law, start, sense, centre, name, point, lever
+    return Cam(*parts, conjugate)
+
+
+def conjugate_of(
+    follower: str,
+    first: str,
+    table: Table,
+    frame: Link,
+    links: Mapping[str, Link],
+    measures: Measures,
+) -> Conjugate | None:
+    """A second roller, ``conjugate = { at, roller }``, about another point than the ``first``."""
+    raw = table.take("conjugate")
+    if raw is None:
+        return None
+    findings, place = measures.findings, table.at("conjugate")
+    if not isinstance(raw, dict):
+        findings.add(place, shown(raw), "a table { at = …, roller = … }")
+        return None
+    own = Table(place, raw, findings)
+    at = own.text("at", "")
+    roller = measures.length(own.at("roller"), own.take("roller"), positive=True)
+    own.finish()
+    free = [p for p in links[follower].points if p != first and p not in frame.points]
+    if at not in free:
+        findings.add(own.at("at"), shown(at), listed(free) or "another point of the follower")
+        return None
+    return Conjugate(at, roller)
 
 
 def next_name(links: Mapping[str, Link]) -> str:
@@ -256,20 +286,3 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures) -> None:
     if abs(lift) > 1e-9 * size:
         found = f"the rises add up to {lift:g}"
         findings.add(place, found, "0: after a whole turn the follower stands as before")
-
-
-def turning_driver(scene: Scene, cam: Cam) -> Driver | None:
-    """The driver that turns a cam against the frame by the angle of its x axis."""
-    for driver in scene.drivers:
-        if driver.kind == "turn" and (driver.link, driver.against) == (cam.on, FRAME):
-            return driver if driver.of is None else None
-    return None
-
-
-def check_cams(scene: Scene, findings: Findings) -> None:
-    """Every cam is turned by a driver, by whose angle the law is read."""
-    for follower, cam in scene.cams.items():
-        if turning_driver(scene, cam) is None:
-            found = f"no driver turns link {cam.on} against the frame by its own x axis"
-            expected = f"[[drivers]] turn = {cam.on}, without against and of"
-            findings.add(f"links.{follower}.cam.on", found, expected)

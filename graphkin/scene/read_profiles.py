@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.scene.findings import Findings, Table, numbered
-from graphkin.scene.known_names import all_points, known_point, named, place_of
+from graphkin.scene.known_names import known_point, named, place_of
 from graphkin.scene.model import At, Link, Profile, Scene
 from graphkin.scene.phrases import point_name
 from graphkin.scene.read_joints import tables
@@ -30,7 +30,7 @@ def read_profile(table: Table) -> Profile:
 def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
     """Every profile is about a point of its link, through another place of the mechanism."""
     place = place_of(link.name)
-    sound, points = not findings.inside(place), all_points(scene)
+    sound, points = not findings.inside(place), scene.points
     for index, profile in enumerate(link.profiles):
         where = numbered(f"{place}.profiles", index, len(link.profiles))
         about, through = profile.about, profile.through

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
-from graphkin.scene.known_names import all_points, known_link, known_point
+from graphkin.scene.known_names import known_link, known_point
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
 from graphkin.scene.phrases import asked_point, branch_hint, branch_words, link_name, point_name
@@ -28,6 +28,7 @@ ALL = "all"
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
 METHODS = ("triangles", "klein")
 """What gives the components of accelerations."""
+PLANS = ("images", "kutzbach")
 RULES = ("largest", "lab")
 """How large plans are drawn."""
 MOST = 500
@@ -77,7 +78,7 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
         return name if link is not None else None
     name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
     point, _, of = (name or "").partition("@")
-    if name is None or not known_point(point, all_points(scene), "the mechanism", place, findings):
+    if name is None or not known_point(point, scene.points, "the mechanism", place, findings):
         return None
     return None if of and known_link(scene, of, place, findings) is None else name
 
@@ -149,6 +150,9 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
     method = table.text("method", METHODS[0])
     if method not in METHODS:
         findings.add(table.at("method"), shown(method), listed(METHODS), nearest(method, METHODS))
+    plan = table.text("plan", PLANS[0])
+    if plan not in PLANS:
+        findings.add(table.at("plan"), shown(plan), listed(PLANS), nearest(plan, PLANS))
     rule = table.text("rule", RULES[0])
     if rule not in RULES:
         findings.add(table.at("rule"), shown(rule), listed(RULES), nearest(rule, RULES))
@@ -169,6 +173,7 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         enlarge=read_enlarge(table, measures, rule),
         ka=read_positive(table, measures, "ka"),
         method=method,
+        plan=plan,
     )
     table.finish()
     return sheet

@@ -62,6 +62,8 @@ def driven_by(
     for pair in joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:
             continue
+        if isinstance(pair, Contact) and pair.track is not None:
+            continue  # a coordinate is counted along a straight track
         if pair.links[0] == driver.link:
             return Driven(link, driver, pair)
     return None

@@ -9,7 +9,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from tests.chance.records import FRAME, Drive, Gear, Slide, Standing, Straight
+import mpmath
+
+from tests.chance.lifts import lifted
+from tests.chance.records import FRAME, CamLaw, Drive, Gear, Slide, Standing, Straight
 
 Pose = tuple[Any, Any, Any]
 
@@ -34,6 +37,9 @@ class Geometry(Protocol):
 
     def gear(self, gear: Gear) -> tuple[tuple[Any, Any], dict[str, Any]]:
         """Radii of two wheels, and for each body the angle that its turning is counted from."""
+
+    def cam(self, cam: CamLaw) -> tuple[Any, Any, Any, list[tuple[Any, Any, str]]]:
+        """Radii of the base circle and of the roller, start angle (radians), pieces."""
 
     def drive(self, drive: Drive, time: Any) -> Any:
         """The given position at a time, as the angle of the body's x axis where it turns."""
@@ -85,6 +91,8 @@ def equations(standing: Standing) -> list[Equation]:
         found.append(({straight.wheel, straight.on}, rolling(straight)))
     for gear in standing.gears:
         found.append(({gear.wheel, gear.on, gear.arm}, meshing(gear)))
+    for cam in standing.cams:
+        found.append(({cam.follower, cam.on}, lifting(standing, cam)))
     for drive in standing.drives:
         found.append(({drive.body, drive.against}, driven(standing, drive)))
     return found
@@ -152,6 +160,23 @@ def meshing(gear: Gear) -> Callable[[Moved, Any], list[Any]]:
         return [own * (turned[gear.wheel] - against) + other * (turned[gear.on] - against)]
 
     return slip
+
+
+def lifting(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], list[Any]]:
+    """A follower stands as far along its guide as the law says over the base circle."""
+    slide = standing.slides[cam.follower]
+
+    def off(moved: Moved, time: Any) -> list[Any]:
+        base, roller, start, pieces = moved.geometry.cam(cam)
+        through, along, offset = moved.geometry.guide(slide)
+        pivot = (moved.point(FRAME, cam.pivot) - moved.at(FRAME, through)) * along.conjugate()
+        lift = lifted(pieces, cam.sense * (moved.poses[cam.on][2] - start))
+        high = base
+        if cam.tip != "flat":
+            high = mpmath.sqrt((base + roller) ** 2 - (offset - pivot.imag) ** 2)
+        return [moved.slid(standing, slide).real - pivot.real - high - lift]
+
+    return off
 
 
 def driven(standing: Standing, drive: Drive) -> Callable[[Moved, Any], list[Any]]:

@@ -6,8 +6,9 @@ import math
 from cmath import phase, rect
 from random import Random
 
+from tests.chance.lifts import MOTIONS, lifted
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, Gear, Standing, Straight
+from tests.chance.records import FRAME, CamLaw, Gear, Standing, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 
@@ -505,6 +506,47 @@ def kept_bar(m: Maker) -> None:
     bar(m, (m.point(known, foot), foot), end)
 
 
+# --- cams ----------------------------------------------------------------------------------------
+
+
+def cam(m: Maker) -> None:
+    """A follower on a guide of the frame, lifted by a cam on any body that is pinned there."""
+    fixed = m.standing.bodies[FRAME].points
+    shafts = {
+        name: pins
+        for name in m.bodies(but=[FRAME])
+        if len(pins := [p for p in m.standing.bodies[name].points if p in fixed]) == 1
+        and name not in m.standing.slides
+    }
+    if not shafts:
+        pivot, place = m.anchor(FRAME)
+        on = bar(m, (pivot, place), (m.name(), place + m.vector()))
+        m.turn(on, FRAME)
+        shafts[on] = [pivot]
+    on = m.rng.choice(list(shafts))
+    pivot = shafts[on][0]
+    ends = [*sorted(m.rng.sample(range(50, 311, 20), 3)), 360]
+    base, rise = m.length(), m.rng.uniform(0.1, 0.6)
+    rises = [rise, 0.0, -rise, 0.0] if m.coin() else [rise, -rise / 2, rise / 4, -rise * 0.75]
+    if sum(rises) != 0:
+        raise LooseError
+    pieces = [(e, base * r, m.rng.choice(list(MOTIONS))) for e, r in zip(ends, rises, strict=True)]
+    tip = m.rng.choice(("roller", "knife", "flat"))
+    roller = base * m.rng.uniform(0.1, 0.4) if tip == "roller" else 0.0
+    law = CamLaw("", on, pivot, tip, base, roller, pieces, m.rng.randint(-180, 180), m.sign())
+    angle = law.sense * (m.standing.bodies[on].angle - math.radians(law.start))
+    at = math.degrees(angle) % 360
+    if min(abs(at - each) for each in (0, *ends)) < 1:
+        raise LooseError
+    along, aside = m.direction(), base * m.rng.uniform(-0.6, 0.6)
+    high = base if tip == "flat" else math.sqrt((base + roller) ** 2 - aside**2)
+    high += float(lifted(pieces, angle))
+    name = m.body({m.name(): fixed[pivot] + along * complex(high, aside)}, along)
+    m.guide(name, FRAME, along)
+    law.follower = name
+    m.standing.cams.append(law)
+
+
 GROUPS = {
     "crank": crank,
     "driven slide": driven_slide,
@@ -529,6 +571,7 @@ GROUPS = {
     "roller": roller,
     "planet": planet,
     "kept bar": kept_bar,
+    "cam": cam,
 }
 STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
 TRIES = 60

@@ -259,7 +259,7 @@ def stiffness(standing: Standing, known: set[str]) -> float:
         shift = (by if k == 0 else 1j * by if k == 1 else 0) + at - turn * at
         pose = (shift.real, shift.imag, by if k == 2 else 0.0)
         moved = Moved(geometry, {**poses, body: pose})
-        return np.array([value for miss in rules for value in miss(moved, 0.0)])
+        return np.array([float(value) for miss in rules for value in miss(moved, 0.0)])
 
     columns = []
     for name in new:
@@ -313,6 +313,10 @@ class AsPlaced:
     def gear(self, gear):
         """Radii; turnings are counted from here."""
         return gear.radii, dict.fromkeys((gear.wheel, gear.on, gear.arm), 0.0)
+
+    def cam(self, cam):
+        """Sizes; how far it lifts makes no odds here."""
+        return cam.base, cam.roller, 0.0, cam.pieces
 
     def drive(self, drive: Drive, time: float) -> float:
         """Turning drivers stand at nought here."""

@@ -68,6 +68,25 @@ class Gear:
 
 
 @dataclass
+class CamLaw:
+    """A follower on a guide of the frame that a cam lifts: its tip, its sizes, its law.
+
+    ``pieces`` are the angle (degrees) at which each ends, its rise and its motion; the law counts
+    from the cam's angle ``start`` (degrees), ``sense`` +1 counter-clockwise.
+    """
+
+    follower: str
+    on: str
+    pivot: str
+    tip: str
+    base: float
+    roller: float
+    pieces: list[tuple[int, float, str]]
+    start: int
+    sense: int
+
+
+@dataclass
 class Drive:
     """A given motion: position (radians or metres), speed and acceleration."""
 
@@ -124,6 +143,7 @@ class Standing:
     slides: dict[str, Slide] = field(default_factory=dict)
     straights: list[Straight] = field(default_factory=list)
     gears: list[Gear] = field(default_factory=list)
+    cams: list[CamLaw] = field(default_factory=list)
     drives: list[Drive] = field(default_factory=list)
     idle: dict[str, tuple[str, str]] = field(default_factory=dict)
     """Idle bars: what they are pinned to, and the point that they only point to."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import mpmath
 
-from tests.chance.records import FRAME, Body, Drive, Gear, Slide, Standing, Straight
+from tests.chance.records import FRAME, Body, CamLaw, Drive, Gear, Slide, Standing, Straight
 from tests.mechanisms import HEAD, angled, number, pair, sided
 
 DIGITS = 50
@@ -58,7 +58,23 @@ class Written:
             lines.append(f"rolls = [{', '.join(tracks)}]")
         if belts := [self.meshed(gear) for gear in gears if gear.belt]:
             lines.append(f"belt = [{', '.join(belts)}]")
+        for cam in self.standing.cams:
+            lines += self.lifted(cam) if cam.follower == body.name else []
         return lines
+
+    def lifted(self, cam: CamLaw) -> list[str]:
+        """A cam, of the follower that it lifts."""
+        sizes = (mpmath.mpf(repr(each)) for each in (cam.base, cam.roller))
+        pieces = [(end, mpmath.mpf(repr(rise)), how) for end, rise, how in cam.pieces]
+        self.numbers[id(cam)] = *sizes, degrees(cam.start), pieces
+        law = ", ".join(
+            f'{{ to = {end}, rise = {rise!r}, motion = "{how}" }}' for end, rise, how in cam.pieces
+        )
+        roller = [f"roller = {cam.roller!r}"] if cam.tip == "roller" else []
+        clockwise = ["clockwise = true"] if cam.sense < 0 else []
+        head = [f"[links.{cam.follower}.cam]", f"on = {cam.on}", f'tip = "{cam.tip}"']
+        head += [f"base = {cam.base!r}", *roller, f"start = {cam.start}", *clockwise]
+        return [*head, f"law = [{law}]"]
 
     def shape(self, body: Body) -> list[str]:
         """The points of a link, by coordinates or by lengths and angles."""
@@ -201,6 +217,10 @@ class Exact:
             }
         return radii, self.wound[id(gear)]
 
+    def cam(self, cam: CamLaw) -> tuple[Any, ...]:
+        """Sizes of a cam, where its law begins, and its pieces."""
+        return self.written.numbers[id(cam)]
+
     def drive(self, drive: Drive, time: Any) -> Any:
         """The given position at a time."""
         where, speed, rate = self.written.numbers[id(drive)]
@@ -244,6 +264,15 @@ class Shaken(Exact):
         (own, other), zero = super().gear(gear)
         zero = {name: angle * (1 + self.share(gear.wheel, name)) for name, angle in zero.items()}
         return (own * (1 + self.share(gear.wheel, gear.on)), other), zero
+
+    def cam(self, cam: CamLaw) -> tuple[Any, ...]:
+        """A cam a little larger, its law a little later and higher."""
+        base, roller, start, pieces = super().cam(cam)
+        more = 1 + self.share(cam.follower, "cam")
+        risen = [
+            (end, rise * (1 + self.share(cam.follower, "lift")), how) for end, rise, how in pieces
+        ]
+        return base * more, roller * more, start + self.share(cam.follower, "start"), risen
 
     def drive(self, drive: Drive, time: Any) -> Any:
         """A driver that is ahead or behind, and faster or slower."""

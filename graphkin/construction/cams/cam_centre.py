@@ -33,6 +33,7 @@ from graphkin.numbers.cam_followers import (
 from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import Cam, CamLever
+from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -236,6 +237,16 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """A pitch curve without curvature."""
         return f"the pitch curve of link {self.link} is {nearly}straight at the contact"
+
+    def undetermined(self, args: Sequence[Any]) -> Problem:
+        """No circle stands for the cam where its pitch curve is straight."""
+        return Problem(
+            f"position of {self.name}",
+            f"{self.name} lies at infinity: the pitch curve of link {self.link} is straight at the "
+            "contact",
+            "a contact at which it is curved",
+            "the follower moves by its law, but no circle stands for the cam here: move the driver",
+        )
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its distance from the pivot, and its direction in the plane."""

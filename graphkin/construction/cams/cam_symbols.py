@@ -18,7 +18,7 @@ BEYOND = 1.15
 
 def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The profiles of all cams whose place is known, and rollers and faces of their followers."""
-    from graphkin.construction.core.cam_profiles import DRAWN, CamProfile
+    from graphkin.construction.core.cam_profiles import DRAWN, profiles_of
 
     scene, places = drawing.scene, drawing.positions
     for follower, cam in scene.cams.items():
@@ -26,10 +26,15 @@ def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
         axis = drawing.standing.axis(cam.on)
         if cam.pivot not in places or tip not in places or axis is None:
             continue
-        profile = CamProfile(scene, follower, DRAWN)
+        profile, *second = profiles_of(scene, follower, DRAWN)
         pivot = places[cam.pivot]
-        outline = tuple(field(pivot + axis * complex(place)) for place in profile.outline)
-        board.marks.append(polygon(outline, "profile", cam.on))
+        for each in (profile, *second):
+            outline = tuple(field(pivot + axis * complex(place)) for place in each.outline)
+            board.marks.append(polygon(outline, "profile", cam.on))
+        for each in second:
+            assert cam.conjugate is not None
+            at = field(places[cam.conjugate.at])
+            board.marks.append(CircleMark(*at, each.roller * field.mm, "profile", follower))
         if cam.tip == "roller":
             radius = profile.roller * field.mm
             board.marks.append(CircleMark(*field(places[tip]), radius, "profile", follower))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, meet
@@ -208,7 +209,7 @@ class TwoPointCentre(Centre, frozen=True, kw_only=True):
     def lines_to(self, drawing: Drawing) -> list[Places]:
         """From each of its two points."""
         points = (self.point, self.other) if self.other else ()
-        return [{point: drawing.standing.spot(point)} for point in points]
+        return [{point: drawing.standing.spot(lettered(point))} for point in points]
 
     def oddity(self, drawing: Drawing) -> str:
         """Also that it is still: a point of the bar, to which the hand's lines do not lead."""

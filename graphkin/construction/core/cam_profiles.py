@@ -34,12 +34,16 @@ EXAMINED = 3600
 
 
 class CamProfile(Struct, frozen=True, dict=True):
-    """The cam of a follower, at ``count`` angles evenly over a turn, or at those that are given."""
+    """The cam of a follower, at ``count`` angles evenly over a turn, or at those that are given.
+
+    With ``second`` it is the conjugate profile, on which the follower's second roller runs.
+    """
 
     scene: Scene
     follower: str
     count: int = EXAMINED
     given: Any = None
+    second: bool = False
 
     @property
     def cam(self) -> Cam:
@@ -90,13 +94,25 @@ class CamProfile(Struct, frozen=True, dict=True):
         if self.cam.is_flat:
             start = start_on_face(pin, self.base + metres(self.scene, lever.face))
         else:
-            start = start_on_tip(pin, arm, self.base + self.roller)
+            start = start_on_tip(pin, arm, self.prime)
         return lever_way(pin, start, lever.side, self.rise.at)
 
     @property
     def roller(self) -> float:
         """The radius of the roller."""
-        return float(self.cam.roller.si(self.scene.values))
+        conjugate = self.cam.conjugate
+        roller = conjugate.roller if self.second and conjugate else self.cam.roller
+        return float(roller.si(self.scene.values))
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether a face touches the profile."""
+        return self.cam.is_flat and not self.second
+
+    @property
+    def prime(self) -> float:
+        """The radius on which the first roller's centre rests, or the knife's edge."""
+        return self.base + float(self.cam.roller.si(self.scene.values))
 
     @property
     def base(self) -> float:
@@ -108,7 +124,7 @@ class CamProfile(Struct, frozen=True, dict=True):
         """How far a sliding follower's point stands along the guide from the foot of the pivot."""
         if self.cam.is_flat:
             return self.base + self.rise.at
-        return np.sqrt((self.base + self.roller) ** 2 - self.guide[1] ** 2) + self.rise.at
+        return np.sqrt(self.prime**2 - self.guide[1] ** 2) + self.rise.at
 
     @cached_property
     def tip(self) -> TipMotion:
@@ -116,9 +132,22 @@ class CamProfile(Struct, frozen=True, dict=True):
         rates, lever = (self.rise.rate, self.rise.bend), self.cam.lever
         if lever:
             pin, arm = self.bar
-            return swung_tip(pin, arm * self.way, lever.side, *rates)
+            return swung_tip(pin, self.beside(arm) * self.way, lever.side, *rates)
         along, aside = self.guide
-        return guided_tip(along, aside, self.height, *rates)
+        tip = guided_tip(along, aside, self.height, *rates)
+        return tip._replace(place=tip.place + self.beside(0.0) * along)
+
+    def beside(self, arm: float) -> complex:
+        """Where the roller's centre lies on the follower: from its pin along the bar, or from the
+        first point along the guide; ``arm`` is where the first roller's does."""
+        conjugate = self.cam.conjugate
+        if not self.second or conjugate is None:
+            return complex(arm)
+        own, lever = body(self.scene, self.follower), self.cam.lever
+        if lever is None:
+            return complex(own[conjugate.at] - own[self.cam.point])
+        bar = own[self.cam.point] - own[lever.pin]
+        return complex((own[conjugate.at] - own[lever.pin]) / bar * abs(bar))
 
     @cached_property
     def flat(self) -> FaceMotion:
@@ -132,7 +161,7 @@ class CamProfile(Struct, frozen=True, dict=True):
     @cached_property
     def outline(self) -> Any:
         """The places of the profile in the cam's axes."""
-        if self.cam.is_flat:
+        if self.is_flat:
             place = self.flat.contact
         else:
             way = self.tip.way
@@ -155,13 +184,18 @@ class CamProfile(Struct, frozen=True, dict=True):
     def pressure(self) -> Any:
         """The pressure angle at each angle, in degrees: of the common normal with the tip's way."""
         lever = self.cam.lever
-        if self.cam.is_flat:
+        if self.is_flat:
             if lever is None:
                 return np.zeros(len(self.angles))
             arm = self.flat.contact - self.bar[0]
             return abs(np.degrees(np.angle(self.flat.normal / (-1j * lever.side * arm))))
-        along = -1j * lever.side * self.way if lever else self.guide[0]
-        return abs(np.degrees(np.angle(1j * self.tip.way / along)))
+        if lever:
+            bar = self.beside(self.bar[1])
+            along = -1j * lever.side * self.way * (bar / abs(bar))
+        else:
+            along = self.guide[0]
+        angle = abs(np.degrees(np.angle(1j * self.tip.way / along)))
+        return np.minimum(angle, 180 - angle)
 
     @property
     def bend(self) -> Any:
@@ -169,7 +203,7 @@ class CamProfile(Struct, frozen=True, dict=True):
 
         A curvature is positive where the curve is convex.
         """
-        if self.cam.is_flat:
+        if self.is_flat:
             return self.flat.radius
         way = self.tip.way
         return -(way.conj() * self.tip.turn).imag / abs(way) ** 3
@@ -178,14 +212,14 @@ class CamProfile(Struct, frozen=True, dict=True):
     def radius(self) -> Any:
         """The radius of curvature of the profile at each angle (m), positive where it is convex."""
         with np.errstate(divide="ignore"):
-            return self.bend if self.cam.is_flat else 1 / self.bend - self.roller
+            return self.bend if self.is_flat else 1 / self.bend - self.roller
 
     @property
     def sharpest(self) -> tuple[float, float]:
         """The least radius of curvature of the profile where it is convex (m), and at which law's
         angle; nought or less where it is undercut."""
         bend = self.bend
-        number = int(bend.argmin() if self.cam.is_flat else bend.argmax())
+        number = int(bend.argmin() if self.is_flat else bend.argmax())
         return float(self.radius[number]), float(self.law_angles[number])
 
     @property
@@ -193,6 +227,12 @@ class CamProfile(Struct, frozen=True, dict=True):
         """The largest pressure angle, and at which angle of the law, in degrees."""
         number = int(self.pressure.argmax())
         return float(self.pressure[number]), float(self.law_angles[number])
+
+
+def profiles_of(scene: Scene, follower: str, count: int = EXAMINED) -> list[CamProfile]:
+    """The profile of a follower's cam, and the conjugate one where it has a second roller."""
+    both = (False, True) if scene.cams[follower].conjugate else (False,)
+    return [CamProfile(scene, follower, count, second=second) for second in both]
 
 
 def profiles_along(scene: Scene, turned: str, angles: Any) -> dict[str, CamProfile]:

@@ -158,11 +158,11 @@ class Drawing(Struct, frozen=True, dict=True):
 
     def cam_corners(self) -> Iterator[complex]:
         """The corners of the boxes in which the profiles of cams turn."""
-        from graphkin.construction.core.cam_profiles import DRAWN, CamProfile
+        from graphkin.construction.core.cam_profiles import DRAWN, profiles_of
 
         for follower, cam in self.scene.cams.items():
             if cam.pivot in self.positions:
-                reach = CamProfile(self.scene, follower, DRAWN).reach
+                reach = max(each.reach for each in profiles_of(self.scene, follower, DRAWN))
                 yield from (self.positions[cam.pivot] + reach * way for way in (1 + 1j, -1 - 1j))
 
     def guide(self, slide: Slide) -> tuple[complex, complex] | None:

@@ -129,6 +129,9 @@ def cams(drawing: Drawing) -> Iterator[str]:
             yield words("page.cam_lever", base=base, line=line, **fields)
         else:
             yield words("page.cam", base=base, **fields)
+        if cam.conjugate:
+            radius, at = written(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
+            yield words("page.cam_conjugate", radius=radius, p=at, **fields)
         if cam.slopes:
             points = cam_points(scene, words, cam)
             yield words("page.cam_table", sense=turned, points=points, **fields)

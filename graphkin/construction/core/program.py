@@ -227,10 +227,10 @@ class Program(Struct, frozen=True):
             return step.given is not None
         return found.issuperset(step.args)
 
-    def descendants(self, number: int) -> frozenset[int]:
-        """The steps whose values depend on a step, itself included."""
+    def descendants(self, number: int, among: Iterable[int] | None = None) -> frozenset[int]:
+        """The steps whose values depend on a step, itself included; ``among`` some, in order."""
         found = {number}
-        for later in range(number + 1, len(self.steps)):
-            if found.intersection(self.steps[later].args):
+        for later in range(number + 1, len(self.steps)) if among is None else among:
+            if not found.isdisjoint(self.steps[later].args):
                 found.add(later)
         return frozenset(found)

@@ -44,6 +44,7 @@ def run(
     hook: Hook | None = None,
     overrides: Mapping[int, Any] | None = None,
     by_hand: bool = False,
+    begun: Trace | None = None,
 ) -> Trace:
     """Run the needed steps on one scene, with a margin for every crossing.
 
@@ -51,12 +52,23 @@ def run(
     use in place of a step's own; ``by_hand`` lets composite steps take the hand's value.
     A step that only the hand's way uses and that cannot be drawn here (the normal to a velocity
     that is nought) is left out, and what would follow from it. Raises StepFailed at any other.
+    What was ``begun`` with the same steps and values at another scale of velocities is kept where
+    it does not depend on that.
     """
     found: dict[int, Any] = {}
     margins: dict[int, Any] = {}
     overrides = overrides or {}
+    anew = {-1 if program.seconds is None else program.seconds}
     for number in needed:
         step = program.steps[number]
+        if begun is not None and number not in anew:
+            if anew.isdisjoint(step.args):
+                if number in begun.values:
+                    found[number] = begun.values[number]
+                if number in begun.margins:
+                    margins[number] = begun.margins[number]
+                continue
+            anew.add(number)
         if number in overrides:
             value = overrides[number]
         elif by_hand and step.by_hand is not None and step.by_hand in found:

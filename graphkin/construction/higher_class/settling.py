@@ -26,11 +26,12 @@ def run_settled(
     needed: Sequence[int],
     *,
     overrides: Mapping[int, Any] | None = None,
+    begun: Trace | None = None,
 ) -> Trace:
     """As run, in doubles. Raises StepFailed, of MergingError where balls do not decide either."""
     while True:
         try:
-            return run(program, needed, scene.values, FLOAT, overrides=overrides)
+            return run(program, needed, scene.values, FLOAT, overrides=overrides, begun=begun)
         except StepFailed as failed:
             if not isinstance(failed.__cause__, MergingError):
                 raise

@@ -1,0 +1,214 @@
+"""Kutzbach's plan of gear trains: tips on rays, speeds by Willis, answers of books, refusals."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import combinations
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.rolling import kutzbach
+from graphkin.construction.rolling.kutzbach import LadderPoint, LadderRay, SpeedPole, SpeedRead
+from graphkin.mechanism import Mechanism, load
+from graphkin.numbers.kinds import ball_kind
+from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import GraphkinError
+from tests.textbook.book import within
+
+FOLDER = Path(__file__).parents[2] / "examples" / "scenes"
+TRAINS = ("gears-ring", "gears-simpson", "gears-ravigneaux", "gears-double-planet", "gears-pair")
+HEAD = """
+graphkin = 1
+title = "Train"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+module = 2
+"""
+PLAN = '\n[sheet]\nplan = "kutzbach"\n'
+
+
+def train(text: str) -> Mechanism:
+    """The mechanism of a train with the plan."""
+    return Mechanism(read_text(HEAD + text + PLAN, "train"))
+
+
+def example(name: str) -> Mechanism:
+    """A shipped train, with the plan."""
+    text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    return Mechanism(read_text(text + PLAN, name))
+
+
+def speeds(mechanism: Mechanism) -> dict[str, float]:
+    """What each link cuts off on the line of speeds, over what is cut off at 1 rad/s."""
+    found = mechanism.trace(by_hand=True)
+    (scale,) = constructions(found.program, SpeedPole)
+    reads = list(constructions(found.program, SpeedRead))
+    start, pole = (found.values[number] for number in (scale.start, scale.pole))
+    unit = start - pole
+    turner = found.program.steps[reads[0].parallel]
+    assert turner.args[0] == scale.pole
+    return {
+        read.link: ((found.values[read.cut] - start) / (1j * unit)).real / pace(mechanism)
+        for read in reads
+    }
+
+
+def pace(mechanism: Mechanism) -> float:
+    """The time by which lengths are laid off in the plan: that of the turning driver."""
+    driver = next(d for d in mechanism.scene.drivers if not d.speed.is_zero())
+    return float(1 / abs(driver.speed.si(mechanism.scene.values)))
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_every_link_cuts_off_its_angular_velocity(name):
+    mechanism = example(name)
+    links = mechanism.solve().links
+    for link, cut in speeds(mechanism).items():
+        assert within(cut, links[link].omega, 1e-12), link
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_the_tips_of_all_points_of_a_link_lie_on_its_ray(name):
+    """Also those through which it was not drawn: pitch points, and centres on axes and arms."""
+    mechanism = example(name)
+    found = mechanism.trace(by_hand=True)
+    tips = {p.point: p.tip for p in constructions(found.program, LadderPoint) if p.tip is not None}
+    rays = list(constructions(found.program, LadderRay))
+    assert rays
+    shared = 0
+    for number in tips.values():
+        tip = found.values[number]
+        on = [r for r in rays if abs(off(found.values[r.ray], tip)) < 1e-12 * abs(tip)]
+        shared += len(on) > 1
+        assert on
+    assert shared  # in pitch points two rays meet
+
+
+def off(line, point) -> float:
+    """How far a point lies beside a line."""
+    return ((point - line.point) / line.along).imag * abs(line.along)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_speeds_of_a_planetary_gear_are_those_of_willis(seed):
+    """(ω_sun - ω_arm)/(ω_ring - ω_arm) = -z_ring/z_sun, with arm and ring driven."""
+    random = Random(seed)
+    sun, planet = random.randint(12, 40), random.randint(12, 40)
+    ring, arm, second = sun + 2 * planet, random.choice([-7, -2, 3, 11]), random.randint(1, 9)
+    mechanism = train(
+        f"""
+        [frame]
+        O = [0, 0]
+        [links.arm]
+        O-P = {sun + planet}
+        [links.planet]
+        P = [0, 0]
+        wheel = {{ centre = "P", teeth = {planet} }}
+        rolls = [{{ on = "ring" }}, {{ on = "sun" }}]
+        [links.sun]
+        O = [0, 0]
+        wheel = {{ centre = "O", teeth = {sun} }}
+        [links.ring]
+        O = [0, 0]
+        wheel = {{ centre = "O", teeth = {ring}, inside = true }}
+        [[drivers]]
+        turn = "arm"
+        angle = {random.uniform(0, 360)}
+        speed = {arm}
+        [[drivers]]
+        turn = "ring"
+        angle = 10
+        speed = {second}
+        """
+    )
+    found = speeds(mechanism)
+    expected = arm - Fraction(ring, sun) * (second - arm)
+    assert within(found["sun"], float(expected), 1e-12)
+    assert within(found["planet"], float(arm + Fraction(ring, planet) * (second - arm)), 1e-12)
+
+
+def test_fixed_axes_out_of_line_are_unfolded():
+    """A train whose centres make a corner: i = (20/30)·(40/25), each pitch point on one axis."""
+    mechanism = train(
+        """
+        [frame]
+        A = [0, 0]
+        B = [50, 0]
+        C = [50, 65]
+        [links.1]
+        A = [0, 0]
+        wheel = { centre = "A", teeth = 20 }
+        [links.2]
+        B = [0, 0]
+        wheels = [{ centre = "B", teeth = 30 }, { centre = "B", teeth = 40 }]
+        rolls = { on = 1 }
+        [links.3]
+        C = [0, 0]
+        wheel = { centre = "C", teeth = 25 }
+        rolls = { on = 2 }
+        [[drivers]]
+        turn = 1
+        angle = 0
+        speed = 6
+        """
+    )
+    found = speeds(mechanism)
+    assert within(found["2"], -4.0, 1e-13)
+    assert within(found["3"], 6.4, 1e-13)
+    trace = mechanism.trace(by_hand=True)
+    feet = {p.point: trace.values[p.foot] for p in constructions(trace.program, LadderPoint)}
+    way = feet["C"] - feet["B"]
+    for one, other in combinations(feet.values(), 2):
+        assert abs(((other - one) / way).imag) < 1e-12
+
+
+def test_the_book_s_epicyclic_gear():
+    """R. S. Khurmi, J. K. Gupta, Theory of Machines, example 13.6: 58.5 and 46.8 rev/min."""
+    links, turn = load(FOLDER / "gears-kutzbach.toml").solve().links, 3.141592653589793 / 30
+    assert within(links["C"].omega, 58.5 * turn, 1e-12)
+    assert within(links["B"].omega, -46.8 * turn, 1e-12)
+
+
+def test_the_drawn_speeds_are_proved():
+    """In balls of 200 bits the rate read off the line of speeds overlaps that of the link."""
+    mechanism = example("gears-ravigneaux")
+    trace = mechanism.trace(by_hand=True, kind=ball_kind(200))
+    reads = [r for r in constructions(trace.program, SpeedRead) if r.rate is not None]
+    assert len(reads) == 4
+    for read in reads:
+        assert trace.values[read.rate].overlaps(trace.values[read.read])
+
+
+def test_a_wrong_speed_is_seen(monkeypatch):
+    """The law above is none that any drawing passes."""
+    wrong = kutzbach.tip_over.value
+    monkeypatch.setattr(
+        kutzbach,
+        "tip_over",
+        kutzbach.action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1])),
+    )
+    mechanism = example("gears-ring")
+    omega = mechanism.solve().links["2"].omega
+    assert not within(speeds(mechanism)["2"], omega, 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [
+        ("slider-crank", "no wheels touch"),
+        ("belts-dynamo", "a belt, a rack or a rolling wheel belongs to it"),
+        ("gears-rack", "a belt, a rack or a rolling wheel belongs to it"),
+    ],
+)
+def test_what_has_no_such_plan_is_refused(name, found):
+    with pytest.raises(GraphkinError) as error:
+        example(name).solve()
+    (problem,) = error.value.problems
+    assert (problem.place, problem.found) == ("sheet.plan", found)
+
+
+def test_an_unknown_plan_is_a_mistake():
+    with pytest.raises(GraphkinError, match=r"sheet\.plan: .*expected one of images, kutzbach"):
+        read_text(HEAD + PLAN.replace("kutzbach", "ladder"), "train")
