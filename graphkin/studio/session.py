@@ -31,10 +31,9 @@ from graphkin.studio.folder import (
 from graphkin.studio.guard import new_token
 from graphkin.studio.lab_panel import lab_advice, lab_report
 from graphkin.studio.lab_work import LabProblems, LabTexts, beside, proposal_of, trial_of
-from graphkin.studio.look import Sight, look, spoken_in, told
+from graphkin.studio.look import Sight, look, spoken_in, told_in
 from graphkin.studio.page_requests import PageRequest, PageRequestError
 from graphkin.studio.panels import Memory, StaleError
-from graphkin.studio.problem_places import marked
 from graphkin.studio.saving import (
     FORMATS,
     VIEWS,
@@ -60,6 +59,11 @@ units = { length = "mm", angle = "deg", speed = "rev/min" }
 """A scene in which nothing is built yet."""
 FIRST = "graphkin ="
 """How the first line of a scene begins."""
+
+
+def language_in(order: PageRequest) -> str:
+    """The language of the page."""
+    return order.choice("language", LANGUAGES)
 
 
 def with_curves(mechanism: Mechanism, stem: str, language: str) -> str:
@@ -154,7 +158,7 @@ class Session:
         sight = Sight(
             order.scene(),
             stem_of(order.text("name")),
-            order.choice("language", LANGUAGES),
+            language_in(order),
             order.settings(),
             order.choice("mechanism", SHEETS),
             order.flag("quick"),
@@ -228,14 +232,14 @@ class Session:
         """What comes of a lab's texts in a process beside this one, as it is told on the page."""
         tab, number = f"{order.text('tab')} lab", order.number("number")
         texts = LabTexts(order.scene(), order.long_text("rules"), stem_of(order.text("name")))
-        words = spoken_in(order.choice("language", LANGUAGES))
+        words = spoken_in(language_in(order))
         self.arrived(tab, number)
         try:
             found = beside(work, texts, lambda: self.still_wanted(tab, number))
         except StaleError:
             return {"stale": True, "number": number}
         if isinstance(found, LabProblems):
-            wrong = [told(mark) for mark in marked(found.rules, texts.rules)]
+            wrong = told_in(found.rules, texts.rules, words.language)
             return {"problems": wrong, "scene_wrong": bool(found.scene), "number": number}
         known = to_builtins(told_of(found, texts, words))
         return {"problems": [], "scene_wrong": False, "number": number, **known}
@@ -243,26 +247,26 @@ class Session:
     def student(self, order: PageRequest) -> dict[str, Any]:
         """The sheets of one student, or why they cannot be drawn."""
         text, name = order.scene(), completed(order.text("name"))
-        language, view = order.choice("language", LANGUAGES), order.choice("view", VIEWS)
+        language, view = language_in(order), order.choice("view", VIEWS)
         wanted = WantedSheets(text, name, order.settings(), language, view, ("svg",))
         try:
             with self.drawing():
                 sheets = sheets_of(self.folder, wanted)
         except GraphkinError as error:
-            problems = [told(mark) for mark in marked(error.problems, text)]
+            problems = told_in(error.problems, text, language_in(order))
             return {"sheets": [], "problems": problems}
         return {"sheets": [data.decode("utf-8") for data in sheets.values()], "problems": []}
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
         """Where the page of a mechanism that moves is found: with curves, or step by step."""
         text, stem = order.scene(), stem_of(order.text("name"))
-        language, kind = order.choice("language", LANGUAGES), order.choice("page", MOVING)
+        language, kind = language_in(order), order.choice("page", MOVING)
         try:
             mechanism = Mechanism(read_text(text, stem, None, order.settings()))
             with self.drawing():
                 page = MOVING_PAGES[kind](mechanism, stem, language)
         except GraphkinError as error:
-            problems = [told(mark) for mark in marked(error.problems, text)]
+            problems = told_in(error.problems, text, language_in(order))
             return {"page": "", "problems": problems}
         key = new_token()
         self.moving[key] = page
@@ -276,7 +280,7 @@ class Session:
         try:
             rules = rules_for(Mechanism(read_text(text, stem_of(order.text("name")))))
         except GraphkinError as error:
-            return {"rules": "", "problems": [told(mark) for mark in marked(error.problems, text)]}
+            return {"rules": "", "problems": told_in(error.problems, text, language_in(order))}
         return {"rules": rules, "problems": []}
 
     def write(self, order: PageRequest) -> dict[str, Any]:
@@ -285,7 +289,7 @@ class Session:
         try:
             return {"edits": [to_builtins(edit) for edit in edits(text, settings)], "problems": []}
         except GraphkinError as error:
-            return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
+            return {"edits": [], "problems": told_in(error.problems, text, language_in(order))}
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
         """The sketch of a scene here or of a lab; none of one that cannot be read."""
@@ -316,7 +320,7 @@ class Session:
             with self.drawing():
                 after = built(text, act)
         except GraphkinError as error:
-            return {"text": text, "problems": [told(mark) for mark in marked(error.problems, text)]}
+            return {"text": text, "problems": told_in(error.problems, text, language_in(order))}
         stand = {name: [at.real, at.imag] for name, at in after.places.items()}
         return {"text": after.text, "places": stand, "problems": []}
 
@@ -331,7 +335,7 @@ class Session:
             with self.writing:
                 return save_scene(self.folder, whole, text, mark, replace=replace, rules=rules)
 
-        return self.saving(saved, text)
+        return self.saving(saved, text, language_in(order))
 
     def sheets(self, order: PageRequest) -> dict[str, Any]:
         """Draw and save the sheets of a text."""
@@ -339,7 +343,7 @@ class Session:
             order.scene(),
             completed(order.text("name")),
             order.settings(),
-            order.choice("language", LANGUAGES),
+            language_in(order),
             order.choice("view", VIEWS),
             order.choices("formats", FORMATS),
         )
@@ -351,14 +355,14 @@ class Session:
             with self.writing:
                 return save_files(self.folder, files, replace=replace)
 
-        return self.saving(saved, wanted.text)
+        return self.saving(saved, wanted.text, wanted.language)
 
-    def saving(self, work: Callable[[], Saved], text: str) -> dict[str, Any]:
+    def saving(self, work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
         """What was written, what is in the way, or why nothing was written."""
         try:
             return {**to_builtins(work()), "problems": []}
         except GraphkinError as error:
-            problems = [told(mark) for mark in marked(error.problems, text)]
+            problems = told_in(error.problems, text, language)
         return {**to_builtins(Saved()), "problems": problems}
 
 

@@ -20,6 +20,7 @@ SPOKEN = (
     "studio.one_wrong",
     "studio.some_wrong",
     "studio.line",
+    "studio.expected",
     "studio.column",
     "studio.file_name",
     "studio.new",

@@ -138,7 +138,6 @@ export function editorOf(part) {
     where.textContent = whereabouts(problem);
     const words = document.createElement("span");
     words.textContent = matter(problem);
-    words.lang = "en";
     body.append(where, " ", words);
     if (problem.line) {
       body.type = "button";
