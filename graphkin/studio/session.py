@@ -23,6 +23,8 @@ from graphkin.studio.folder import (
     ENDING,
     Folder,
     completed,
+    example_text,
+    examples,
     shipped,
     shipped_rules,
     shipped_text,
@@ -50,6 +52,10 @@ from graphkin.studio.sketch import sketch
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import GraphkinError, SceneError
 
+OPENED = ("lab", "example", "like", "empty", "scene")
+"""What an address may ask to open, by its key."""
+PICTURED = ("scene", "lab", "example")
+"""What has a picture in the gallery."""
 TABS = 8
 """Pages whose last drawing is remembered."""
 EMPTY = """graphkin = 1
@@ -132,25 +138,35 @@ class Session:
             return {"lab": name, **lab}
         return {"scene": self.folder.name_of(scene_files.find(name)), **lab}
 
-    def open(self, scene: str, lab: str, *, empty: bool = False) -> Opened:
-        """The text of a scene here, of a shipped lab, one to start from, or an empty field.
+    def open(self, name: str, kind: str) -> Opened:
+        """The text of a scene here, or like it under another name; of a lab or another scene that
+        comes with graphkin; an empty field; one to start from.
 
         Raises SceneError for a name that is none.
         """
-        if lab:
-            return Opened(f"{lab}{ENDING}", shipped_text(lab), rules=shipped_rules(lab))
-        if empty:
-            return Opened(f"new{ENDING}", EMPTY)
-        if scene:
-            text, mark = self.folder.read(scene), mark_of_file(self.folder.path(scene))
-            rules = self.folder.rules(scene)
-            own = mark_of_file(self.folder.lab_path(scene)) if rules else ""
-            return Opened(scene, text, mark, rules, own)
+        match kind:
+            case "lab":
+                return Opened(f"{name}{ENDING}", shipped_text(name), rules=shipped_rules(name))
+            case "example":
+                return Opened(f"{name}{ENDING}", example_text(name))
+            case "like":
+                return Opened(self.folder.free(name), self.folder.read(name))
+            case "empty":
+                return Opened(f"new{ENDING}", EMPTY)
+            case "scene":
+                text, mark = self.folder.read(name), mark_of_file(self.folder.path(name))
+                rules = self.folder.rules(name)
+                own = mark_of_file(self.folder.lab_path(name)) if rules else ""
+                return Opened(name, text, mark, rules, own)
         return Opened(f"new{ENDING}", start_text())
 
-    def listed(self) -> dict[str, Any]:
-        """The scenes that can be opened: those here, and the labs that come with graphkin."""
-        return {"scenes": self.folder.scenes(), "labs": [list(lab) for lab in shipped()]}
+    def listed(self, language: str) -> dict[str, Any]:
+        """The scenes that can be opened: those here, and what comes with graphkin."""
+        return {
+            "scenes": self.folder.scenes(),
+            "labs": shipped(language),
+            "examples": examples(language),
+        }
 
     def look(self, order: PageRequest) -> dict[str, Any]:
         """What is seen of a text; only that it is stale where a newer one was asked for since."""
@@ -292,11 +308,11 @@ class Session:
             return {"edits": [], "problems": told_in(error.problems, text, language_in(order))}
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
-        """The sketch of a scene here or of a lab; none of one that cannot be read."""
-        scene, lab = order.text("scene"), order.text("lab")
+        """The sketch of a scene in the gallery; none of one that cannot be read."""
+        kind = order.choice("kind", PICTURED)
         try:
             with self.drawing():
-                opened = self.open(scene, lab)
+                opened = self.open(order.text("name"), kind)
                 seen = sketch(opened.text, stem_of(opened.name), {})
         except GraphkinError:
             return {"sketch": None}

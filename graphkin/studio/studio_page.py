@@ -30,6 +30,8 @@ SPOKEN = (
     "studio.here",
     "studio.no_scenes",
     "studio.labs",
+    "studio.examples",
+    "studio.like",
     "studio.close",
     "studio.cancel",
     "studio.replace",

@@ -91,6 +91,7 @@ def test_names_and_lines_of_toml_stay_as_they_are():
     assert say('C = "left of A-B" for one group of class III, order 3') == (
         'C = "left of A-B" per un gruppo di classe III, ordine 3'
     )
+    assert say("belong both to the frame") == "sono entrambe del telaio"
     assert say("no such words at all") == "no such words at all"
 
 

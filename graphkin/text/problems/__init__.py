@@ -23,6 +23,10 @@ WEAK = 9
 QUOTED = re.compile(r'"[^"]*"|\{.*?\}|\[.*?\]|\w+ = \S+')
 WORD = re.compile(r"(?<![\w-])[a-z]{3,}(?![\w-])")
 """A word of English, not of TOML or a name."""
+JOINED = re.compile(r"\b(di|a|da|su|in) (il|la|i|le|gli|l’)(?= |(?<=’))")
+STEMS = {"di": "de", "a": "a", "da": "da", "su": "su", "in": "ne"}
+ENDS = {"il": "l", "la": "lla", "i": "i", "le": "lle", "gli": "gli", "l’": "ll’"}
+"""Italian prepositions are one word with an article that follows: ``di il`` is ``del``."""
 DEEPEST = 4
 """How far fillings are looked into."""
 
@@ -47,8 +51,15 @@ class Sentences:
         gapped = [(tuple(GAP.split(each)), each) for each in self.templates if GAP.search(each)]
         return sorted(gapped, key=lambda pair: -sum(map(len, pair[0])))
 
-    def __call__(self, said: str, depth: int = 0) -> str:
+    def __call__(self, said: str) -> str:
         """An English sentence in this language; as it is where none fits."""
+        found = self.said(said, 0)
+        if self.language != "it" or found == said:
+            return found
+        return JOINED.sub(lambda match: STEMS[match[1]] + ENDS[match[2]], found)
+
+    def said(self, said: str, depth: int) -> str:
+        """A sentence or a part of one."""
         found = self.whole(said, depth)
         if found is not None:
             return found
@@ -60,7 +71,7 @@ class Sentences:
 
     def part(self, said: str, depth: int) -> str:
         """A part of a sentence, or what fills a gap: a name stays as it is."""
-        return self(said, depth + 1) if " " in said and depth < DEEPEST else said
+        return self.said(said, depth + 1) if " " in said and depth < DEEPEST else said
 
     def whole(self, said: str, depth: int) -> str | None:
         """The sentence whose template fits; None where none does."""
