@@ -14,6 +14,7 @@ from msgspec import Struct, to_builtins
 from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.classroom.page_documents import hand_out_page
 from graphkin.construction.core.quantities import SHEETS
+from graphkin.diagnosis.ranges import driver_words
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import tables_of
@@ -72,18 +73,18 @@ def language_in(order: PageRequest) -> str:
     return order.choice("language", LANGUAGES)
 
 
-def with_curves(mechanism: Mechanism, stem: str, language: str) -> str:
-    """The page of a cycle: mechanism, plans and curves that move together."""
+def with_curves(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
+    """The page of a cycle, of one driver or of all with the time: what moves together."""
     from graphkin.motion.cycle import cycle
     from graphkin.web.frames import motion
     from graphkin.web.player import player_page
 
     spoken = spoken_in(language)
-    return player_page(motion(cycle(mechanism), spoken), spoken)
+    return player_page(motion(cycle(mechanism, driver=driver), spoken), spoken)
 
 
-def step_by_step(mechanism: Mechanism, stem: str, language: str) -> str:
-    """The page that draws itself, whose pins are dragged."""
+def step_by_step(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
+    """The page that draws itself, whose pins are dragged, each driver's by its own handle."""
     return hand_out_page(mechanism, stem, stem, language=language)
 
 
@@ -277,18 +278,22 @@ class Session:
         """Where the page of a mechanism that moves is found: with curves, or step by step."""
         text, stem = order.scene(), stem_of(order.text("name"))
         language, kind = language_in(order), order.choice("page", MOVING)
+        drivers: list[str] = []
         try:
             mechanism = Mechanism(read_text(text, stem, None, order.settings()))
+            drivers = [driver_words(driver) for driver in mechanism.scene.drivers]
+            driver = order.number("driver")
+            moved = driver if len(drivers) > 1 and 1 <= driver <= len(drivers) else None
             with self.drawing():
-                page = MOVING_PAGES[kind](mechanism, stem, language)
+                page = MOVING_PAGES[kind](mechanism, stem, language, moved)
         except GraphkinError as error:
-            problems = told_in(error.problems, text, language_in(order))
-            return {"page": "", "problems": problems}
+            problems = told_in(error.problems, text, language)
+            return {"page": "", "problems": problems, "drivers": drivers}
         key = new_token()
         self.moving[key] = page
         while len(self.moving) > TABS:
             self.moving.popitem(last=False)
-        return {"page": f"moving/{key}", "problems": []}
+        return {"page": f"moving/{key}", "problems": [], "drivers": drivers}
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
         """A lab.toml to start from, for any scene; or why there can be none."""

@@ -89,6 +89,8 @@ SPOKEN = (
     "studio.with_curves",
     "studio.step_by_step",
     "studio.drawing_motion",
+    "studio.moved_driver",
+    "studio.all_drivers",
     "studio.picture",
     "studio.tool_scale",
     "studio.tool_shift",
