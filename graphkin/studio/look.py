@@ -55,7 +55,8 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
         scene = read(sight)
         found["sliders"] = [to_builtins(each) for each in sliders(scene)]
         found["title"] = scene.titles.get(sight.language, scene.title)
-        found |= drawn(Mechanism(scene), sight, memory, found["problems"], go_on)
+        mechanism = memory.mechanism(scene, sight.text)
+        found |= drawn(mechanism, sight, memory, found["problems"], go_on)
     except GraphkinError as error:
         found["problems"] += error.problems
     found["problems"] = told_in(found["problems"], sight.text, sight.language)

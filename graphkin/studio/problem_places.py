@@ -22,6 +22,7 @@ SHORTER = re.compile(r"(\S+-\S+) shorter than")
 """The side of a triangle that is too long, as it is expected."""
 POSITION = "position"
 """The place of what is wrong with the position as a whole."""
+END_OF_LINE, END_OF_TABLE = re.compile(r"\n"), re.compile(r"\n\s*\[")
 SOLID = ("frame", "links")
 """The tables whose keys hold points."""
 VERSION = ("graphkin",)
@@ -81,15 +82,18 @@ def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
 
 
 def mend_of(problem: Problem, text: str, span: Span) -> Edit | None:
-    """The change that the hint of a problem proposes, in the lines of its span."""
+    """The change that the hint of a problem proposes, in the lines of its span or of its table."""
     hint = problem.hint
     if not isinstance(hint, Mend):
         return None
     first = text.rfind("\n", 0, span.start) + 1
-    stop = text.find("\n", span.end)
-    lines = text[first : stop if stop >= 0 else len(text)]
     before, after = (r"\b" if re.match(r"\w", sign) else "" for sign in (hint.old[0], hint.old[-1]))
-    found = [*re.finditer(before + re.escape(hint.old) + after, lines)]
+    wanted = re.compile(before + re.escape(hint.old) + after)
+    for end in (END_OF_LINE, END_OF_TABLE):
+        stop = end.search(text, span.end)
+        found = [*wanted.finditer(text[first : stop.start() if stop else len(text)])]
+        if found:
+            break
     if len(found) != 1:
         return None
     start, end = (units(text[: first + at]) for at in found[0].span())

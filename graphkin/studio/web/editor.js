@@ -84,6 +84,7 @@ export function editorOf(part) {
 
   /** Take the underlining away while it may stand in the wrong place. */
   function forget() {
+    shown = "";
     underline([]);
     number();
   }
@@ -96,7 +97,7 @@ export function editorOf(part) {
 
   /** Show every problem: in the gutter, under its key, and in the list. */
   function showProblems(problems) {
-    if (JSON.stringify(problems) === shown && under.querySelectorAll("mark").length) return;
+    if (JSON.stringify(problems) === shown) return;
     shown = JSON.stringify(problems);
     underline(problems);
     number(new Set(problems.map((each) => each.line)));

@@ -18,7 +18,7 @@ ENGLISH = "en"
 GAP = re.compile(r"\{\d\}")
 PARTS = (re.compile(r"; (?![^(]*\))"), re.compile(", "))
 """What joins several sentences, and the members of a list."""
-WEAK = 9
+WEAK = 4
 """Letters at most of a template, such as "{1} or {2}", that fits only what can be said whole."""
 QUOTED = re.compile(r'"[^"]*"|\{.*?\}|\[.*?\]|\w+ = \S+')
 WORD = re.compile(r"(?<![\w-])[a-z]{3,}(?![\w-])")
