@@ -345,9 +345,10 @@ def test_each_of_several_drivers_is_moved_while_the_others_stand(tmp_path, name,
     page = session.moving[answer["page"].removeprefix("moving/")]
     mechanism = Mechanism(read_text(text, name))
     swept = cycle(mechanism, driver=driver)
-    low, high = (float(re.search(rf' {key}="([-\d.]+)"', page)[1]) for key in ("min", "max"))
-    sweep = swept.sweep
-    metre = 1 if sweep.what == "turn" else METRES[mechanism.scene.units["length"]]
-    assert low * metre <= sweep.start <= high * metre
+    one = METRES[mechanism.scene.units["length"]] if swept.sweep.what == "slide" else 1.0
+    start = swept.sweep.start / one
+    ends = next((low, high) for low, high in swept.ranges if low <= swept.sweep.start <= high)
+    told = re.findall(r'"low":([-.\de]+),"high":([-.\de]+),"start":([-.\de]+),"whole"', page)
+    assert [float(each) for each in told[0]] == pytest.approx([*(e / one for e in ends), start])
     with_time = session.motion(ordered(text=text, name=f"{name}.toml", page="curves"))
     assert session.moving[with_time["page"].removeprefix("moving/")] != page
