@@ -103,6 +103,7 @@ SPOKEN = (
     "studio.redo",
     "studio.speed",
     "studio.empty",
+    "studio.how_begin",
     "studio.how_move",
     "studio.how_pivot",
     "studio.how_bar",
