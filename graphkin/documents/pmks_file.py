@@ -43,7 +43,7 @@ def pmks_file(mechanism: Mechanism) -> bytes:
     refused = list(unknown(scene))
     if refused:
         raise PageError(refused)
-    return Writer(mechanism).text().encode("ascii")
+    return PmksText(mechanism).text().encode("ascii")
 
 
 def unknown(scene: Scene) -> Iterator[Problem]:
@@ -68,7 +68,7 @@ def unknown(scene: Scene) -> Iterator[Problem]:
         yield Problem("links", f"more than {len(LETTERS)} joints", "fewer points", hint)
 
 
-class Writer:
+class PmksText:
     """Joints and links of a scene, each as PMKS+ writes it."""
 
     def __init__(self, mechanism: Mechanism) -> None:

@@ -139,7 +139,7 @@ def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
         "found": said.found,
         "expected": said.expected,
         "hint": str(said.hint),
-        "mend": mark.mend and to_builtins(mark.mend),
+        "mends": [to_builtins(mend) for mend in mark.mends],
         "line": mark.line,
         "column": mark.column,
         "start": mark.start,

@@ -83,6 +83,7 @@ SPOKEN = (
     "studio.tool_delete",
     "studio.gone_from_disk",
     "studio.write_instead",
+    "studio.write_too",
     "studio.leave_out",
     "studio.offered",
     "studio.motion",

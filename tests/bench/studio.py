@@ -146,7 +146,7 @@ PAINTED = """async (value) => {
   await after();
   return performance.now() - start;
 }"""
-"""Move a slider to a place, or write a sign where there is none: milliseconds until it is painted."""
+"""Move a slider to a place, or write a sign where none is given: milliseconds until it is seen."""
 
 
 def painted(scene: str, count: int = 120) -> list[str]:

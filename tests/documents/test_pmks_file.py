@@ -93,7 +93,9 @@ class Read:
 
         x = np.concatenate([start[name] for name in free])
         for _ in range(60):
-            slopes = np.array([(misfit(x + d) - misfit(x - d)) / 2e-6 for d in 1e-6 * np.eye(len(x))])
+            slopes = np.array(
+                [(misfit(x + d) - misfit(x - d)) / 2e-6 for d in 1e-6 * np.eye(len(x))]
+            )
             x = x - np.linalg.lstsq(slopes.T, misfit(x), rcond=None)[0]
         assert np.abs(misfit(x)).max() < 1e-6
         assert np.linalg.matrix_rank(slopes, tol=1e-3) == len(x)

@@ -13,7 +13,6 @@ from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene,
 from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
 
-
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
 

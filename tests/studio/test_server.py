@@ -112,7 +112,9 @@ def test_every_work_is_for_the_page_alone_and_for_what_it_asks(served, name):
 
 
 @pytest.mark.parametrize("kind", ["scene", "lab", "example"])
-@pytest.mark.parametrize("name", ["../secret.toml", "/etc/passwd", "..", "", "x\u0000", "../../pyproject"])
+@pytest.mark.parametrize(
+    "name", ["../secret.toml", "/etc/passwd", "..", "", "x\u0000", "../../pyproject"]
+)
 def test_no_picture_is_drawn_of_what_lies_elsewhere(served, tmp_path, kind, name):
     (tmp_path.parent / "secret.toml").write_text(PUMP, encoding="utf-8")
     order = json.dumps({"kind": kind, "name": name})
@@ -335,9 +337,11 @@ def test_a_request_that_is_never_finished_is_closed(tmp_path, monkeypatch):
         assert half.recv(1) == b""
 
 
-@pytest.mark.parametrize(("name", "driver"), [("five-bar", 1), ("five-bar", 2), ("cylinders-two", 2)])
+@pytest.mark.parametrize(
+    ("name", "driver"), [("five-bar", 1), ("five-bar", 2), ("cylinders-two", 2)]
+)
 def test_each_of_several_drivers_is_moved_while_the_others_stand(tmp_path, name, driver):
-    """What the page draws with at a place of one driver's slider is what a cycle of that has."""
+    """How far the page moves is how far a cycle of that driver does."""
     session, text = desk_in(tmp_path), scene_files.examples()[name].read_text("utf-8")
     answer = session.motion(ordered(text=text, name=f"{name}.toml", page="curves", driver=driver))
     assert len(answer["drivers"]) == 2

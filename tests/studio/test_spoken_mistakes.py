@@ -15,7 +15,16 @@ from tests.studio.pump import PUMP, desk_in, ordered
 
 ROOT = Path(__file__).resolve().parents[2] / "graphkin"
 KEPT = Path(__file__).resolve().parents[1] / "golden" / "kept"
-ROOMS = ("scene", "structure", "loops", "construction", "diagnosis", "studio", "documents", "drawing")
+ROOMS = (
+    "scene",
+    "structure",
+    "loops",
+    "construction",
+    "diagnosis",
+    "studio",
+    "documents",
+    "drawing",
+)
 ENGLISH = re.compile(
     r"\b(?:the|is|of|and|not|which|with|than|has|have|that|these|does|one|another|give|write|take)\b"
 )
@@ -31,7 +40,9 @@ def literals() -> Iterator[str]:
                 if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(
                     ("Problem", "findings.add")
                 ):
-                    said = [k.value for k in node.keywords if k.arg in ("found", "expected", "hint")]
+                    said = [
+                        k.value for k in node.keywords if k.arg in ("found", "expected", "hint")
+                    ]
                     yield from filter(None, map(text_of, [*node.args[1:], *said]))
 
 
@@ -83,7 +94,7 @@ def test_both_languages_say_the_same_sentences():
 
 def test_names_and_lines_of_toml_stay_as_they_are():
     mend = Mend("leftt of A-B", "left of A-B")
-    found = spoken(Problem("links.position", 'link left has the point one alone', "", mend), "ro")
+    found = spoken(Problem("links.position", "link left has the point one alone", "", mend), "ro")
     assert found.place == "links.position"
     assert found.hint == "ați vrut left of A-B?"
     say = sentences("it")

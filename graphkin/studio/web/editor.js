@@ -145,15 +145,15 @@ export function editorOf(part) {
       body.addEventListener("click", () => go(problem));
     }
     entry.append(body);
-    if (problem.mend) {
+    for (const edit of problem.mends) {
       const mend = document.createElement("button");
       mend.type = "button";
       mend.className = "mend";
-      const { before, text: after } = problem.mend;
-      mend.textContent = after
-        ? say("studio.write_instead", { before, after })
-        : say("studio.leave_out", { before });
-      mend.addEventListener("click", () => change([problem.mend]));
+      const { before, text: words } = edit;
+      const after = words.trim().replaceAll("\n", ", ").replace(/^, /, "");
+      const key = before && after ? "write_instead" : after ? "write_too" : "leave_out";
+      mend.textContent = say(`studio.${key}`, { before: before.replaceAll("\n", ", "), after });
+      mend.addEventListener("click", () => change([edit]));
       entry.append(mend);
     }
     return entry;

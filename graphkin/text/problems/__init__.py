@@ -7,6 +7,7 @@ said with the same fillings; fillings that are sentences themselves are said in 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -88,16 +89,19 @@ class Sentences:
             if weak and not all(self.can_say(fill, depth) for fill in fills):
                 continue
             names = GAP.findall(template)
-            told = {
-                name: self.part(fill, depth) for name, fill in zip(names, fills, strict=True)
-            }
-            return GAP.sub(lambda gap, told=told: told[gap[0]], self.templates[template])
+            told = [self.part(fill, depth) for fill in fills]
+            return filled(self.templates[template], dict(zip(names, told, strict=True)))
         return None
 
     def can_say(self, said: str, depth: int) -> bool:
         """Whether there are words for something, or it has none that need any."""
         plain = " " not in said or not WORD.search(QUOTED.sub("", said))
         return plain or (depth < DEEPEST and self.whole(said, depth + 1) is not None)
+
+
+def filled(template: str, fills: Mapping[str, str]) -> str:
+    """A sentence with its gaps filled, each under its own name."""
+    return GAP.sub(lambda gap: fills[gap[0]], template)
 
 
 @lru_cache(maxsize=1024)
