@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from graphkin.mechanism import load
+from graphkin.scene import scene_files
 from graphkin.studio.server import Served, serve
 from tests.browser.opening import barred
 from tests.studio.pump import PUMP, desk_in, running
@@ -120,6 +121,14 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     assert page.locator("#scene-part .gutter .wrong").all_inner_texts() == ["24"]
     assert page.inner_text("#scene-part .under mark") == "forty"
     assert page.is_visible("#old")
+    english = page.inner_text("#problems")
+    for language, words in (("ro", "se aștepta un număr"), ("it", "atteso: un numero")):
+        page.select_option("#language", language)
+        page.locator("#problems", has_text=words).wait_for(timeout=LONG)
+        page.wait_for_selector("body[data-settled=true]", timeout=LONG)
+    page.select_option("#language", "en")
+    page.locator("#problems", has_text="expected a number").wait_for(timeout=LONG)
+    assert page.inner_text("#problems") == english
     page.click("#problems button")
     assert selection(page) == "forty"
     page.keyboard.type("40")
@@ -407,6 +416,9 @@ def test_each_field_shows_its_drawing_whole(studio, lab, size):
     )
     assert len(fields) == 3
     assert min(min(edges) for edges in fields) > -1
+    text, drawings = (page.locator(part).bounding_box() for part in ("#scene-part", "#drawings"))
+    beside = text["x"] + text["width"] <= drawings["x"]
+    assert beside or text["y"] + text["height"] <= drawings["y"]
 
 
 def test_hostile_titles_are_shown_as_text(studio, place):
@@ -450,8 +462,14 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     assert moving.locator("#told").inner_text() != low
     page.fill("#text", page.input_value("#text").replace('"Pump mechanism"', '"Pump of mine"'))
     moving.locator("h1", has_text="Pump of mine").wait_for(timeout=LONG)
+    assert not page.is_visible("#motion-driver")
+    five_bar = scene_files.examples()["five-bar"].read_text("utf-8")
+    page.fill("#text", five_bar)
+    page.select_option("#motion-driver", label="turn = 4", timeout=LONG)
+    moving.locator("#at[max='360']").wait_for(timeout=LONG)
     page.check("#motion-kind [value=steps]")
     moving.locator("#turn").wait_for(timeout=LONG)
+    assert not page.is_visible("#motion-driver")
     page.click("#move")
     assert page.locator("#mechanism").is_visible()
 
