@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.scene import toml_faults
 from graphkin.text.errors import Mend, Problem
 from graphkin.text.problems import GAP, sentences, spoken
-from tests.studio.pump import PUMP, desk_in, ordered
+from tests.studio.pump import PUMP, desk_in, ordered, seen
 
 ROOT = Path(__file__).resolve().parents[2] / "graphkin"
 KEPT = Path(__file__).resolve().parents[1] / "golden" / "kept"
@@ -69,6 +70,35 @@ def test_whatever_is_written_out_has_words(language):
     found = {text for text in literals() if re.search(r"[a-z]{3}", CODE.sub("", text))}
     assert len(found) > 250
     assert not [text for text in found if say.whole(text, 0) is None and say(text) == text]
+
+
+WRONG = ["forty", "40 mm", "40,5", ".5", "012", '"40', "[40", "{ a = 1", "True", "2*n"]
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+@pytest.mark.parametrize("value", WRONG)
+def test_what_is_no_toml_is_told_without_english(language, value):
+    problems = [*told_of(PUMP.replace("A-B = 40", f"A-B = {value}"), language)]
+    assert problems
+    assert not [text for text in problems if ENGLISH.findall(CODE.sub("", text))]
+    english = {*told_of(PUMP.replace("A-B = 40", f"A-B = {value}"), "en")}
+    assert not english & {*problems}
+
+
+def told_of(text: str, language: str) -> Iterator[str]:
+    """What is told of a text's mistakes: found, expected, hint, each by itself."""
+    for each in seen(text, language=language)["problems"]:
+        yield from filter(None, (each["found"], each["expected"], each["hint"]))
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_whatever_helps_where_there_is_no_toml_has_words(language):
+    constants = [each for each in vars(toml_faults).values() if isinstance(each, str)]
+    helps = [said for _, said in toml_faults.ADVICE] + constants
+    say = sentences(language)
+    told = [each for each in helps if re.fullmatch(r"[a-z][^\n]* [^\n]*[a-z][^\n]*", each)]
+    assert len(told) > 15
+    assert not [each for each in told if say(each) == each]
 
 
 @pytest.mark.parametrize("language", FOREIGN)
