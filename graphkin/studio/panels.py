@@ -69,9 +69,12 @@ class Memory(Struct):
     program: tuple[str, Program] | None = None
 
     def mechanism(self, scene: Scene, text: str) -> Mechanism:
-        """The mechanism of a text, its construction written once."""
+        """The mechanism of a text, its construction written once.
+
+        Raises StructureError where the values of its parameters let it not be put together.
+        """
         found = Mechanism(scene)
-        if self.program and self.program[0] == text:
+        if self.program and self.program[0] == text and found.groups:
             found.__dict__["program"] = self.program[1]
         else:
             self.program = text, found.program
