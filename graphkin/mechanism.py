@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -16,9 +16,6 @@ from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.core.results import decided, gathered, product_of_sines, row_of, rows_of
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import Solution, Verdict
-from graphkin.construction.higher_class.settling import run_settled
-from graphkin.construction.higher_class.trial_rates import trial_rates
-from graphkin.construction.tape.batch_runner import LEAST, BatchRunner
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind
 from graphkin.scene import scene_files
@@ -27,12 +24,14 @@ from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
-from graphkin.structure.groups import Group
+from graphkin.structure.groups import CoupledTrain, Group, Higher
 from graphkin.text.errors import Problem, SceneError
 from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from graphkin.construction.tape.batch_runner import BatchRunner
 
 Which = Literal["mechanism", "velocity", "acceleration"]
 """The drawings of a mechanism that can be put into axes."""
@@ -79,11 +78,22 @@ class Mechanism(Struct, frozen=True, dict=True):
     @cached_property
     def press(self) -> BatchRunner:
         """What runs the program on many variants at once."""
+        from graphkin.construction.tape.batch_runner import BatchRunner
+
         return BatchRunner(self.program)
+
+    @cached_property
+    def is_of_higher_class(self) -> bool:
+        """Whether a group is closed by trials: what knows of these is loaded for it alone."""
+        return any(isinstance(group, CoupledTrain | Higher) for group in self.groups)
 
     @cached_property
     def trial_rates(self) -> Mapping[int, float]:
         """What the hand tries in the trial plans of groups of higher class, by the step."""
+        if not self.is_of_higher_class:
+            return {}
+        from graphkin.construction.higher_class.trial_rates import trial_rates
+
         return trial_rates(self.scene, self.program)
 
     def spoken(self, language: str | None) -> Mechanism:
@@ -125,7 +135,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         overrides |= self.trial_rates if by_hand else {}
         try:
             if kind is FLOAT:
-                trace = run_settled(self.scene, program, needed, overrides=overrides)
+                trace = self.in_doubles(needed, overrides)
             else:
                 with kind.working():
                     values = self.scene.values_in(kind)
@@ -136,6 +146,14 @@ class Mechanism(Struct, frozen=True, dict=True):
         if kind is FLOAT and min(trace.margins.values(), default=1.0) < DECIDED:
             service("refuse_touching")(self.scene, trace)
         return trace
+
+    def in_doubles(self, needed: Sequence[int], overrides: Mapping[int, Any]) -> Trace:
+        """The values of some steps in doubles. Raises StepFailed."""
+        if not self.is_of_higher_class:
+            return run(self.program, needed, self.scene.values, FLOAT, overrides=overrides)
+        from graphkin.construction.higher_class.settling import run_settled
+
+        return run_settled(self.scene, self.program, needed, overrides=overrides)
 
     def solve(self, *, asked: bool = False) -> Solution:
         """The motion of every point and link, or only what the scene asks for."""
@@ -224,7 +242,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         keep = [self.program.targets[target] for target in targets]
         with np.errstate(all="ignore"):
             if kind == "float64":
-                trace = self.press.run(needed, values, keep, margins=LEAST)
+                trace = self.press.run(needed, values, keep, margins="least")
             else:
                 numbers = array_kind(kind)
                 trace = run_blocks(self.program, needed, values, numbers, keep, margins=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, READING, complain
-from graphkin.cli.options import FolderType, force_option, leave, tell
+from graphkin.cli.options import folder_option, force_option, leave, tell
 
 if TYPE_CHECKING:
     from graphkin.classroom.roster.student import Student
@@ -30,14 +30,8 @@ def new(context: click.Context) -> None:
 
 @new.command("lab")
 @click.argument("name", metavar="NAME")
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    metavar="DIR",
-    type=FolderType(path_type=Path),
-    default=Path(),
-    help="Folder in which the lab's folder is made; the current one by default.",
+@folder_option(
+    "Folder in which the lab's folder is made; the current one by default.", default=Path()
 )
 @force_option
 def new_lab(name: str, folder: Path, force: bool) -> None:
@@ -58,15 +52,7 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
 @click.command()
 @click.argument("name", metavar="LAB")
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    "folder",
-    metavar="DIR",
-    type=FolderType(path_type=Path),
-    required=True,
-    help="Folder of the class, made if it is missing.",
-)
+@folder_option("Folder of the class, made if it is missing.", required=True)
 @click.option(
     "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
 )

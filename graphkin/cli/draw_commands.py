@@ -13,6 +13,7 @@ from graphkin.cli.options import (
     FORMATS,
     force_option,
     formats_of,
+    formats_option,
     ink_option,
     language_option,
     leave,
@@ -43,13 +44,10 @@ if TYPE_CHECKING:
 )
 @language_option
 @ink_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="svg,pdf,html,dxf,pmks",
-    default="svg,pdf",
-    show_default=True,
-    help="Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
+@formats_option(
+    "svg,pdf,html,dxf,pmks",
+    "svg,pdf",
+    "Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
     " which draws itself step by step (key and steps alike), or holds the task. dxf: the drawings"
     " at true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
     " the mechanism for PMKS+, where it has only pins, blocks on fixed guides and one crank.",
@@ -131,13 +129,10 @@ def sheet(
 )
 @click.option("--to", "high", metavar="NUMBER", type=float, help="End here (degrees, lengths, s).")
 @language_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="svg,png,gif,html",
-    default="svg,png",
-    show_default=True,
-    help="Kinds of picture to write; the table comes as CSV. gif, html: mechanism and plans as they"
+@formats_option(
+    "svg,png,gif,html",
+    "svg,png",
+    "Kinds of picture to write; the table comes as CSV. gif, html: mechanism and plans as they"
     " move, a picture and a page.",
 )
 @force_option
@@ -203,13 +198,10 @@ def cycle(
     help="A few positions, decimals and balls timed at one, the pencil at four on the way: "
     "to see what comes.",
 )
-@click.option(
-    "--format",
-    "formats",
-    metavar="svg,png",
-    default="svg,png",
-    show_default=True,
-    help="Kinds of picture to write; the table comes as CSV.",
+@formats_option(
+    "svg,png",
+    "svg,png",
+    "Kinds of picture to write; the table comes as CSV.",
 )
 @force_option
 def accuracy(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, complain, say
+from graphkin.cli.options import class_argument, formats_option, jobs_option
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -31,7 +32,7 @@ SHOWN = 10
 
 
 @click.command("grade")
-@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@class_argument
 @click.argument("answers", metavar="ANSWERS", type=click.Path(path_type=Path))
 @click.option(
     "-o",
@@ -47,14 +48,7 @@ SHOWN = 10
     help="Language of the report, and of the feedback to those for whom the class list names none"
     " (language, limba, lingua); the scene's by default. The terminal speaks English.",
 )
-@click.option(
-    "--format",
-    "formats",
-    metavar="html,pdf",
-    default="html,pdf",
-    show_default=True,
-    help="Kinds of feedback page to write for each student.",
-)
+@formats_option("html,pdf", "html,pdf", "Kinds of feedback page to write for each student.")
 @click.option(
     "--gradebook",
     "gradebooks",
@@ -77,11 +71,8 @@ SHOWN = 10
     help="By what students are found in tables of answers and in gradebooks; by default their ids"
     " or, where a table has none, the e-mail addresses of the class list.",
 )
-@click.option(
-    "--jobs",
-    metavar="N",
-    type=click.IntRange(1, 1024),
-    help="Processes that mark at once; by default one, all cores for more than a hundred variants.",
+@jobs_option(
+    "Processes that mark at once; by default one, all cores for more than a hundred variants."
 )
 @click.option(
     "--release",

@@ -317,4 +317,7 @@ def main() -> None:
     """Run the command line and leave with its status."""
     gc.set_threshold(GARBAGE)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
-    app(prog_name="graphkin")
+    try:
+        app(prog_name="graphkin")
+    finally:
+        gc.freeze()  # what is left ends with the process: to look through it takes a sixth of solve

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import click
 
@@ -16,6 +16,14 @@ if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
 
 FORMATS = ("svg", "pdf")
+F = TypeVar("F", bound=Callable[..., Any] | click.Command)
+
+
+class Option(Protocol):
+    """What gives a command an option."""
+
+    def __call__(self, command: F, /) -> F:
+        """The same command with it."""
 
 
 class FolderType(click.Path):
@@ -43,16 +51,44 @@ def scene_argument(command: Any) -> Any:
     return click.argument("name", metavar="SCENE")(command)
 
 
-output_option = click.option(
-    "-o",
-    "--output",
-    "folder",
-    metavar="DIR",
-    type=FolderType(path_type=Path),
-    default=Path(),
-    help="Folder to write into, made if it is missing; the current one by default.",
+def folder_option(help: str, metavar: str = "DIR", name: str = "folder", **more: Any) -> Option:
+    """-o, the folder of a command that writes files."""
+    kind = FolderType(path_type=Path)
+    return click.option("-o", "--output", name, metavar=metavar, type=kind, help=help, **more)
+
+
+def formats_option(metavar: str, default: str, help: str) -> Option:
+    """--format, the kinds of file that a command writes."""
+    return click.option(
+        "--format", "formats", metavar=metavar, default=default, show_default=True, help=help
+    )
+
+
+def jobs_option(
+    help: str = "Processes that draw at once; as many as there are cores by default.",
+) -> Option:
+    """--jobs, how many processes work at once."""
+    return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
+
+
+output_option = folder_option(
+    "Folder to write into, made if it is missing; the current one by default.", default=Path()
 )
-"""The folder of a command that writes files."""
+"""The folder of a command that writes files, the current one if none is named."""
+class_argument = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+"""The folder of a class."""
+port_option = click.option(
+    "--port",
+    metavar="N",
+    type=click.IntRange(0, 65535),
+    default=0,
+    help="Port to listen at; a free one by default.",
+)
+"""The port of a page on this computer."""
+browser_option = click.option(
+    "--no-browser", is_flag=True, help="Only print the address, open no browser."
+)
+"""Leave to open no browser."""
 language_option = click.option(
     "--lang",
     type=click.Choice(["ro", "en", "it"]),

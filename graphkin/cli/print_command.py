@@ -11,7 +11,13 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, complain, say, say_aside
-from graphkin.cli.options import ink_option, language_option
+from graphkin.cli.options import (
+    class_argument,
+    formats_option,
+    ink_option,
+    jobs_option,
+    language_option,
+)
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.print_run import Outcome, Tell
@@ -22,7 +28,7 @@ TENTHS = 10
 
 
 @click.command("print")
-@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@class_argument
 @click.option(
     "--view",
     "views",
@@ -33,21 +39,13 @@ TENTHS = 10
 )
 @language_option
 @ink_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="pdf,svg,html",
-    default="pdf",
-    show_default=True,
-    help="Kinds of file to write for each student; the files for the printer are PDF. html: a page"
+@formats_option(
+    "pdf,svg,html",
+    "pdf",
+    "Kinds of file to write for each student; the files for the printer are PDF. html: a page"
     " for a browser, the task with a form that saves the answers.",
 )
-@click.option(
-    "--jobs",
-    metavar="N",
-    type=click.IntRange(1, 1024),
-    help="Processes that draw at once; as many as there are cores by default.",
-)
+@jobs_option()
 @click.option(
     "--engine",
     "cluster",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from graphkin.cli.console import complain, say
-from graphkin.cli.options import force_option, language_option, output_option, tell
+from graphkin.cli.options import force_option, jobs_option, language_option, output_option, tell
 
 SHOWN = 5
 """Variants that are left out, of which it is told one by one."""
@@ -23,12 +23,7 @@ SHOWN = 5
     show_default=True,
     help="Variants at most.",
 )
-@click.option(
-    "--jobs",
-    metavar="N",
-    type=click.IntRange(1, 1024),
-    help="Processes that draw at once; as many as there are cores by default.",
-)
+@jobs_option()
 @force_option
 @click.pass_context
 def quiz(

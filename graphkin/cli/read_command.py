@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED
-from graphkin.cli.options import FolderType, tell
+from graphkin.cli.options import (
+    browser_option,
+    folder_option,
+    jobs_option,
+    port_option,
+    tell,
+)
 from graphkin.cli.print_command import progress
 from graphkin.text.errors import PageError, Problem
 
@@ -33,15 +39,7 @@ MOST_PLACES = 10_000
 @click.argument(
     "photos", metavar="PHOTOS…", nargs=-1, required=True, type=click.Path(path_type=Path)
 )
-@click.option(
-    "-o",
-    "--output",
-    "out",
-    metavar="READ",
-    type=FolderType(path_type=Path),
-    required=True,
-    help="Folder of the readings, made if it is missing.",
-)
+@folder_option("Folder of the readings, made if it is missing.", "READ", "out", required=True)
 @click.option(
     "--json", "as_json", is_flag=True, help="Also write NAME.points.json beside each picture."
 )
@@ -52,9 +50,7 @@ MOST_PLACES = 10_000
     help='JSON, {"x": [mm, …], "y": [mm, …]}: places of the paper whose pixels are wanted.',
 )
 @click.option("--by-hand", is_flag=True, help="Only flatten; all points are clicked at the desk.")
-@click.option(
-    "--jobs", metavar="N", type=click.IntRange(1, 1024), help="Processes; all cores by default."
-)
+@jobs_option("Processes; all cores by default.")
 @click.pass_context
 def read(
     context: click.Context,
@@ -143,14 +139,8 @@ def read_grid(path: Path | None) -> Grid:
 
 @click.command("desk")
 @click.argument("folder", metavar="READ", type=click.Path(path_type=Path))
-@click.option(
-    "--port",
-    metavar="N",
-    type=click.IntRange(0, 65535),
-    default=0,
-    help="Port to listen at; a free one by default.",
-)
-@click.option("--no-browser", is_flag=True, help="Only print the address, open no browser.")
+@port_option
+@browser_option
 @click.option(
     "--lang", type=click.Choice(["ro", "en", "it"]), default="en", help="Language of the page."
 )

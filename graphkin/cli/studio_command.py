@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from graphkin.cli.options import current, tell
+from graphkin.cli.options import browser_option, current, port_option, tell
 
 NEEDED = ("bottle", "tomlkit", "waitress")
 """The packages of the extra [studio]."""
@@ -16,14 +16,8 @@ NEEDED = ("bottle", "tomlkit", "waitress")
 
 @click.command()
 @click.argument("name", metavar="[SCENE]", required=False, default="")
-@click.option(
-    "--port",
-    metavar="N",
-    type=click.IntRange(0, 65535),
-    default=0,
-    help="Port to listen at; a free one by default.",
-)
-@click.option("--no-browser", is_flag=True, help="Only print the address, open no browser.")
+@port_option
+@browser_option
 @click.option(
     "--lang",
     type=click.Choice(["ro", "en", "it"]),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
+
+from msgspec import Struct
 
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, letter
@@ -27,7 +28,7 @@ def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
     return Vector(point, point + (image - o) * (seconds * seconds))
 
 
-class AskedQuantity(NamedTuple):
+class AskedQuantity(Struct, frozen=True):
     """What differs between velocities and accelerations."""
 
     quantity: str

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
 from graphkin.construction import asked
 from graphkin.construction.acceleration import acceleration
-from graphkin.construction.cams import cam
 from graphkin.construction.centres.centres import draw_centres
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.core.vocabulary import coordinate
-from graphkin.construction.drivers import cylinder
 from graphkin.construction.guides import sliding
 from graphkin.construction.guides.guides import axis, standing_guide
-from graphkin.construction.higher_class import coupled_train, higher, two_trials
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component import klein
-from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
@@ -33,9 +33,12 @@ from graphkin.structure.groups import (
     Stretched,
     Tie,
     Train,
+    Unresolved,
 )
 from graphkin.text.errors import Problem, StructureError
 
+Work = Callable[[Pen, LinkShapes, Any], None]
+"""What draws a group in one of the drawings."""
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
 
@@ -50,7 +53,10 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
         place(pen, shapes, group, found)
         if isinstance(group, Tie):
             position.refuse_misfit(pen, shapes, group)
-    rolling.refuse_idle_turns(pen)
+    if any(link.rolls for link in scene.links.values()):
+        from graphkin.construction.rolling import rolling
+
+        rolling.refuse_idle_turns(pen)
     write_turning(pen, shapes)
     write_velocities(pen, shapes, standing)
     write_accelerations(pen, shapes, standing)
@@ -77,35 +83,69 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
     return standing
 
 
+def work_of(group: Group) -> tuple[Work, Work, Work]:
+    """What a kind of group draws to scale, as velocities and as accelerations.
+
+    What only some mechanisms have is loaded for these.
+    """
+    match group:
+        case Crank():
+            return position.crank, velocity.crank, acceleration.crank
+        case Driven():
+            return position.driven, velocity.driven, acceleration.driven
+        case Dyad():
+            return position.dyad, velocity.dyad, acceleration.dyad
+        case Tie():
+            return position.tie, velocity.tie, acceleration.tie
+        case CamFollower():
+            from graphkin.construction.cams import cam
+
+            return cam.place, cam.move, cam.accelerate
+        case Stretched():
+            from graphkin.construction.drivers import cylinder
+
+            return cylinder.place, cylinder.move, cylinder.accelerate
+        case Geared():
+            from graphkin.construction.rolling import rolling, wheel_images
+
+            return rolling.geared, wheel_images.geared, wheel_images.second_geared
+        case Train():
+            from graphkin.construction.rolling import rolling, wheel_images
+
+            return rolling.train, wheel_images.train, wheel_images.second_train
+        case CoupledTrain():
+            from graphkin.construction.higher_class import coupled_train
+
+            return (partial(coupled_train.position, each=place), *by_trials())
+        case Higher():
+            from graphkin.construction.higher_class import higher
+
+            return (partial(higher.position, each=place), *by_trials())
+        case Unresolved():
+            raise ValueError(f"links {', '.join(group.links)} are in no group that is drawn")
+
+
+def by_trials() -> tuple[Work, Work]:
+    """What a group draws in both plans that has a link tried."""
+    from graphkin.construction.higher_class import two_trials
+
+    return partial(two_trials.velocity, each=move), partial(
+        two_trials.acceleration, each=accelerate
+    )
+
+
 def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
     """The mechanism to scale: one group."""
     pen.bases |= {base.link: base for base in found}
     pen.leads |= leads_of(group)
-    match group:
-        case Crank():
-            position.crank(pen, shapes, group)
-        case Driven():
-            position.driven(pen, shapes, group)
-        case Dyad():
-            position.dyad(pen, shapes, group)
-        case CamFollower():
-            cam.place(pen, shapes, group)
-        case Stretched():
-            cylinder.place(pen, shapes, group)
-        case Geared():
-            rolling.geared(pen, shapes, group)
-        case Train():
-            rolling.train(pen, shapes, group)
-        case Tie():
-            position.tie(pen, shapes, group)
-        case CoupledTrain():
-            coupled_train.position(pen, shapes, group, place)
-            return
-        case Higher():
-            higher.position(pen, shapes, group, place)
-            return
-    for base in found:
+    work_of(group)[0](pen, shapes, group)
+    for base in own_bases(group, found):
         plate_points.plate_points(pen, shapes, base)
+
+
+def own_bases(group: Group, found: tuple[Base, ...]) -> tuple[Base, ...]:
+    """The links that are finished with their group; higher classes finish theirs one by one."""
+    return () if isinstance(group, CoupledTrain | Higher) else found
 
 
 def write_turning(pen: Pen, shapes: LinkShapes) -> None:
@@ -133,27 +173,8 @@ def write_velocities(pen: Pen, shapes: LinkShapes, standing: Standing) -> None:
 
 def move(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
     """The velocity plan: one group."""
-    match group:
-        case Crank():
-            velocity.crank(pen, shapes, group)
-        case Driven():
-            velocity.driven(pen, shapes, group)
-        case Dyad():
-            velocity.dyad(pen, shapes, group)
-        case CamFollower(dyad=dyad):
-            velocity.dyad(pen, shapes, dyad)
-        case Stretched():
-            cylinder.move(pen, shapes, group)
-        case Geared():
-            wheel_images.geared(pen, group)
-        case Train():
-            wheel_images.train(pen, group)
-        case Tie():
-            velocity.tie(pen, shapes, group)
-        case CoupledTrain() | Higher():
-            two_trials.velocity(pen, shapes, group, move)
-            return
-    for base in found:
+    work_of(group)[1](pen, shapes, group)
+    for base in own_bases(group, found):
         velocity.plate_points(pen, shapes, base)
         velocity.turning(pen, base)
 
@@ -171,27 +192,8 @@ def write_accelerations(pen: Pen, shapes: LinkShapes, standing: Standing) -> Non
 
 def accelerate(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
     """The acceleration plan: one group."""
-    match group:
-        case Crank():
-            acceleration.crank(pen, shapes, group)
-        case Driven():
-            acceleration.driven(pen, shapes, group)
-        case Dyad():
-            acceleration.dyad(pen, shapes, group)
-        case CamFollower(dyad=dyad):
-            acceleration.dyad(pen, shapes, dyad)
-        case Stretched():
-            cylinder.accelerate(pen, shapes, group)
-        case Geared():
-            wheel_images.second_geared(pen, shapes, group)
-        case Train():
-            wheel_images.second_train(pen, group)
-        case Tie():
-            acceleration.tie(pen, shapes, group)
-        case CoupledTrain() | Higher():
-            two_trials.acceleration(pen, shapes, group, accelerate)
-            return
-    for base in found:
+    work_of(group)[2](pen, shapes, group)
+    for base in own_bases(group, found):
         acceleration.plate_points(pen, shapes, base)
         acceleration.turning(pen, base)
 

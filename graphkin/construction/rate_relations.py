@@ -9,10 +9,9 @@ from msgspec.structs import replace
 from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
-from graphkin.construction.core.naming import rate_symbol
+from graphkin.construction.core.naming import rate_symbol, sense
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
-from graphkin.construction.result_tables import sense
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import FRAME, Belt, Driver
@@ -96,7 +95,7 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
                 if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
                     told.add(disc.link)
                     yield by_teeth(drawing, disc)
-            yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.rolling.belt)
+            yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.belt)
 
 
 def by_teeth(drawing: Drawing, disc: Disc) -> Relation:

@@ -2,26 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.coriolis.coriolis import CoriolisComponent
+from graphkin.construction.coriolis import CoriolisComponent
 from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.placed_point import with_starts_together
+from graphkin.construction.normal_component.klein import KleinComponent
 from graphkin.construction.normal_component.normal_component import (
     NormalComponent,
     with_normals_together,
 )
+from graphkin.construction.rolling.contact_points import of_contacts
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.construction.rolling.touching import TOUCHING, TouchingEffect
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
 """The components of accelerations that follow from velocities."""
+LIMITED = next(kind.limited for kind in COMPONENTS if kind.limited)
+"""What the figure is called that can be too narrow or too long to be drawn."""
+ON_PALETTE = tuple(
+    action
+    for kind in (NormalComponent, KleinComponent, CoriolisComponent)
+    if (action := kind.palette) is not None
+)
+"""The actions of a page's palette that give components."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
 """What knows why an effect is in or out of a scene."""
+ALSO_READ: tuple[Callable[[Drawing], Iterator[Relation]], ...] = (of_contacts,)
+"""What else kinds say that is read off a plan, after all that is drawn in it."""
 TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (
     with_trials_together,
     with_starts_together,

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import drawn_in, way_of
+from graphkin.construction.core.naming import drawn_in, sense, way_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.areas import Rect
@@ -99,13 +98,6 @@ def slide_sense(drawing: Drawing, block: str, value: float) -> str:
     """The words for the sense of a motion along a guide."""
     key = "forward" if value > 0 else "backward"
     return drawing.words(f"calculation.{key}", guide=way_of(drawing, block))
-
-
-def sense(words: Words, value: Any) -> str:
-    """The word for the sense of an angular value; nothing for nought."""
-    if value == 0:
-        return ""
-    return words("page.anticlockwise" if value > 0 else "page.clockwise")
 
 
 def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:

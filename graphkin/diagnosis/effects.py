@@ -15,7 +15,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.timing import Timing, timed
-from graphkin.construction.registry import CAUSES
+from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene
@@ -140,11 +140,11 @@ def hand_steps(program: Program, asked: Iterable[Target]) -> list[int]:
 
 
 def by_hand(program: Program, asked: tuple[Target, ...]) -> EffectRow:
-    """The steps that only the drawing by hand adds: right triangles, arcs, rays and arrows."""
+    """The steps that only the drawing by hand adds: figures, arcs, rays and arrows."""
     extra = len(hand_steps(program, asked))
     if not extra:
         return EffectRow(BY_HAND, 0, "nothing that is asked has a construction to show", False)
-    words = "drawn on the sheets only: right triangles, arcs, rays and arrows"
+    words = f"drawn on the sheets only: {LIMITED}s, arcs, rays and arrows"
     return EffectRow(BY_HAND, extra, words, True)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from graphkin.construction.core.quantities import MotionQuantity
 from graphkin.construction.core.solution import UNKNOWN, LinkMotion, PointMotion, Solution
 from graphkin.numbers.arithmetic import at
 from graphkin.numbers.plane import Ratio
@@ -150,19 +151,19 @@ def relative_table(solution: Solution, names: Iterable[str]) -> list[str]:
     return table(["links", "centre of both, m"], rows) if rows else []
 
 
-def inflection_table(links: Mapping[str, dict[str, Any]]) -> list[str]:
-    """The inflection circle of each link that has one reported (m)."""
+def circles_table(links: Mapping[str, dict[str, Any]], quantity: MotionQuantity) -> list[str]:
+    """The circle of a quantity of each link that has one reported (m)."""
     rows: list[list[Cell]] = []
     for name, link in links.items():
-        if "inflection" not in link:
+        if quantity.target not in link:
             continue
-        circle = link["inflection"]
+        circle = link[quantity.target]
         pole, centre, radius = "at infinity", None, None
         if circle is not None:
             pole, centre = (pair_words(circle[key]) for key in ("pole", "centre"))
             radius = circle["radius"]
         rows.append([name, pole, centre, radius])
-    heads = ["link", "inflection pole, m", "centre of circle, m", "radius, m"]
+    heads = ["link", f"{quantity.words}, m", "centre of circle, m", "radius, m"]
     return table(heads, rows) if rows else []
 
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from math import log, sqrt
-from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -53,7 +52,7 @@ NOISE = 1e-9
 WEIGHT = 1.3
 """How much the size of a mechanism counts against that of its plans together."""
 BLUR = 0.2
-"""Loss in size for normal components that are laid off e times as long as their triangles are."""
+"""Loss in size for components that are laid off e times as long as their figures are."""
 LINE = 0.1
 """Part of its length that a plan is broad at least, or else is called a line."""
 LITTLE = 0.12
@@ -99,7 +98,7 @@ class Stated(Struct, frozen=True):
         return [key for key, value in said.items() if value]
 
 
-class Composition(NamedTuple):
+class Composition(Struct, frozen=True):
     """A scale of the mechanism, how many times as large each plan is, and how large all is.
 
     The size is less by what plans ``lack`` that fill little of their fields.
@@ -120,7 +119,7 @@ It raises PageError where what is stated leaves no room.
 """
 
 
-class Attempt(NamedTuple):
+class Attempt(Struct, frozen=True):
     """A composition, and the scales of its draft."""
 
     composition: Composition

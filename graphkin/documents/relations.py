@@ -32,8 +32,7 @@ from graphkin.construction.drivers.driver_relations import of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.rate_relations import of_sum, of_turning
-from graphkin.construction.registry import COMPONENTS
-from graphkin.construction.rolling.contact_points import of_contacts
+from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.structure_relations import of_structure
@@ -109,7 +108,9 @@ def of_plan(drawing: Drawing) -> list[Relation]:
     for rate, relation in of_equations(drawing):
         found += before_use(drawing, rate)
         found.append(relation)
-    found += [*of_trials(drawing), *read_off(drawing), *of_contacts(drawing)]
+    found += [*of_trials(drawing), *read_off(drawing)]
+    for also in ALSO_READ:
+        found += also(drawing)
     return list(dict.fromkeys(found))
 
 

@@ -8,6 +8,7 @@ from enum import Enum
 from msgspec import Struct
 
 from graphkin.construction import step_marks
+from graphkin.construction.core.component import crowded_pins
 from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -21,7 +22,6 @@ from graphkin.construction.core.quantities import ASKED
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
-from graphkin.construction.normal_component.normal_component import pins_of_triangles
 from graphkin.construction.result_tables import tables
 from graphkin.documents.captions import headlines
 from graphkin.documents.data_heading import data_heading
@@ -220,7 +220,7 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     if drawing.kind == "velocity":
         driver_symbols.draw_drivers(board, drawing, field)
     mechanism_symbols.draw_pins(board, drawing, field)
-    board.crowds += [field(pin) for pin in pins_of_triangles(drawing, CROWD)]
+    board.crowds += [field(pin) for pin in crowded_pins(drawing, CROWD)]
     raise_marks(board, vectors(board.marks))
     return board
 
@@ -321,4 +321,4 @@ def asked(drawing: Drawing) -> list[str]:
             what = f"slides_{drawing.kind}" if key == "slides" else key
             mentioned = words("list_mark").join(symbol(lettered(name)) for name in names)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
-    return found or ([words("ask.for_accelerations")] if any(ask) else [])
+    return found or ([words("ask.for_accelerations")] if ask.anything else [])

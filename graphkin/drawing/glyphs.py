@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from base64 import b64encode
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -22,6 +20,8 @@ Measure = tuple[float, float, float]
 @lru_cache(maxsize=1)
 def table() -> dict[str, Any]:
     """Read the font's metrics once."""
+    import json
+
     text = (FOLDER / "metrics.json").read_text(encoding="utf-8")
     found: dict[str, Any] = json.loads(text)
     return found
@@ -86,6 +86,8 @@ def font_file(italic: bool) -> Path:
 @lru_cache(maxsize=2)
 def font_face(italic: bool) -> str:
     """Write the @font-face rule that carries a whole face inside a style sheet."""
+    from base64 import b64encode
+
     data = b64encode((FOLDER / f"{FILES[italic]}.woff2").read_bytes()).decode("ascii")
     style = "italic" if italic else "normal"
     return (

@@ -29,7 +29,7 @@ STACKED = 2
 SPECIAL = "\\*_^{}"
 TOKEN = re.compile(r"[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|.", re.DOTALL)
 UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
-GAP = re.compile(rf"(?<![=⊥∥]) (?!=)(?!(?<=[\d}}] )(?:{UNITS}))")
+GAP = rf"(?<![=⊥∥]) (?!=)(?!(?<=[\d}}] )(?:{UNITS}))"
 """Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥ and ∥."""
 WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
 
@@ -209,7 +209,7 @@ def signs(markup: str, height: float) -> Iterator[tuple[float, float, float, flo
 
 def words_of(markup: str) -> list[str]:
     """Pieces of markup between which a line may end: a number stays with its unit."""
-    return GAP.split(markup)
+    return re.split(GAP, markup)
 
 
 def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:

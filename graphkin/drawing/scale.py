@@ -1,8 +1,9 @@
 """Scale factors: kL from the preferred scales, and how much larger the plans are drawn.
 
 On the mechanism a velocity is set as its way in some time, an acceleration as twice its way in it,
-so that right triangles hold there; with one turning driver that time is 1/omega and the velocity
-of the crank's pin is as long as the crank. The plans are drawn m and m′ times as large.
+so that each velocity is the mean proportional of its bar and its component; with one turning
+driver that time is 1/omega and the velocity of the crank's pin is as long as the crank. The plans
+are drawn m and m′ times as large.
 """
 
 from __future__ import annotations

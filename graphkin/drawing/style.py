@@ -91,6 +91,8 @@ AUXILIARY = OWN_LINES, CHAIN_LINES = "trial", "trial-line"
 """The looks of the lines of auxiliary plans: their own, and chain lines through their points."""
 VECTORS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
 """The classes of lines that are vectors."""
+DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", *VECTORS)
+"""The classes of lines that a construction draws."""
 CENTRODES = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
 """The classes whose colours the names of centrodes take."""
 

@@ -108,8 +108,8 @@ def by_law(scene: Scene) -> Scene:
         return scene
     centres, out = scene.cam_centres, scene.cam_links
     links = {
-        name: link._replace(
-            cam=None, points=tuple(point for point in link.points if point not in centres)
+        name: replace(
+            link, cam=None, points=tuple(point for point in link.points if point not in centres)
         )
         for name, link in scene.links.items()
         if name not in out

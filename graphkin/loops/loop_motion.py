@@ -22,12 +22,15 @@ class PlaceMotion(NamedTuple):
 
 
 class SlideRates(NamedTuple):
-    """Coordinate (m), speed (m/s), acceleration (m/s²) along the guide, and Coriolis vector."""
+    """Coordinate (m), speed (m/s), acceleration (m/s²) along the guide, and Coriolis vector.
+
+    Or the bounds of their errors, that of the vector as a magnitude.
+    """
 
     position: Reals
     speed: Reals
     acceleration: Reals
-    coriolis: Complexes
+    coriolis: Complexes | Reals
 
 
 class Motion(Struct, frozen=True, eq=False):

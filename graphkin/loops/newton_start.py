@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask
 from graphkin.loops.equations import Equations, stacked
@@ -16,7 +16,7 @@ from graphkin.scene.model import FRAME
 Places = Mapping[str, Complexes]
 
 
-class Start(NamedTuple):
+class Start(Struct, frozen=True, eq=False):
     """Unknowns (N, K + m) to start from; ``told`` are those that the positions tell (K + m,)."""
 
     unknowns: Reals

@@ -8,7 +8,6 @@ carries both centres; where no link does, an arm without substance from centre t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from msgspec import Struct
@@ -24,7 +23,7 @@ TOUCH = 1e-6
 """Gap between wheels that touch, as a share of their distance."""
 
 
-class NoSlip(NamedTuple):
+class NoSlip(Struct, frozen=True, eq=False):
     """No slip: the sum of weight·(angle - start) over links, and side·s of a track, is nought.
 
     ``weights`` in metres, ``starts`` in radians by link; ``track`` is the straight track, None
@@ -40,7 +39,7 @@ class NoSlip(NamedTuple):
     side: int = 0
 
 
-class Gear(NamedTuple):
+class Gear(Struct, frozen=True, eq=False):
     """Two wheels that touch or have a belt, their radii (m), the arm that carries both centres.
 
     ``sense`` is +1 where they touch from outside or the belt is crossed, -1 for a wheel in a ring
@@ -89,8 +88,9 @@ def gears_of(
             kept = carried_pairs(scene, link.name, rolling, bodies, numbers)
             gear = touching(link.name, rolling, kept, bodies, numbers) if kept else None
             if gear is None:
-                gear = pair(scene, link.name, rolling, 0, 0, numbers)._replace(
-                    arm=f"{link.name}~{rolling.on}"
+                gear = replace(
+                    pair(scene, link.name, rolling, 0, 0, numbers),
+                    arm=f"{link.name}~{rolling.on}",
                 )
                 first, second = (wheel.centre for wheel in gear.wheels)
                 apart = abs(gear.radii[1] + gear.sense * gear.radii[0])
@@ -123,7 +123,7 @@ def carried_pairs(
             arms = [each for each in bodies if each not in gear.links]
             arm = next((each for each in arms if centres <= set(bodies[each])), None)
             if arm is not None:
-                found.append(gear._replace(arm=arm))
+                found.append(replace(gear, arm=arm))
     return found
 
 

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from msgspec import Struct
-from numpy.typing import NDArray
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real, batch_kind
 from graphkin.scene.model import (
@@ -34,8 +33,8 @@ from graphkin.scene.model import (
 from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import Problem, StructureError
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
+Reals = np.ndarray[Any, np.dtype[np.float64]]
+Complexes = np.ndarray[Any, np.dtype[np.complex128]]
 Body = Mapping[str, Point]
 
 

@@ -16,7 +16,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.loops.equations import Equations
-from graphkin.loops.loop_motion import Motion
+from graphkin.loops.loop_motion import Motion, SlideRates
 from graphkin.loops.rigid_bodies import Complexes, Reals
 
 UNIT = 4 * 2.0**-52
@@ -33,15 +33,6 @@ class PlaceBound(NamedTuple):
     place: Reals
     velocity: Reals
     acceleration: Reals
-
-
-class SlideBound(NamedTuple):
-    """Bounds of a coordinate (m), its speed and acceleration, and the Coriolis vector: (N,)."""
-
-    position: Reals
-    speed: Reals
-    acceleration: Reals
-    coriolis: Reals
 
 
 class Loads(NamedTuple):
@@ -84,15 +75,15 @@ class Vectors(Struct, frozen=True, eq=False):
         return Vectors(self.turned + other.turned, self.along + other.along, self.carrier)
 
     def carried(self, rate: Loads, second: Loads) -> Loads:
-        """What accelerations load the vectors with: tangential, centripetal and Coriolis parts."""
+        """What accelerations load the vectors with: by the second derivatives, and by the rates."""
         held = 2 * rate.turned[:, self.carrier]
         return Loads(second.turned + rate.turned**2, second.slid + rate.slid * held)
 
     def carried_more(self, rate: Loads, more: Loads) -> Loads:
-        """How much the centripetal and Coriolis parts grow when the rates are off by ``more``."""
+        """How much the parts by the rates grow when these are off by ``more``."""
         held, extra = rate.turned[:, self.carrier], more.turned[:, self.carrier]
-        coriolis = 2 * (rate.slid * extra + more.slid * (held + extra))
-        return Loads(more.turned * (2 * rate.turned + more.turned), coriolis)
+        sliding = 2 * (rate.slid * extra + more.slid * (held + extra))
+        return Loads(more.turned * (2 * rate.turned + more.turned), sliding)
 
 
 class Rounding(Struct, frozen=True, eq=False):
@@ -139,15 +130,15 @@ class Rounding(Struct, frozen=True, eq=False):
             + (arm + off) * (twist + turn * (2 * omega + turn)),
         )
 
-    def slide(self, j: int) -> SlideBound:
-        """Of a block along guide j, and of its Coriolis vector."""
+    def slide(self, j: int) -> SlideRates:
+        """Of a block along guide j."""
         guide = self.loops.guides[j]
         i = self.motion.index[guide.on]
         heading = self.angles[:, self.loops.turned.of[guide.on]]
         omega, speed = abs(self.motion.omega[:, i]), abs(self.motion.slides[1, :, j])
         position, rate, thrust = self.slides[:, :, j]
         product = speed * (self.omega[:, i] + omega * heading) + (omega + self.omega[:, i]) * rate
-        return SlideBound(position, rate, thrust, 2 * (product + UNIT * omega * speed))
+        return SlideRates(position, rate, thrust, 2 * (product + UNIT * omega * speed))
 
 
 class PositionBounds(Struct, frozen=True, eq=False):

@@ -79,8 +79,8 @@ def choices(course: Course, event: Event) -> list[Branches]:
 def others_of(branch: Branch) -> list[Branch]:
     """The other closures of a group: the other side or way, or all other numbers."""
     if isinstance(branch, Side):
-        return [branch._replace(side=-branch.side)]
+        return [replace(branch, side=-branch.side)]
     if isinstance(branch, Closure):
         numbers = range(1, MOST_CLOSURES + 1)
         return [Closure(number) for number in numbers if number != branch.number]
-    return [branch._replace(way=-branch.way)]
+    return [replace(branch, way=-branch.way)]

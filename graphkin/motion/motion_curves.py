@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.solution import Curve
-from graphkin.construction.higher_class.closed_group import ClosedGroup
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
 from graphkin.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -45,9 +43,12 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
     A hand tries a few places there; branches that close in other ways would only cover the drawing.
     """
     steps = mechanism.program.steps
-    closing = [n for n, step in enumerate(steps) if step.action and is_closer(step.action.value)]
+    closing = [n for n, step in enumerate(steps) if step.closes]
     if not closing:
         return ()
+    from graphkin.construction.higher_class.closed_group import ClosedGroup
+    from graphkin.construction.higher_class.closure_solver import ClosureSolver
+
     trace = mechanism.trace([t for t in mechanism.program.targets if t[0] == "position"])
     curves: list[Curve] = []
     spots = (n for (what, _), n in mechanism.program.targets.items() if what == "position")
@@ -65,11 +66,6 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
             fit = trace.value("position", point)
             curves.append(Curve("locus", point, piece(locus, fit, far, closed=round_)))
     return tuple(curves)
-
-
-def is_closer(value: object) -> bool:
-    """Whether an action closes a group of higher class."""
-    return isinstance(value, ClosureSolver)
 
 
 def piece(

@@ -175,7 +175,7 @@ def named(scene: Scene, number: int | None) -> Scene:
             Quantity(name, Name(name), each, f"drivers.{n}")
             for name, each in zip(names(n), (unit, f"{base}/s", f"{base}/s²"), strict=True)
         )
-        drivers.append(driver._replace(position=position, speed=speed, acceleration=acceleration))
+        drivers.append(replace(driver, position=position, speed=speed, acceleration=acceleration))
         place, rate, push = stated(driver, scene)
         stands = number is not None and n != number
         motion = (place, 0.0, 0.0) if stands else (place, rate, push)

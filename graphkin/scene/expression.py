@@ -11,7 +11,9 @@ import re
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from threading import Lock
-from typing import NamedTuple, NoReturn
+from typing import NoReturn
+
+from msgspec import Struct
 
 from graphkin.scene.findings import shown, visible
 from graphkin.text.errors import Hint, Mend
@@ -38,9 +40,7 @@ HEAVIEST = 2000
 
 UNITS = ("degrees", "degree", "deg", "°", "rad", "grad", "rpm", "mm", "cm", "dm", "in", "m", "s")
 RATES = ("mm/s", "cm/s", "m/s", "in/s", "rev/min", "rot/min", "rad/s", "deg/s", "°/s")
-MEASURED = re.compile(
-    rf"(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)", re.ASCII | re.DOTALL
-)
+MEASURED = rf"(?as)(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)"
 """A number or an expression with a unit behind it."""
 MARKS = "_.+-*/() \t\r\n"
 JUXTAPOSED = re.compile(
@@ -61,25 +61,25 @@ class UnreadableError(ValueError):
         self.hint = hint
 
 
-class Number(NamedTuple):
+class Number(Struct, frozen=True):
     """An exact number."""
 
     value: Fraction
 
 
-class Name(NamedTuple):
+class Name(Struct, frozen=True):
     """A parameter, the time ``t`` or ``pi``."""
 
     name: str
 
 
-class Minus(NamedTuple):
+class Minus(Struct, frozen=True):
     """The negative of what follows."""
 
     inner: Tree
 
 
-class Pair(NamedTuple):
+class Pair(Struct, frozen=True):
     """Two parts joined by one of + - * / ** or mod, the rest of a division."""
 
     sign: str
@@ -87,7 +87,7 @@ class Pair(NamedTuple):
     right: Tree
 
 
-class Call(NamedTuple):
+class Call(Struct, frozen=True):
     """A function of one number; the angle of a sine is in degrees."""
 
     function: str
@@ -118,7 +118,7 @@ def parse(text: str, *, counting: bool = False) -> Tree:
 
 def unit_hint(text: str) -> Hint:
     """How to write a number that has a unit behind it; empty where it has none."""
-    measured = MEASURED.fullmatch(text.strip())
+    measured = re.fullmatch(MEASURED, text.strip())
     rest = measured[1].strip() if measured else ""
     if not measured or not rest or rest[-1] in "+-*/(":
         return ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from graphkin.scene.findings import Findings, Table, shown
 from graphkin.scene.known_names import all_points, known_link
@@ -69,12 +69,12 @@ def in_language(scene: Scene, language: str) -> Scene:
 def driven(driver: Driver, names: Names) -> Driver:
     """A driver of a link that is called otherwise."""
     link, against = (names.get(name, name) for name in (driver.link, driver.against))
-    return driver._replace(link=link, against=against)
+    return replace(driver, link=link, against=against)
 
 
 def asked(ask: Ask, names: Names) -> Ask:
     """What is asked of links that are called otherwise: 2, 2-4, or of a point A@2."""
-    return Ask(*(tuple(by_parts(name, names) for name in each) for each in ask))
+    return Ask(*(tuple(by_parts(name, names) for name in each) for each in astuple(ask)))
 
 
 def by_parts(name: str, names: Names) -> str:

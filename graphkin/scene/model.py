@@ -6,11 +6,12 @@ points before it; where a link is put in the plane is for the construction to fi
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 from msgspec import Struct, field
+from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.numbers.cam_motions import Rise, displaced
@@ -25,7 +26,7 @@ Lengths = tuple[tuple[str, str, Quantity], ...]
 """Bars with their lengths, as (from, to, length)."""
 
 
-class Parameter(NamedTuple):
+class Parameter(Struct, frozen=True):
     """A number that a variant may change, with the range it may take."""
 
     name: str
@@ -35,7 +36,7 @@ class Parameter(NamedTuple):
     step: Quantity | None = None
 
 
-class At(NamedTuple):
+class At(Struct, frozen=True):
     """``P = [x, y]``: a point by its coordinates in the link's axes."""
 
     point: str
@@ -47,7 +48,7 @@ class At(NamedTuple):
         return ()
 
 
-class Polar(NamedTuple):
+class Polar(Struct, frozen=True):
     """``P = {from, length, angle}``: so far from a point, at an angle to the link's x axis."""
 
     point: str
@@ -60,7 +61,7 @@ class Polar(NamedTuple):
         return ((self.start, self.point, self.length),)
 
 
-class Apart(NamedTuple):
+class Apart(Struct, frozen=True):
     """``P-Q = l`` for the link's first two points: Q at that distance along the x axis."""
 
     point: str
@@ -72,7 +73,7 @@ class Apart(NamedTuple):
         return ((self.start, self.point, self.length),)
 
 
-class Triangle(NamedTuple):
+class Triangle(Struct, frozen=True):
     """Two lengths and ``P = "left of A-B"``: side +1 left of the way from A to B, -1 right."""
 
     point: str
@@ -90,7 +91,7 @@ class Triangle(NamedTuple):
         )
 
 
-class OnLine(NamedTuple):
+class OnLine(Struct, frozen=True):
     """``P = "on A-B"`` or ``"beyond B on A-B"``: at a distance from ``start`` along A to B.
 
     sense +1 steps from ``start`` the way from ``first`` to ``second``, -1 the other way.
@@ -108,7 +109,7 @@ class OnLine(NamedTuple):
         return ((self.start, self.point, self.length),)
 
 
-class Angled(NamedTuple):
+class Angled(Struct, frozen=True):
     """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP."""
 
     point: str
@@ -125,7 +126,7 @@ class Angled(NamedTuple):
 Placing = At | Polar | Apart | Triangle | OnLine | Angled
 
 
-class Slide(NamedTuple):
+class Slide(Struct, frozen=True):
     """A block on a straight guide of link ``on``.
 
     The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its
@@ -142,10 +143,10 @@ class Slide(NamedTuple):
 
     def called(self, names: Mapping[str, str]) -> Slide:
         """The same with links by other names."""
-        return self._replace(on=names.get(self.on, self.on))
+        return replace(self, on=names.get(self.on, self.on))
 
 
-class Wheel(NamedTuple):
+class Wheel(Struct, frozen=True):
     """A circle of a link about one of its points; ``inside`` for a ring with inner teeth."""
 
     centre: str
@@ -154,7 +155,7 @@ class Wheel(NamedTuple):
     inside: bool = False
 
 
-class Belt(NamedTuple):
+class Belt(Struct, frozen=True):
     """A belt, chain or rope round two wheels, ``crossed`` or open.
 
     ``wheels`` are the places, in the lists of their links, of the wheel and of the one ``on``.
@@ -169,7 +170,7 @@ class Belt(NamedTuple):
         return 1 if self.crossed else -1
 
 
-class Rolling(NamedTuple):
+class Rolling(Struct, frozen=True):
     """A wheel that rolls without slip on a straight or circular track of link ``on``.
 
     With a ``belt`` the wheel does not touch the other: the belt joins their rims, without slip.
@@ -187,7 +188,8 @@ class Rolling(NamedTuple):
 
     def called(self, names: Mapping[str, str]) -> Rolling:
         """The same with links by other names."""
-        return self._replace(
+        return replace(
+            self,
             on=names.get(self.on, self.on),
             start={names.get(name, name): angle for name, angle in self.start.items()},
             turns={names.get(name, name): count for name, count in self.turns.items()},
@@ -198,7 +200,7 @@ GuideOrTrack = Slide | Rolling
 """What leads a link."""
 
 
-class Profile(NamedTuple):
+class Profile(Struct, frozen=True):
     """The edge by which a link touches another: an arc about a point of the link, only drawn.
 
     It passes ``through`` the place where a point stands now, which another link may own.
@@ -208,7 +210,7 @@ class Profile(NamedTuple):
     through: str
 
 
-class CamPiece(NamedTuple):
+class CamPiece(Struct, frozen=True):
     """A piece of a cam's law: up to the angle ``to`` it lifts by ``rise``, nought in a dwell.
 
     A piece of a table is a cubic between two of its points; ``slopes`` are its derivatives at both
@@ -221,7 +223,7 @@ class CamPiece(NamedTuple):
     slopes: tuple[Quantity, Quantity] | None = None
 
 
-class CamLever(NamedTuple):
+class CamLever(Struct, frozen=True):
     """A follower that a cam swings about the ``pin``: its bar leads from there to the tip.
 
     ``side`` is +1 where it stands left of the line from the cam's pivot to the pin. A flat face
@@ -233,7 +235,7 @@ class CamLever(NamedTuple):
     face: Quantity
 
 
-class Cam(NamedTuple):
+class Cam(Struct, frozen=True):
     """What lifts a follower, by its law: the disc of link ``on``, which turns about ``pivot``.
 
     ``tip`` is the follower's: a roller of the radius ``roller``, a knife, a flat face; ``point`` is
@@ -281,10 +283,10 @@ class Cam(NamedTuple):
     def called(self, names: Mapping[str, str]) -> Cam:
         """The same with links by other names."""
         on, link = (names.get(name, name) for name in (self.on, self.link))
-        return self._replace(on=on, link=link)
+        return replace(self, on=on, link=link)
 
 
-class Link(NamedTuple):
+class Link(Struct, frozen=True):
     """A rigid body: its points in the order written, how they are placed, what it slides on."""
 
     name: str
@@ -303,7 +305,8 @@ class Link(NamedTuple):
 
     def called(self, names: Mapping[str, str]) -> Link:
         """The same by another name, with those of the links that it slides and rolls on."""
-        return self._replace(
+        return replace(
+            self,
             name=names.get(self.name, self.name),
             slides=tuple(slide.called(names) for slide in self.slides),
             rolls=tuple(rolling.called(names) for rolling in self.rolls),
@@ -314,7 +317,7 @@ class Link(NamedTuple):
 DriverKind = Literal["turn", "slide", "roll"]
 
 
-class Driver(NamedTuple):
+class Driver(Struct, frozen=True):
     """A motion that is given: link ``link`` turns, slides or rolls ``against`` another.
 
     ``of`` names the line (from, to) of the link whose angle is meant; without it the link's x axis.
@@ -329,7 +332,7 @@ class Driver(NamedTuple):
     of: tuple[str, str] | None = None
 
 
-class Side(NamedTuple):
+class Side(Struct, frozen=True):
     """``B = "right of A-O2"``: +1 left, -1 right of the way from ``first`` to ``second``."""
 
     first: str
@@ -340,7 +343,7 @@ class Side(NamedTuple):
         return f"{'left' if self.side > 0 else 'right'} of {self.first}-{self.second}"
 
 
-class Way(NamedTuple):
+class Way(Struct, frozen=True):
     """``5 = "forward"``: +1 the larger, -1 the smaller slide coordinate of the two closures."""
 
     way: int
@@ -349,7 +352,7 @@ class Way(NamedTuple):
         return "forward" if self.way > 0 else "backward"
 
 
-class Closure(NamedTuple):
+class Closure(Struct, frozen=True):
     """``2 = "closure 1"``: the number of a closure of a group of higher class."""
 
     number: int
@@ -361,7 +364,7 @@ class Closure(NamedTuple):
 Branch = Side | Way | Closure
 
 
-class Ask(NamedTuple):
+class Ask(Struct, frozen=True):
     """What is asked of the mechanism; points may be written ``A@3``.
 
     ``pairs`` are two links joined by a dash, ``2-4``, whose relative centre is asked, in the order
@@ -381,9 +384,19 @@ class Ask(NamedTuple):
     curves: tuple[str, ...] = ()
 
     @property
+    def anything(self) -> bool:
+        """Whether anything is asked."""
+        return any(astuple(self))
+
+    @property
     def any_centres(self) -> bool:
         """Whether instantaneous centres are drawn: for their own sake, or for circles."""
         return bool(self.centres or self.pairs or self.inflection)
+
+    @property
+    def chosen_by_place(self) -> bool:
+        """Whether something is asked whose way is chosen by where the mechanism stands."""
+        return bool(self.pairs or self.inflection)
 
     @property
     def any_poles(self) -> bool:
@@ -391,10 +404,10 @@ class Ask(NamedTuple):
         return bool(self.poles or self.inflection)
 
 
-class Sheet(NamedTuple):
+class Sheet(Struct, frozen=True):
     """What the title block and the page say beyond the drawing.
 
-    ``method`` is how normal components are constructed: by right triangles, or Klein's way.
+    ``method`` is what gives components of accelerations: triangles, or Klein's construction.
     ``rule`` is how large plans are: as large as they fit, or as the lab draws them, the vectors of
     the crank's pin as long as the crank; ``enlarge`` how many times as long, one number for each
     plan or one for both.
@@ -412,6 +425,19 @@ class Sheet(NamedTuple):
     enlarge: tuple[Quantity, ...] = ()
     ka: Quantity | None = None
     method: str = "triangles"
+
+
+def quantities_within(part: object) -> Iterator[Quantity]:
+    """The quantities that occur in a part of a scene, in order."""
+    if isinstance(part, Quantity):
+        yield part
+    elif isinstance(part, Struct):
+        yield from quantities_within(astuple(part))
+    elif isinstance(part, Mapping):
+        yield from quantities_within(tuple(part.values()))
+    elif isinstance(part, tuple | list):
+        for each in part:
+            yield from quantities_within(each)
 
 
 class Scene(Struct, frozen=True):

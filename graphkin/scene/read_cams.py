@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from msgspec.structs import replace
+
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
 from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, shown
@@ -48,8 +50,8 @@ def with_cams(
 def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:
     """Put the equivalent linkage of a cam among the links."""
     own, disc = links[follower], links[cam.on]
-    links[follower] = own._replace(cam=cam)
-    links[cam.on] = disc._replace(points=(*disc.points, cam.centre))
+    links[follower] = replace(own, cam=cam)
+    links[cam.on] = replace(disc, points=(*disc.points, cam.centre))
     if cam.is_flat:
         links[cam.link] = Link(cam.link, (cam.centre,), (), (face_of(follower, cam, measures),))
     else:

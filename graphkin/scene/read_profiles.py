@@ -33,7 +33,7 @@ def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
     sound, points = not findings.inside(place), all_points(scene)
     for index, profile in enumerate(link.profiles):
         where = numbered(f"{place}.profiles", index, len(link.profiles))
-        about, through = profile
+        about, through = profile.about, profile.through
         if about:
             known_point(about, link.points, named(link.name), f"{where}.about", findings)
         if through:
@@ -51,6 +51,6 @@ def at_one_spot(scene: Scene, link: Link, profile: Profile) -> bool:
     spots = [
         (placing.x.number(scene.values), placing.y.number(scene.values))
         for placing in link.placings
-        if isinstance(placing, At) and placing.point in profile
+        if isinstance(placing, At) and placing.point in (profile.about, profile.through)
     ]
     return len(spots) == 2 and spots[0] == spots[1]

@@ -17,14 +17,19 @@ from graphkin.scene.quantity import Quantity, exact
 LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
 PATHS_ASKED = "curves"
-LINKS_ASKED = ("omega", "epsilon", "poles", "centrodes", "slides", "inflection")
 CENTRES_ASKED = "centres"
+LINKS_ASKED = tuple(
+    key
+    for key in Ask.__struct_fields__
+    if key not in (*POINTS_ASKED, PATHS_ASKED, CENTRES_ASKED, "pairs")
+)
 ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
 METHODS = ("triangles", "klein")
+"""What gives the components of accelerations."""
 RULES = ("largest", "lab")
-"""How normal components are constructed."""
+"""How large plans are drawn."""
 MOST = 500
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from pathlib import Path
 
 from graphkin.text.errors import Problem, SceneError
@@ -67,6 +66,8 @@ def find(name: str) -> Path:
         expected = "a folder with scene.toml, a .toml file or the name of a lab"
         raise SceneError(Problem(name, "is a folder without scene.toml", expected))
     beside = [str(path.with_name(other.name)) for other in path.parent.glob("*.toml")]
+    from difflib import get_close_matches
+
     near = get_close_matches(name, [*beside, *names()], n=1)
     hint = f"did you mean {near[0]}? " if near else ""
     raise SceneError(

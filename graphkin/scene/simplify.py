@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import NamedTuple
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.scene.expression import Call, Minus, Name, Number, Pair, Tree
 from graphkin.scene.quantity import shortest
@@ -13,7 +15,7 @@ SUM, PRODUCT, POWER, ATOM = range(4)
 """How closely the parts of an expression hold together."""
 
 
-class Product(NamedTuple):
+class Product(Struct, frozen=True):
     """A number times some factors over others."""
 
     number: Fraction
@@ -39,18 +41,18 @@ def simplified(tree: Tree) -> Tree:
 def added(tree: Tree) -> Tree:
     """The sum of the terms of a tree, like ones as one, in their order."""
     found: dict[Product, Fraction] = {}
-    for number, above, below in terms(tree):
-        like = Product(Fraction(1), above, below)
-        found[like] = found.get(like, Fraction(0)) + number
+    for term in terms(tree):
+        like = replace(term, number=Fraction(1))
+        found[like] = found.get(like, Fraction(0)) + term.number
     total: Tree | None = None
     for like, number in found.items():
         if not number:
             continue
         if total is None:
-            total = multiplied(like._replace(number=number))
+            total = multiplied(replace(like, number=number))
         else:
             sign = "+" if number > 0 else "-"
-            total = Pair(sign, total, multiplied(like._replace(number=abs(number))))
+            total = Pair(sign, total, multiplied(replace(like, number=abs(number))))
     return Number(Fraction(0)) if total is None else total
 
 
@@ -77,7 +79,7 @@ def product(tree: Tree) -> Product:
             return Product(value)
         case Minus(inner):
             found = product(inner)
-            return found._replace(number=-found.number)
+            return replace(found, number=-found.number)
         case Pair("*", left, right):
             a, b = product(left), product(right)
             return Product(a.number * b.number, a.above + b.above, a.below + b.below)
@@ -95,7 +97,7 @@ def product(tree: Tree) -> Product:
 
 def multiplied(parts: Product) -> Tree:
     """The tree of a number times factors over others."""
-    number, above, below = parts
+    number, above, below = parts.number, parts.above, parts.below
     if not number:
         return Number(Fraction(0))
     size, whole = abs(number), 1

@@ -8,14 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from graphkin.scene.model import FRAME, Driver, Scene
-from graphkin.structure.cam_guides import refuse_far_guides
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.structure.coupled_trains import next_coupled
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.higher_groups import next_higher
 from graphkin.structure.joints import Joints
+from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
 from graphkin.structure.pairs import Contact
+from graphkin.text.errors import Problem, StructureError
 
 
 def decompose(scene: Scene) -> tuple[Group, ...]:
@@ -47,3 +49,51 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
     tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm is None)
     return Unresolved(links, driven, tuple(dict.fromkeys(link for link in tracks if link in links)))
+
+
+def refuse_far_guides(scene: Scene) -> None:
+    """Raise StructureError for each follower that cannot rest on the cam's prime circle."""
+    problems = []
+    for follower, cam in scene.cams.items():
+        refuse = far_lever if cam.lever else far_guide
+        problem = refuse(scene, follower, cam)
+        if problem is not None:
+            problems.append(problem)
+    if problems:
+        raise StructureError(problems)
+
+
+def far_guide(scene: Scene, follower: str, cam: Cam) -> Problem | None:
+    """The error for a guide that passes beside the prime circle."""
+    slide = scene.link(follower).slides[0]
+    line, pivot = guide_line(scene, slide), body(scene, slide.on)[cam.pivot]
+    aside = abs(cross(line.along, line.point - pivot) + metres(scene, slide.offset))
+    prime = metres(scene, cam.base) + metres(scene, cam.roller)
+    if cam.is_flat or aside < prime:
+        return None
+    found = f"the follower passes {1e3 * aside:.6g} mm beside {cam.pivot}"
+    expected = f"less than base and roller together, {1e3 * prime:.6g} mm"
+    return Problem(f"links.{follower}.cam.base", found, expected)
+
+
+def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
+    """The error for a lever that does not reach the prime circle, or whose face cannot touch it."""
+    lever, fixed, own = cam.lever, body(scene, FRAME), body(scene, follower)
+    assert lever is not None
+    apart = abs(fixed[lever.pin] - fixed[cam.pivot])
+    prime = metres(scene, cam.base) + metres(scene, cam.roller)
+    pins = f"{cam.pivot} and {lever.pin} stand {1e3 * apart:.6g} mm apart"
+    place = f"links.{follower}.cam.base"
+    if cam.is_flat:
+        gap = prime + metres(scene, lever.face)
+        if abs(gap) < apart:
+            return None
+        expected = f"more than base and face together, {1e3 * gap:.6g} mm"
+        return Problem(place, pins, expected)
+    arm = abs(own[cam.point] - own[lever.pin])
+    if abs(apart - arm) < prime < apart + arm:
+        return None
+    bar = f"{lever.pin}-{cam.point}"
+    found = f"{pins}, {bar} is {1e3 * arm:.6g} mm long"
+    expected = f"a triangle of these and base and roller together, {1e3 * prime:.6g} mm"
+    return Problem(place, found, expected)

@@ -12,17 +12,22 @@ from graphkin.structure.pairs import Contact, Joint, Leading, Pin, Sliding
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
 
-class Crank(Struct, frozen=True):
-    """A link that a driver turns about a pin whose motion is known."""
+class OneLink(Struct, frozen=True):
+    """What consists of one link."""
 
-    driver: Driver
     link: str
-    pivot: str
 
     @property
     def links(self) -> tuple[str]:
         """The one link."""
         return (self.link,)
+
+
+class Crank(OneLink, frozen=True):
+    """A link that a driver turns about a pin whose motion is known."""
+
+    driver: Driver
+    pivot: str
 
     @property
     def title(self) -> str:
@@ -32,22 +37,16 @@ class Crank(Struct, frozen=True):
         return f"driven by a crank about {self.pivot}{beside}"
 
 
-class Driven(Struct, frozen=True):
+class Driven(OneLink, frozen=True):
     """A link that a driver slides along a guide, or rolls on a track, of a known link."""
 
     driver: Driver
-    link: str
     pair: Leading
 
     @property
     def outer(self) -> tuple[Joint]:
         """Its pair with what is known."""
         return (self.pair,)
-
-    @property
-    def links(self) -> tuple[str]:
-        """The one link."""
-        return (self.link,)
 
     @property
     def title(self) -> str:
@@ -155,10 +154,9 @@ class Stretched(Struct, frozen=True):
         return f"{self.dyad.title} with a driven cylinder of {pairs[0]}"
 
 
-class Geared(Struct, frozen=True):
+class Geared(OneLink, frozen=True):
     """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
 
-    link: str
     pair: Joint
     contact: Contact
 
@@ -166,11 +164,6 @@ class Geared(Struct, frozen=True):
     def outer(self) -> tuple[Joint, Joint]:
         """Its pairs with what is known."""
         return self.pair, self.contact
-
-    @property
-    def links(self) -> tuple[str]:
-        """The one link."""
-        return (self.link,)
 
     @property
     def title(self) -> str:
@@ -200,10 +193,9 @@ class Train(Struct, frozen=True):
         return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
 
 
-class Tie(Struct, frozen=True):
+class Tie(OneLink, frozen=True):
     """A link that two pairs join to known links: at two pins it is idle, on two guides a wedge."""
 
-    link: str
     first: Joint
     second: Joint
 
@@ -213,11 +205,6 @@ class Tie(Struct, frozen=True):
         return self.first, self.second
 
     @property
-    def links(self) -> tuple[str]:
-        """The one link."""
-        return (self.link,)
-
-    @property
     def title(self) -> str:
         """What it is called."""
         if isinstance(self.first, Sliding):
@@ -225,16 +212,10 @@ class Tie(Struct, frozen=True):
         return "idle: joins what moves together without it"
 
 
-class TriedLink(Struct, frozen=True):
+class TriedLink(OneLink, frozen=True):
     """A link whose place in its pair with a known one is tried until the rest closes."""
 
-    link: str
     pair: Joint
-
-    @property
-    def links(self) -> tuple[str]:
-        """The one link."""
-        return (self.link,)
 
 
 class CoupledTrain(Struct, frozen=True):

@@ -55,12 +55,12 @@ def driven_by(
     """The group of one driven link: a crank about any known pin, or along its own guide."""
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
-        return Crank(driver, link, pins[0].point) if pins else turned_wheel(joints, driver, link)
+        return Crank(link, driver, pins[0].point) if pins else turned_wheel(joints, driver, link)
     for pair in joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:
             continue
         if pair.links[0] == driver.link:
-            return Driven(driver, link, pair)
+            return Driven(link, driver, pair)
     return None
 
 
@@ -68,7 +68,7 @@ def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
     """A wheel that a driver turns against the straight track on which it rolls."""
     for pair in joints.between(link, (driver.against,)):
         if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
-            return Driven(driver, link, pair) if link == driver.link and pair.taken == 2 else None
+            return Driven(link, driver, pair) if link == driver.link and pair.taken == 2 else None
     return None
 
 

@@ -187,5 +187,6 @@ def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Conta
     for rolling, letter in zip(scene.links[link].rolls, letters, strict=True):
         before = [(each.rolling, each.wheel) for each in found if each.track is None]
         touch = touching(scene, link, rolling, before)
-        found.append(Contact(rolling, (link, rolling.on), *touch, letter))
+        ends = touch.wheel, touch.track, touch.arm
+        found.append(Contact(rolling, (link, rolling.on), *ends, letter))
     return found

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+
+from msgspec import Struct
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel
@@ -16,7 +17,7 @@ TOUCH = 1e-9
 """Gap between wheels that touch, as a share of their distance, that rounding may leave."""
 
 
-class RollingContact(NamedTuple):
+class RollingContact(Struct, frozen=True):
     """The wheel that rolls, the wheel that it rolls on (None: straight), and the arm."""
 
     wheel: Wheel
@@ -24,7 +25,7 @@ class RollingContact(NamedTuple):
     arm: str | None
 
 
-class WheelsApart(NamedTuple):
+class WheelsApart(Struct, frozen=True):
     """Two wheels, or a wheel and a track, at a distance (m) that link ``arm`` keeps."""
 
     wheel: Wheel

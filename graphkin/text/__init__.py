@@ -13,7 +13,7 @@ HERE = Path(__file__).resolve().parent
 LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-EUPHONIC = re.compile(r"(?<!\S)([ae]) (?=\*?(?i:\1))")
+EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 """The Italian words for "to" and "and" before a name or word that begins with their own vowel."""
 
 
@@ -34,7 +34,7 @@ class Words:
     def __call__(self, key: str, **fields: object) -> str:
         """The sentence under a key, with its fields filled in. Raises KeyError when missing."""
         said = self.sentences[key].format_map(fields)
-        return EUPHONIC.sub(r"\1d ", said) if self.language == "it" else said
+        return re.sub(EUPHONIC, r"\1d ", said) if self.language == "it" else said
 
     def has(self, key: str) -> bool:
         """True when there is a sentence under a key."""

@@ -8,13 +8,13 @@ from fractions import Fraction
 from msgspec import Struct
 
 from graphkin.construction.core.given_data import angle_symbol
-from graphkin.construction.core.parameter_words import quantities, unit_of, within
+from graphkin.construction.core.parameter_words import quantities, unit_of
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.richtext import escape
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
 from graphkin.motion.sweep import sweep_of
-from graphkin.scene.model import Driver, Scene
+from graphkin.scene.model import Driver, Scene, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity
 
 
@@ -71,7 +71,7 @@ def lengths_and_rates(scene: Scene) -> Iterator[Quantity]:
         yield from (driver.speed, driver.acceleration)
     for link in scene.links.values():
         if not link.wheels and link.cam is None:
-            yield from within(tuple(link.placings))
+            yield from quantities_within(tuple(link.placings))
 
 
 def of_drivers(scene: Scene) -> Iterator[GivenFigure]:

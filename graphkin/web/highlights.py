@@ -12,16 +12,16 @@ from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.mark_dependencies import BODY
 from graphkin.drawing.marks import CircleMark, Text
-from graphkin.drawing.style import VECTORS
+from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.facts import SLIDES
-from graphkin.web.protocol import DRAWN, PageProtocol
+from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.writers.html_markup import marked_up
 
 BODIES = tuple(set(BODY) - {"number", "label", "leader"})
 """The classes of bars and plates."""
-HIDDEN = {*DRAWN, *VECTORS, "detail", "note", "caption"}
+HIDDEN = {*DRAWN, "detail", "note", "caption"}
 """The classes of what the beginning does not show: the construction."""
 
 

@@ -11,7 +11,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.screen_sheets import ScreenSheet
 
 PRIMES = "′″‴⁗"
-"""What tells the points of a right triangle from those of the mechanism."""
+"""What tells the corners of a component's figure from the points of the mechanism."""
 
 
 def labels_of(sheet: ScreenSheet) -> dict[str, str]:

@@ -161,7 +161,8 @@ def window(driven: PageDriver) -> tuple[float, float]:
     if driven.what == "turn":
         return driven.start - TURN, driven.start + TURN
     own = driven.driver
-    sweep = sweep_of(driven.scene, driver=own and driven.scene.drivers.index(own) + 1)
+    number = None if own is None else driven.scene.drivers.index(own) + 1
+    sweep = sweep_of(driven.scene, driver=number)
     if driven.what == "time":
         return min(sweep.low, driven.start), driven.start + sweep.high
     return sweep.low / driven.metres, sweep.high / driven.metres

@@ -1,7 +1,7 @@
 """The moves of a construction: actions of a palette, each of which gives a recorded step.
 
 A move gives the value of one recorded step by an action of the palette from inputs that can be
-pointed at. Whatever else the sheets draw (arrows, contacts, what a number says) comes along as soon
+pointed at. Whatever else the sheets draw (arrows, what a number says) comes along as soon
 as the moves are done that it is drawn from.
 """
 
@@ -13,7 +13,6 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.turned_acceleration import centripetal, driven_tangential
 from graphkin.construction.asked import set_on, set_on_twice
 from graphkin.construction.centres.acceleration_poles import AccelerationPole
 from graphkin.construction.centres.centre import Centre, VelocityNormal, velocity_normal
@@ -30,12 +29,12 @@ from graphkin.construction.core.vocabulary import (
     Action,
     along_bar,
     in_proportion,
+    lay_back,
     lay_off,
     meet,
     similar_point,
 )
-from graphkin.construction.coriolis.coriolis import CoriolisComponent, lay_back, lay_off_turned
-from graphkin.construction.drivers.driven_slide import DrivenSlide, driven_slide
+from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
 from graphkin.construction.guides.guide_line import GuideLine, GuideThroughBlock, ShiftedGuide
 from graphkin.construction.guides.set_by_coordinate import set_at
@@ -43,15 +42,13 @@ from graphkin.construction.higher_class.divided_point import DividedPoint, betwe
 from graphkin.construction.links.compass_arc import compass
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet
-from graphkin.construction.normal_component.klein import KleinComponent
-from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.registry import ON_PALETTE
 from graphkin.construction.velocity.about_pivot import AboutPivot
 from graphkin.construction.velocity.along_guide import AlongGuide
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate
 from graphkin.construction.velocity.parallel_through import parallel_to
 from graphkin.construction.velocity.perpendicular_through import square_to
 from graphkin.construction.velocity.translated_image import alike
-from graphkin.construction.velocity.turned_velocity import turned_velocity
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
@@ -69,9 +66,7 @@ PALETTE: Mapping[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
     "mark_off": (("on", ("guide",)), ("length", ("length",))),
     "similar": (("image", ("image",)), ("and", ("image",)), ("point", ("point",))),
     "coincide": (("point", ("point",)), ("image", ("image",))),
-    "triangle": (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",))),
-    "klein": (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",))),
-    "coriolis": (("rate", ("rate",)), ("velocity", ("arrow",))),
+    **{action.key: action.slots for action in ON_PALETTE},
     "join": (("point", FOUND), ("and", FOUND)),
     "divide": (("image", ("image",)), ("and", ("image",))),
     "pole": (("on", ("bar",)), ("image", ("image",)), ("and", ("image",))),
@@ -81,16 +76,8 @@ PALETTE: Mapping[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
 
 PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
 """The drawings by the numbers under which the page knows them."""
-LAID_OFF: tuple[Action, ...] = (
-    lay_off,
-    lay_off_turned,
-    lay_back,
-    turned_velocity,
-    centripetal,
-    driven_tangential,
-    driven_slide,
-)
-"""What lays off a known vector from a point of a plan."""
+LAID_OFF: tuple[Action, ...] = (lay_off, lay_back)
+"""What lays off a component of an acceleration from a point of a plan."""
 CROSSED: tuple[Action, ...] = (meet, arcs_meet, arc_cuts_line, kennedy_meet)
 """What finds a point where two lines or arcs cut."""
 JOINED: tuple[Action, ...] = (line_through, kennedy_line)
@@ -324,7 +311,8 @@ class MoveFinder:
             return self.all_of("compass", pick(args[0]), self.length(number, args[1]))
         if action in MEASURED:
             return self.all_of("mark_off", pick(args[0]), self.length(number, args[1]))
-        if action in LAID_OFF and in_plan:
+        by_rate = isinstance(construction(step), LaidOffByRate) and not step.arrow
+        if in_plan and (action in LAID_OFF or by_rate):
             return self.all_of("lay_off", pick(args[0]), self.vector(number, step))
         if action is similar_point and in_plan and number in self.places:
             point = pick(self.places[number][0])
@@ -343,17 +331,9 @@ class MoveFinder:
 
     def way_of_component(self, kind: Component, number: int) -> Way | None:
         """The triangle that gives a component, where one is drawn."""
-        if not kind.is_drawn(self.drawing(number)):
+        if kind.palette is None or not kind.is_drawn(self.drawing(number)):
             return None
-        if isinstance(kind, NormalComponent):
-            action = "klein" if isinstance(kind, KleinComponent) else "triangle"
-            bar = self.bar(kind.pivot, kind.pin)
-            arrow = self.arrow(kind.pivot_image, kind.pin_image)
-            return self.all_of(action, self.point_or_line(kind.pin), bar, arrow)
-        if isinstance(kind, CoriolisComponent):
-            arrow = self.arrow(kind.tail, kind.tip, symbol(f"v_{kind.index}"))
-            return self.all_of("coriolis", self.rate(kind.omega), arrow)
-        return None
+        return self.all_of(kind.palette.key, *kind.picked_from(self))
 
     def all_of(self, action: str, *inputs: str | None) -> Way | None:
         """An action with its inputs; None where one of them cannot be picked."""
@@ -496,11 +476,12 @@ class MoveFinder:
             return None
         likewise = (step.action, tuple(others), step.extra)
         key, on = f"v{self.rates.setdefault(likewise, number)}", tuple(others[:2])
-        if step.action in (lay_off, lay_off_turned, lay_back):
+        if step.action in LAID_OFF:
             key, value = f"v{others[0]}", self.values[others[0]]
             component = construction(self.steps[others[0]])
             name = component.symbol if isinstance(component, Component) else ""
-            on = self.ends_of_triangle(component)
+            ends = component.shown_between() if isinstance(component, Component) else ()
+            on = tuple(end for end in ends if end in self.values and end is not None)
         elif isinstance(kind, LaidOffByRate):
             name = kind.fields(drawing, step.role)["vector"]
             on = () if isinstance(kind, DrivenSlide) else on
@@ -511,17 +492,6 @@ class MoveFinder:
         pick = Pick("vector", name, step.plane, self.needs(others), value, on)
         self.picks.setdefault(key, pick)
         return key
-
-    def ends_of_triangle(self, kind: Construction | None) -> tuple[int, ...]:
-        """The points between which a triangle on the mechanism shows its component."""
-        ends: tuple[int | None, ...] = ()
-        if isinstance(kind, KleinComponent):
-            ends = (kind.pin, kind.cut) if hasattr(kind, "cut") else ()
-        elif isinstance(kind, NormalComponent):
-            ends = (kind.pin, getattr(kind, "end", None))
-        elif isinstance(kind, CoriolisComponent):
-            ends = (kind.foot, kind.top)
-        return tuple(end for end in ends if end in self.values and end is not None)
 
     def rate(self, number: int) -> str | None:
         """The angular velocity of a link."""
@@ -549,7 +519,8 @@ class MoveFinder:
                 self.bar(p, q)
         for tail, tip in self.arrows:
             self.arrow(tail, tip)
-        if any(move.action == "coriolis" for move in self.moves.values()):
+        slots = (slot for move in self.moves.values() for slot in PALETTE[move.action])
+        if any("rate" in kinds for _, kinds in slots):
             for (quantity, _), number in targets.items():
                 if quantity == OMEGA and number in self.values:
                     self.rate(number)

@@ -16,7 +16,6 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.rolling.contact_points import PointOfContact
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
@@ -24,7 +23,7 @@ from graphkin.documents.sentences import TURNING
 from graphkin.documents.step_numbers import behind, stage_of, stages
 from graphkin.documents.step_visibility import accompanied, letters_of, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
-from graphkin.drawing.style import AUXILIARY, VECTORS
+from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.label_names import as_labelled, labels_of
 from graphkin.web.page_sentences import AND, MOST, parted_sentences
@@ -45,7 +44,6 @@ GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 SAME = 1e-6
 """Millimetres between places that are one."""
-DRAWN = {*VECTORS, *AUXILIARY, "construction", "ray", "compass", "centre", "inflection"}
 """The classes of what one draws by a stroke: lines, arcs and vectors of the construction."""
 DETAIL = "detail"
 """The name of the small circle about what is enlarged beside it."""
@@ -112,13 +110,16 @@ class PageProtocol(Struct, frozen=True):
     def stops(self) -> Iterator[tuple[int, int, Part]]:
         """The first and last sentence of each part of the work, in the order of their ends.
 
-        A part begins where on its sheet the one before it ends.
+        A part begins where on its sheet the one before it ends; what is said after the last one
+        belongs to that.
         """
         ends = [(number, said) for number, said in enumerate(self.said, 1) if said.ends]
-        for last, said in ends:
-            before = [number for number, one in ends if one.sheet == said.sheet and number < last]
-            first = max(before, default=self.bounds(said.sheet)[0] - 1) + 1
-            yield from ((first, last, part) for part in said.ends)
+        for number, said in ends:
+            first, last = self.bounds(said.sheet)
+            others = [other for other, one in ends if one.sheet == said.sheet]
+            first = max((other for other in others if other < number), default=first - 1) + 1
+            end = last if number == others[-1] else number
+            yield from ((first, end, part) for part in said.ends)
 
 
 def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
@@ -358,7 +359,7 @@ def timed_marks(
     sheet: ScreenSheet, own: Sequence[Sentence], staged: dict[int, int]
 ) -> tuple[Timed, ...]:
     """The marks of a sheet with those of its own sentences, from 1, that draw them."""
-    found, touched = [], dict(contacts(sheet))
+    found, touched = [], dict(marked_beside(sheet))
     ground = ground_of(sheet.drawing, sheet.layout.mechanism)
     for mark, beside in accompanied((*sheet.left, *sheet.right)):
         step = touched.get(mark)
@@ -371,15 +372,16 @@ def timed_marks(
     return tuple(found)
 
 
-def contacts(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
-    """The marks of the contacts of wheels and their letters, each with the step that finds it."""
+def marked_beside(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
+    """Marks that show a point with the mechanism, and its letter, with the step that finds it."""
     steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
     for number, at in sheet.drawing.trace.values.items():
-        if not isinstance(construction(steps[number]), PointOfContact):
+        kind = construction(steps[number])
+        if kind is None or not kind.marked_as:
             continue
         place = complex(*field(at))
         for mark in sheet.left:
-            if isinstance(mark, CircleMark) and mark.cls == "contact":
+            if isinstance(mark, CircleMark) and mark.cls == kind.marked_as:
                 if abs(complex(mark.cx, mark.cy) - place) < SAME:
                     yield mark, number
             elif isinstance(mark, Text) and mark.step is None and mark.name == steps[number].name:

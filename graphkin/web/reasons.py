@@ -114,7 +114,7 @@ def is_nothing(drawing: Drawing, number: int) -> bool:
 
 
 def alike(step: Step, names: Iterable[str]) -> Iterator[str]:
-    """The names with the letter and the index of a step: those of its right triangle."""
+    """The names with the letter and the index of a step: the other corners of its figure."""
     letter, _, index = step.name.partition("_")
     for name in names:
         base, _, own = name.partition("_")

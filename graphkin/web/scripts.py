@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import re
 from functools import lru_cache
 
+from graphkin.construction.registry import ON_PALETTE
+from graphkin.drawing.style import DRAWN
 from graphkin.web.offline_page import part
 
 STEP_PAGE = (
@@ -46,6 +49,12 @@ MOVING = ("closing.js", "moving.js")
 """What lays out the marks that follow the driver."""
 FORM = ("form.js",)
 """The script of a form for answers."""
+WRITTEN_IN = {
+    "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
+    "$COMPONENT_ACTIONS": json.dumps([each.key for each in ON_PALETTE]),
+    "...$COMPONENT_FUNCTIONS,": "\n".join(f"{each.key}: {each.script}," for each in ON_PALETTE),
+}
+"""What files leave to the kinds of lines and of components."""
 REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
 """A remark at the end of a line, in which no text can stand."""
 REMARKS = ("//", "/**")
@@ -61,4 +70,7 @@ def together(names: tuple[str, ...]) -> str:
 def joined(names: tuple[str, ...]) -> str:
     """Some files one after the other, without remarks."""
     lines = (REMARK.sub("", line.strip()) for name in names for line in part(name).splitlines())
-    return "\n".join(line for line in lines if line and not line.startswith(REMARKS))
+    script = "\n".join(line for line in lines if line and not line.startswith(REMARKS))
+    for place, what in WRITTEN_IN.items():
+        script = script.replace(place, what)
+    return script

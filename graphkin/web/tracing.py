@@ -10,7 +10,6 @@ from typing import Any
 from msgspec import Struct, field
 
 from graphkin.construction.core.batch import made_ready, run_moving
-from graphkin.construction.core.parameter_words import within
 from graphkin.construction.core.run import Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.links.counted_turn import counted_link
@@ -22,6 +21,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.pieces import followed, through
 from graphkin.motion.sweep import sweep_of
 from graphkin.motion.turns_counted import Turned, name_of
+from graphkin.scene.model import quantities_within
 from graphkin.web.branch_tracking import TrackedBranch, around
 from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
 from graphkin.web.traced_closings import (
@@ -175,7 +175,7 @@ class Tracing(Struct, frozen=True, dict=True):
         scene = self.mechanism.scene
         changed = {each.parameter for each in self.driven.figures}
         for link in scene.links.values():
-            if any(changed & quantity.uses() for quantity in within(link.placings)):
+            if any(changed & quantity.uses() for quantity in quantities_within(link.placings)):
                 continue  # its bars are as long as the figures say
             kept = (name for name in link.points if name not in scene.cam_centres)
             points = [places[name] for name in kept if name in places]

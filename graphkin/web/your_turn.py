@@ -7,6 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.registry import ON_PALETTE
 from graphkin.drawing.field import Field
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text import Words
@@ -97,11 +98,8 @@ def record(
 
 
 def reasons(action: str, words: Words) -> Iterator[str]:
-    """The sentences that tell why an input of an action is wrong; inputs that are alike have one.
-
-    Klein's construction finds what the right triangle does, from the same.
-    """
-    own = "triangle" if action == "klein" else action
+    """Why an input of an action is wrong, in sentences; inputs that are alike have one."""
+    own = next((each.said_as for each in ON_PALETTE if each.key == action), "") or action
     keys = (f"turn.say.{own}_{place}" for place in range(len(PALETTE[action])))
     yield from (key for key in keys if words.has(key))
 

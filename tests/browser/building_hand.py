@@ -10,9 +10,7 @@ import pytest
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
-
-LONG = 60_000
-"""Milliseconds after which nothing more is waited for."""
+from tests.browser.opening import LONG
 
 
 class Hand:

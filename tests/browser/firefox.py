@@ -114,7 +114,7 @@ def firefox() -> Iterator[Firefox]:
             pytest.skip("marionette-driver is not installed: pip install '.[dev]'")
         client = Marionette(bin=path, headless=True, port=free_port(), prefs=PLAIN, gecko_log="-")
         client.start_session()
-    client.timeout.script = 60
+    client.timeout.script = 300
     yield Firefox(client)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

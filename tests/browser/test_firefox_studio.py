@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from time import sleep
-from typing import Any
 
 import pytest
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.server import Served, serve
-from tests.browser.building_hand import Hand, build_pump, build_slotted_lever, four_bar
+from graphkin.studio.server import Served
+from tests.browser.building_hand import LONG, Hand, build_pump, build_slotted_lever, four_bar
 from tests.browser.firefox import Firefox, _no_errors, firefox  # noqa: F401
-from tests.studio.pump import desk_in, running
 
 FIELD = """const svg = document.querySelector("#canvas svg"), box = svg.getBoundingClientRect();
 return [box.x, box.y, box.width, box.height, svg.getAttribute("viewBox")];"""
@@ -77,20 +74,11 @@ class FirefoxHand(Hand):
 
 
 @pytest.fixture
-def served(tmp_path: Any) -> Iterator[Served]:
-    """A studio in an empty folder, in English."""
-    session = desk_in(tmp_path)
-    session.language = "en"
-    with running(serve(session)) as found:
-        yield found
-
-
-@pytest.fixture
 def hand(firefox: Firefox, served: Served) -> Hand:  # noqa: F811
     """A hand at an empty field."""
     firefox.open_address(f"{served.address}?empty=yes", (1440, 900))
     found = FirefoxHand(firefox)
-    for _ in range(500):
+    for _ in range(LONG // 20):
         if found.is_settled and found.window.run(FIELD)[4]:
             return found
         found.wait()

@@ -12,15 +12,13 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.scene import scene_files
-from graphkin.studio.server import Served, serve
-from tests.browser.opening import barred
-from tests.studio.pump import PUMP, desk_in, running
+from graphkin.studio.server import Served
+from tests.browser.opening import LONG, barred, watched
+from tests.studio.pump import PUMP
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}}
 PHONE = {"viewport": {"width": 390, "height": 844}}
 Studio = Callable[..., Any]
-LONG = 120_000
-"""Milliseconds after which nothing more is waited for, on however slow a machine."""
 
 
 @pytest.fixture
@@ -31,40 +29,23 @@ def place(tmp_path) -> Path:
 
 
 @pytest.fixture
-def served(place) -> Iterator[Served]:
-    """A studio that runs there, in English."""
-    session = desk_in(place)
-    session.language = "en"
-    with running(serve(session)) as found:
-        yield found
-
-
-@pytest.fixture
-def studio(chromium: Any, served: Served) -> Iterator[Studio]:
+def studio(chromium: Any, place: Path, served: Served) -> Iterator[Studio]:
     """Open the page: studio("?lab=pump", color_scheme="dark"); fails on any error it tells."""
-    contexts, wrong = [], []
-    own = f"http://127.0.0.1:{served.port}/"
+    own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
+    with watched(chromium, own, ("error", "warning")) as new_page:
 
-    def opened(query: str = "?scene=mine.toml", **options: Any) -> Any:
-        context = chromium.new_context(**{**DESKTOP, **options})
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda m: wrong.append(m.text) if m.type in ("error", "warning") else 0)
-        page.on("pageerror", lambda error: wrong.append(str(error)))
-        page.on("request", lambda r: None if r.url.startswith(own) else wrong.append(r.url))
-        page.goto(served.address + query)
-        at_rest(page)
-        return page
+        def opened(query: str = "?scene=mine.toml", **options: Any) -> Any:
+            page = new_page(**{**DESKTOP, **options})
+            page.goto(served.address + query)
+            at_rest(page)
+            return page
 
-    yield opened
-    for context in contexts:
-        context.close()
-    assert not wrong
+        yield opened
 
 
 def at_rest(page: Any) -> None:
     """Wait until everything is drawn."""
-    page.wait_for_selector("body[data-settled=true] #velocity .drawing svg", timeout=LONG)
+    page.wait_for_selector("body[data-settled=true] #velocity .drawing svg")
 
 
 def until(page: Any, holds: str) -> None:
@@ -78,7 +59,7 @@ def until(page: Any, holds: str) -> None:
 
 def opened_as(page: Any, name: str) -> None:
     """Wait until the page of a scene has come in place of another, and everything is drawn."""
-    page.wait_for_selector(f"#file[value='{name}']", timeout=LONG)
+    page.wait_for_selector(f"#file[value='{name}']")
     at_rest(page)
 
 
@@ -171,7 +152,7 @@ def test_the_drawn_vector_is_as_long_as_the_number_says(studio):
 @pytest.mark.parametrize("name", ["mechanism", "velocity", "acceleration"])
 def test_a_drawing_is_saved_as_a_file_that_looks_the_same_alone(studio, tmp_path, name):
     page = studio()
-    with page.expect_download(timeout=LONG) as taken:
+    with page.expect_download() as taken:
         page.click(f"#{name} .take")
     assert taken.value.suggested_filename == f"{name}.svg"
     file = tmp_path / f"{name}.svg"
@@ -453,22 +434,21 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     page.click("#move")
     moving = page.frame_locator("#moving")
     dead = moving.locator("#notable button").first
-    dead.click(timeout=LONG)
+    dead.click()
     assert dead.get_attribute("title").startswith("−32.6°: dead point")
     low = moving.locator("#told").inner_text()
     moving.locator("#play").click()
-    page.wait_for_timeout(300)
+    moving.locator("#told").filter(has_not_text=re.compile(f"^{re.escape(low)}$")).wait_for()
     moving.locator("#play").click()
-    assert moving.locator("#told").inner_text() != low
     page.fill("#text", page.input_value("#text").replace('"Pump mechanism"', '"Pump of mine"'))
-    moving.locator("h1", has_text="Pump of mine").wait_for(timeout=LONG)
+    moving.locator("h1", has_text="Pump of mine").wait_for()
     assert not page.is_visible("#motion-driver")
     five_bar = scene_files.examples()["five-bar"].read_text("utf-8")
     page.fill("#text", five_bar)
-    page.select_option("#motion-driver", label="turn = 4", timeout=LONG)
-    moving.locator("#at[max='360']").wait_for(timeout=LONG)
+    page.select_option("#motion-driver", label="turn = 4")
+    moving.locator("#at[max='360']").wait_for()
     page.check("#motion-kind [value=steps]")
-    moving.locator("#turn").wait_for(timeout=LONG)
+    moving.locator("#turn").wait_for()
     assert not page.is_visible("#motion-driver")
     page.click("#move")
     assert page.locator("#mechanism").is_visible()
@@ -495,7 +475,7 @@ def test_what_is_written_is_completed_and_mended(studio):
     assert page.input_value("#text").endswith('slides = { on = 0, through = "O2')
     page.fill("#text", before.replace("omega =", "omga =").replace("O1-A = 30", "O1-A = 30 cm"))
     for _ in range(2):
-        page.locator(".mend").first.click(timeout=LONG)
+        page.locator(".mend").first.click()
         page.wait_for_selector("body[data-settled=true]")
     assert page.input_value("#text") == before
     assert page.inner_text("#count") == "No mistakes."
@@ -511,7 +491,7 @@ def test_a_scene_that_is_gone_from_the_disk_can_be_saved_anew(studio, place):
     text = page.input_value("#text")
     (place / "mine.toml").unlink()
     page.fill("#text", f"{text}# more\n")
-    page.locator("#status.poor", has_text="is not on the disk any more").wait_for(timeout=LONG)
+    page.locator("#status.poor", has_text="is not on the disk any more").wait_for()
     page.click("#save")
-    page.locator("#status", has_text="Saved: mine.toml").wait_for(timeout=LONG)
+    page.locator("#status", has_text="Saved: mine.toml").wait_for()
     assert (place / "mine.toml").read_text(encoding="utf-8") == f"{text}# more\n"

@@ -11,41 +11,26 @@ from PIL import Image, ImageDraw
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.server import Served, serve
+from graphkin.studio.server import Served
 from tests.browser.building_hand import (
-    LONG,
     Hand,
     build_offset_slider_crank,
     build_pump,
     build_slotted_lever,
     four_bar,
 )
-from tests.browser.opening import barred
-from tests.studio.pump import desk_in, running
-
-
-@pytest.fixture
-def served(tmp_path) -> Iterator[Served]:
-    """A studio in an empty folder, in English."""
-    session = desk_in(tmp_path)
-    session.language = "en"
-    with running(serve(session)) as found:
-        yield found
+from tests.browser.opening import barred, watched
 
 
 @pytest.fixture
 def hand(chromium: Any, served: Served) -> Iterator[Hand]:
     """A hand at an empty field; fails on any error that the page tells."""
-    context = chromium.new_context(viewport={"width": 1440, "height": 900})
-    page = context.new_page()
-    wrong: list[str] = []
-    page.on("console", lambda m: wrong.append(m.text) if m.type in ("error", "warning") else 0)
-    page.on("pageerror", lambda error: wrong.append(str(error)))
-    page.goto(f"{served.address}?empty=yes")
-    page.wait_for_selector("#canvas svg[viewBox]")
-    yield Hand(page)
-    context.close()
-    assert not wrong
+    own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
+    with watched(chromium, own, ("error", "warning")) as new_page:
+        page = new_page(viewport={"width": 1440, "height": 900})
+        page.goto(f"{served.address}?empty=yes")
+        page.wait_for_selector("#canvas svg[viewBox]")
+        yield Hand(page)
 
 
 def test_the_pump_is_built_from_an_empty_field(hand):
@@ -181,10 +166,10 @@ def test_what_is_impossible_is_told_at_the_pointer(hand):
 def test_comments_and_order_of_an_opened_scene_are_kept(hand, served):
     page = hand.page
     page.goto(f"{served.address}?lab=pump")
-    page.wait_for_selector("body[data-settled=true] #velocity .drawing svg", timeout=LONG)
+    page.wait_for_selector("body[data-settled=true] #velocity .drawing svg")
     before = hand.text
     page.click("#build")
-    page.wait_for_selector("body[data-settled=true] #canvas [data-point='O2']", timeout=LONG)
+    page.wait_for_selector("body[data-settled=true] #canvas [data-point='O2']")
     hand.settled(lambda: hand.drag("move", hand.place("O2"), hand.place("O2") + 4j))
     after = hand.text
     pairs = list(zip(before.split("\n"), after.split("\n"), strict=True))
@@ -201,7 +186,7 @@ def test_one_starts_from_a_gallery_with_a_picture_of_each(hand, served, tmp_path
     page.wait_for_selector("#opening[open]")
     for lab in ("pump", "slotted-lever", "offset-slider-crank", "pump-collinear"):
         picture = page.locator(f"#labs [data-name='{lab}'] svg")
-        picture.scroll_into_view_if_needed(timeout=LONG)
+        picture.scroll_into_view_if_needed()
         links = set(load(lab).scene.links)
         bars = picture.locator("polygon[data-link]")
         assert {bar.get_attribute("data-link") for bar in bars.all()} <= links
@@ -209,8 +194,8 @@ def test_one_starts_from_a_gallery_with_a_picture_of_each(hand, served, tmp_path
     assert page.locator("[data-name='broken.toml'] svg").count() == 0
     assert not barred(page)
     gears = page.locator("#examples [data-name='gears-ring']")
-    gears.scroll_into_view_if_needed(timeout=LONG)
-    gears.locator("svg circle.wheel").first.wait_for(timeout=LONG)
+    gears.scroll_into_view_if_needed()
+    gears.locator("svg circle.wheel").first.wait_for()
     assert gears.locator("svg circle.wheel").count() == 3
     page.click("#labs [data-name='slotted-lever']")
     page.wait_for_selector("#file[value='slotted-lever.toml']")

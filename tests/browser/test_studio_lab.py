@@ -9,43 +9,26 @@ from typing import Any
 import pytest
 
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.studio.server import Served, serve
-from tests.browser.opening import barred
-from tests.studio.pump import desk_in, running
-
-LONG = 60_000
-"""Milliseconds after which nothing more is waited for."""
-
-
-@pytest.fixture
-def served(tmp_path) -> Iterator[Served]:
-    """A studio in an empty folder, in English."""
-    session = desk_in(tmp_path)
-    session.language = "en"
-    with running(serve(session)) as found:
-        yield found
+from graphkin.studio.server import Served
+from tests.browser.opening import barred, watched
 
 
 @pytest.fixture
 def page(chromium: Any, served: Served) -> Iterator[Any]:
     """The pump's class; fails on any error that the page tells."""
-    context = chromium.new_context(viewport={"width": 1440, "height": 900})
-    page = context.new_page()
-    wrong: list[str] = []
-    page.on("console", lambda m: wrong.append(m.text) if m.type in ("error", "warning") else 0)
-    page.on("pageerror", lambda error: wrong.append(str(error)))
-    page.goto(f"{served.address}?lab=pump&rules=yes")
-    fairness(page, 29)
-    page.click("#lab")
-    yield page
-    context.close()
-    assert not wrong
+    own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
+    with watched(chromium, own, ("error", "warning")) as new_page:
+        page = new_page(viewport={"width": 1440, "height": 900})
+        page.goto(f"{served.address}?lab=pump&rules=yes")
+        fairness(page, 29)
+        page.click("#lab")
+        yield page
 
 
 def fairness(page: Any, fair: int, count: int = 30) -> None:
     """Wait until so many of the variants are told to be fair."""
     words = f"{fair} of {count} variants are fair."
-    page.locator("#fairness", has_text=re.compile(f"^{words}$")).wait_for(timeout=LONG)
+    page.locator("#fairness", has_text=re.compile(f"^{words}$")).wait_for()
 
 
 def test_a_formula_is_mended_and_the_lab_saved(page, tmp_path):
@@ -57,7 +40,7 @@ def test_a_formula_is_mended_and_the_lab_saved(page, tmp_path):
     page.keyboard.press("Control+z")
     fairness(page, 29)
     page.click("#find-ranges")
-    page.locator("#advice button").first.click(timeout=LONG)
+    page.locator("#advice button").first.click()
     assert page.input_value("#text") == scene.replace("B-C = 25", "B-C = 25.2")
     fairness(page, 30)
     assert page.input_value("#file") == "pump/scene.toml"
@@ -76,7 +59,7 @@ def test_students_are_looked_at(page):
     assert page.inner_text("#pointed") == "1’s right values earn 80 % on the sheet of 2"
     assert page.inner_text("#closest") == "Closest: 1’s right values earn 80 % on the sheet of 2."
     page.click("#students tbody tr:nth-child(5) button")
-    page.wait_for_selector("#student-pages img", timeout=LONG)
+    page.wait_for_selector("#student-pages img")
     assert page.inner_text("#student") == "Student 5: n = 5"
     pages = page.locator("#student-pages img")
     assert pages.count() == 2
@@ -89,14 +72,14 @@ def test_a_lab_is_begun_beside_any_scene(page, served):
     page.goto(f"{served.address}?empty=yes")
     page.click("#lab")
     told = page.locator("#fairness.wrong", has_text="expected")
-    told.wait_for(timeout=LONG)
+    told.wait_for()
     page.goto(f"{served.address}")
     page.wait_for_selector("body[data-settled=true]")
     page.click("#lab")
-    page.locator("#fairness", has_text="of 1000 variants are fair").wait_for(timeout=LONG)
+    page.locator("#fairness", has_text="of 1000 variants are fair").wait_for()
     assert "[variants.draw]" in page.input_value("#rules")
     assert page.input_value("#file") == "new/scene.toml"
     assert page.inner_text("#rules-count") == "No mistakes."
     page.fill("#rules", page.input_value("#rules").replace("segment = 5", "segment = -5"))
-    page.locator("#rules-part .gutter .wrong").wait_for(timeout=LONG)
+    page.locator("#rules-part .gutter .wrong").wait_for()
     assert page.inner_text("#rules-part .under mark") == "segment = -5"

@@ -93,7 +93,7 @@ def not_drawn(mechanism):
 def asking(mechanism, names):
     """The same mechanism, asked for the motion of other points."""
     points = tuple(names)
-    ask = mechanism.scene.ask._replace(velocity=points, acceleration=points)
+    ask = replace(mechanism.scene.ask, velocity=points, acceleration=points)
     return Mechanism(replace(mechanism.scene, ask=ask))
 
 

@@ -219,7 +219,7 @@ def test_all_centres_of_the_pump_are_found_by_two_lines_or_at_once():
     """Six links have fifteen centres: six pins, a guide, and eight by Kennedy."""
     scene = shipped("pump", 7).scene
     pairs = tuple("-".join(pair) for pair in combinations(("0", *scene.links), 2))
-    mechanism = Mechanism(replace(scene, ask=scene.ask._replace(pairs=pairs)))
+    mechanism = Mechanism(replace(scene, ask=replace(scene.ask, pairs=pairs)))
     trace = mechanism.trace([("centre", pair) for pair in pairs], by_hand=True)
     keys = Counter(
         step.action.key

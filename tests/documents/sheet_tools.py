@@ -139,8 +139,10 @@ def attempt(
 
 
 def kinds_of(name: str, n: int | None = None) -> tuple[str, ...]:
-    """Which sheets a scene has: some ask for nothing of accelerations."""
-    return tuple(drawing.kind for drawing in drawings(name, n))
+    """Which sheets a scene has, by its text: some ask for nothing of accelerations."""
+    text = "" if n is not None else OTHERS.get(name) or (FOLDER / f"{name}.toml").read_text("utf-8")
+    asked = text.partition("[ask]")[2]
+    return KINDS if not asked or "acceleration = " in asked else KINDS[:1]
 
 
 def drawing_of(name: str, n: int | None, kind: str, language: str = "en") -> Drawing:

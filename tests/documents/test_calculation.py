@@ -7,6 +7,7 @@ from math import pi
 
 import pytest
 
+from graphkin.construction.rate_relations import of_gears
 from graphkin.drawing.marks import Page
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN
@@ -14,6 +15,7 @@ from tests.documents.sheet_tools import (
     OTHERS,
     VARIANTS,
     calculations,
+    drawings,
     named,
     relation_lines,
     texts,
@@ -145,3 +147,13 @@ def test_no_line_breaks_between_a_number_and_its_unit(pages):
         rows = [m.markup for m in texts(form) if m.cls == "caption"]
         assert not [row for row in rows if re.match(r"(?:mm|cm|m|rev/min|rot/min|rad/s)\b", row)]
         assert not [row for row in rows if re.search(r"=$", row)]
+
+
+@pytest.mark.parametrize(
+    ("name", "wheels"), [("gears-pair", "2"), ("gears-planet", "3"), ("gears-ring", "23")]
+)
+def test_each_wheel_that_another_turns_has_willis_relation(name, wheels):
+    """Whether the arm of the two is a link or the frame, and whether the other wheel is fixed."""
+    (drawing, *_) = drawings(name)
+    told = [relation.left for relation in of_gears(drawing)]
+    assert [left for left in told if left.startswith("*ω*")] == [f"*ω*_{{{n}}}" for n in wheels]

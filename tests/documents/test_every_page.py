@@ -17,7 +17,7 @@ from graphkin.documents.sheet_documents import by_itself
 from graphkin.drawing.marks import Page, Text, reach
 from graphkin.scene.scene_files import names
 from graphkin.text import LANGUAGES
-from tests.chosen import CHOSEN, STUDENTS
+from tests.chosen import CHOSEN, EVERY, STUDENTS
 from tests.documents.sheet_tools import (
     VARIANTS,
     Drawn,
@@ -40,8 +40,8 @@ OTHERS = [language for language in LANGUAGES if language != "en"]
 TRANSLATED = [(lab, n, language) for lab, n in VARIANTS for language in OTHERS]
 TRANSLATED += [(name, None, OTHERS[i % len(OTHERS)]) for i, name in enumerate(CHOSEN)]
 TRANSLATED += [(lab, n, "en") for lab in names() if lab not in SHIPPED for n in STUDENTS[:2]]
-VIEWED = [(lab, n) for lab in names() for n in (1, 20)]
-VIEWED += [(name, None) for name in CHOSEN]
+VIEWED = [*((lab, 20) for lab in names()), *((name, None) for name in CHOSEN)][:: 1 if EVERY else 2]
+"""Every other one: tests/golden tells any view of the others that changes."""
 
 
 def faults(page: Page) -> str:

@@ -27,6 +27,7 @@ from tests.documents.sheet_tools import (
     both,
     calculations,
     collisions,
+    drawings,
     drawn,
     is_label,
     is_vector,
@@ -69,6 +70,11 @@ def page(request) -> Drawn:
     if isinstance(made, PageError):
         pytest.skip("another test says that this sheet cannot be made")
     return drawn(*request.param)
+
+
+@pytest.mark.parametrize("which", dict.fromkeys(which[:2] for which in SHEETS), ids=named)
+def test_a_scene_has_the_sheets_of_what_it_asks(which):
+    assert kinds_of(*which) == tuple(drawing.kind for drawing in drawings(*which))
 
 
 @pytest.mark.parametrize("which", SHEETS, ids=named)

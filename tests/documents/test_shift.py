@@ -237,7 +237,7 @@ def test_pins_and_links_follow_the_positions_of_their_points(case):
 
 def test_every_step_of_the_plan_and_of_what_is_asked_on_the_mechanism_is_drawn(any_case):
     drawing, shown = any_case.drawing, any_case.before
-    corners = ("lay-off", "centripetal", "lay-off-coriolis", "lay-back-coriolis")
+    corners = ("lay-off", "centripetal", "lay-back")
     trace = drawing.trace
     for number, step, value in drawing.steps(drawing.plane):
         corner = step.action.key in corners and not step.name

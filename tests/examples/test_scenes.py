@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from msgspec.structs import asdict
 
 from graphkin.construction.core.solution import FAIR
 from graphkin.scene.model import FRAME
@@ -42,7 +43,7 @@ def traits(name: str) -> set[object]:
     program, scene = mechanism(name).program, mechanism(name).scene
     actions = {step.action.key for step in program.steps if step.action}
     drivers = {(driver.kind, driver.against == FRAME) for driver in scene.drivers}
-    return actions | drivers | {key for key, asked in scene.ask._asdict().items() if asked}
+    return actions | drivers | {key for key, asked in asdict(scene.ask).items() if asked}
 
 
 def test_the_pump_and_the_chosen_scenes_have_all_that_any_scene_has() -> None:

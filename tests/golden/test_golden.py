@@ -1,4 +1,4 @@
-"""What the program gives is what is committed: an eighth of it here, all by the command."""
+"""What the program gives is what is committed: a part of it here, all by the command."""
 
 import re
 
@@ -7,21 +7,31 @@ import pytest
 from tests.golden.kept import STORE, changed, differences, kept, read
 from tests.golden.works import CLASSES, outputs, works
 
-PERIOD = 8
+PERIODS = {"html": 24, "sheet small": 3, "check small": 1}
+"""Of how many subjects one is tried with a work that makes a page, and with small scenes."""
+OTHERS = 8
+"""The same of all other works."""
 SLOW = ("scene-rapid-return", "scene-rod-and-wheel", "scene-stephenson-2-binary")
 """Groups of higher class of which a page that moves takes ten seconds."""
 
 
+def kind_of(work: str) -> str:
+    """What kind of work it is: its options, or its command where its scene is a small one."""
+    command, of, _ = work.partition(" of ")
+    return f"{command.partition(' ')[0]} small" if of else work
+
+
 def share() -> list[tuple[str, str]]:
-    """Of every kind of work each eighth subject, from another one on for the next kind."""
-    kinds: dict[str, list[str]] = {}
+    """Of every kind of work each so-many-th subject, from another one on for the next kind."""
+    kinds: dict[str, list[tuple[str, str]]] = {}
     for subject, names in works().items():
         for work in names:
-            kinds.setdefault(work, []).append(subject)
+            kinds.setdefault(kind_of(work), []).append((subject, work))
     found = []
-    for number, (work, subjects) in enumerate(kinds.items()):
-        period = min(PERIOD, len(subjects))
-        found += [(subject, work) for subject in subjects[number % period :: period]]
+    for number, (kind, pairs) in enumerate(kinds.items()):
+        wanted = next((count for part, count in PERIODS.items() if part in kind), OTHERS)
+        period = min(wanted, len(pairs))
+        found += pairs[number % period :: period]
     return [(subject, work) for subject, work in found if subject not in SLOW or "html" not in work]
 
 

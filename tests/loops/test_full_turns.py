@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
+from graphkin.loops.full_turns import counted_freely
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
@@ -48,3 +51,15 @@ def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first(swapped):
 def test_the_witness_counts_a_small_wheel_beyond_half_a_turn():
     found = load(FOLDER / "geared-five-bar-from-its-coupler.toml")
     assert found.witness(found.solve()).agrees
+
+
+def test_an_angle_that_no_linear_equation_ties_is_counted_by_itself():
+    """Two angles two turns ahead, the first of them tied to the rest: that one is left as it is."""
+    rows = np.array([[[1.0, 0.0, 0.5]]])
+    slips = SimpleNamespace(counted={1: (0, 0.0), 2: (0, 0.0)})
+    loops = SimpleNamespace(linear_rows=lambda: rows, turning_count=2, slips=slips)
+    values, turns = np.array([[0.3, -2.0, 1.0]]), 4 * np.pi * np.array([[1, 1, 0]])
+    found = counted_freely(loops, values + turns, np.array([True, True, True]))
+    assert found == pytest.approx(values + turns * [1, 0, 0])
+    kept = counted_freely(loops, values + turns, np.array([True, False, True]))
+    assert (kept == values + turns).all()

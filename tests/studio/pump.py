@@ -19,6 +19,9 @@ from graphkin.studio.session import Session
 
 PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 
+LONG = 600
+"""Seconds after which a studio that has not ended never will, on however slow a machine."""
+
 
 def seen(text: str = PUMP, memory: Memory | None = None, **options: Any) -> dict[str, Any]:
     """What is seen of a text, in English if no other language is named."""
@@ -59,8 +62,8 @@ def running(served: Served) -> Iterator[Served]:
     finally:
         served.server.close()
         served.server.asyncore.close_all(served.server._map, ignore_all=True)
-        served.server.task_dispatcher.shutdown(timeout=60)
-        thread.join(60)
+        served.server.task_dispatcher.shutdown(timeout=LONG)
+        thread.join(LONG)
     assert not thread.is_alive()
     assert not served.server.task_dispatcher.threads
 

@@ -43,7 +43,7 @@ def led(mechanism: Mechanism, number: int, way: float) -> Mechanism:
     place = drivers[number].position
     one = 3.141592653589793 / 180 if place.unit == "rad" else 1
     farther = expression(f"({place.text}) + {way * one!r}", place.unit, place.place)
-    drivers[number] = drivers[number]._replace(position=farther)
+    drivers[number] = replace(drivers[number], position=farther)
     return Mechanism(replace(scene, drivers=tuple(drivers)))
 
 

@@ -26,6 +26,7 @@ from graphkin.motion.sweep import sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
 from graphkin.text import words
+from graphkin.web.branch_tracking import halved_between
 from graphkin.web.moving import Moving, moving, still
 from graphkin.web.page_driver import driven_by, window
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
@@ -58,7 +59,7 @@ def named(name: str) -> Mechanism:
     if name.endswith(CENTRES):
         scene = named(name.removesuffix(CENTRES)).scene
         pairs = tuple("-".join(pair) for pair in combinations((FRAME, *scene.links), 2))
-        return Mechanism(replace(scene, ask=scene.ask._replace(pairs=pairs)))
+        return Mechanism(replace(scene, ask=replace(scene.ask, pairs=pairs)))
     return load(name) if name in LABS else mechanism_named(name)
 
 
@@ -262,6 +263,12 @@ def test_a_group_of_class_iii_goes_as_far_as_its_cycle(name):
     reach = page_of(name)[1].reach
     assert isclose(reach.low, path.ranges[0][0].low.at, abs_tol=1e-4)
     assert isclose(reach.high, path.ranges[0][-1].high.at, abs_tol=1e-4)
+
+
+def test_a_misfit_is_halved_to_where_it_vanishes():
+    """However small it is, and whatever stands beside it."""
+    found = halved_between(lambda x: (1e-3 * (x * x - 2), 5.0), 0.0, 2.0)
+    assert found == pytest.approx(2**0.5, abs=1e-12)
 
 
 def test_what_only_has_a_place_stands_still():

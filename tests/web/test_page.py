@@ -265,6 +265,16 @@ def test_each_field_has_its_bar(make, language):
 
 
 @pytest.mark.parametrize("name", FEW)
+def test_every_sentence_belongs_to_a_part_of_its_sheet(name):
+    """Parts follow one another, and the last one goes to the end of its sheet."""
+    told = told_of(name)
+    places = sorted({(first, last) for first, last, _ in told.stops()})
+    firsts, lasts = zip(*places, strict=True)
+    assert firsts == (1, *(last + 1 for last in lasts[:-1]))
+    assert {told.bounds(place)[1] for place in range(len(sheets_of(name)))} <= {*lasts}
+
+
+@pytest.mark.parametrize("name", FEW)
 def test_reasons_name_what_stands_in_their_sentence(name):
     for said in told_of(name).said:
         for why in said.why:
@@ -387,14 +397,15 @@ def hashes(texts: list[str]) -> set[str]:
     return {f"'sha256-{b64encode(sha256(t.encode()).digest()).decode()}'" for t in texts}
 
 
-def pages() -> list[str]:
-    """Pages of every sort."""
-    nasty = Mechanism(read_text(NASTY, "nasty", None, {}))
-    return [page_of("pump"), task_page(load("pump")), step_page(nasty), task_page(nasty)]
+def nasty() -> Mechanism:
+    """A mechanism whose names are taken for markup where they can be."""
+    return Mechanism(read_text(NASTY, "nasty", None, {}))
 
 
-@pytest.mark.parametrize("page", pages(), ids=["key", "task", "nasty", "nasty task"])
-def test_nothing_runs_but_what_the_policy_names(page):
+@pytest.mark.parametrize("of", [lambda: load("pump"), nasty], ids=["pump", "nasty"])
+@pytest.mark.parametrize("make", [step_page, task_page])
+def test_nothing_runs_but_what_the_policy_names(make, of):
+    page = make(of())
     (policy,) = re.findall(r'Content-Security-Policy" content="([^"]+)"', page)
     rules = dict(part.strip().split(" ", 1) for part in policy.split(";"))
     assert rules["default-src"] == "'none'"
@@ -411,7 +422,7 @@ def test_nothing_runs_but_what_the_policy_names(page):
 
 @pytest.mark.parametrize("make", [step_page, task_page])
 def test_names_and_notes_are_only_text(make):
-    page = make(Mechanism(read_text(NASTY, "nasty", None, {})))
+    page = make(nasty())
     assert "alert(1)" in seen(page)
     assert "<script>alert" not in page
     assert page.count("</title>") == 1

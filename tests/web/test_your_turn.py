@@ -12,17 +12,17 @@ from graphkin.construction.core.program import Plane
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
-from graphkin.web.offline_page import part
 from graphkin.web.palette_moves import PALETTE, MoveFinder, YourTurn, your_turn
 from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
+from graphkin.web.scripts import joined
 from graphkin.web.your_turn import palette, record
 from tests.browser.opening import chromium  # noqa: F401
-from tests.chosen import SCENES
+from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
-ALL = (*LABS, *SCENES)
+ALL = (*LABS, *CHOSEN)
 PLANS = (Plane.VELOCITIES, Plane.ACCELERATIONS)
 NEAR = 1e-9
 RESULTS = """([source, record]) => {
@@ -98,7 +98,7 @@ def test_every_step_of_a_plan_is_a_move(name):
 def test_the_page_computes_what_the_trace_holds(page, name):
     """One result of each move's action is the value of its step."""
     sheets, _, turn = turn_of(name)
-    found = page.evaluate(RESULTS, [part("palette.js"), record(sheets, turn)])
+    found = page.evaluate(RESULTS, [joined(("palette.js",)), record(sheets, turn)])
     assert turn.moves
     for step in turn.moves:
         near = [apart(value, turn.values[step]) for value in found[str(step)]]

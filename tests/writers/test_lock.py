@@ -18,12 +18,12 @@ from graphkin.writers.lock import HOLDER, LOCK, locked
 
 ROOT = Path(__file__).resolve().parents[2]
 HOLD = """
-import sys, time
+import sys
 from pathlib import Path
 from graphkin.writers.lock import locked
 with locked(Path(sys.argv[1])):
     print("held", flush=True)
-    time.sleep(60)
+    sys.stdin.read()
 """
 
 
@@ -32,7 +32,8 @@ def holder(tmp_path):
     """Another process that holds the folder."""
     surroundings = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-c", HOLD, str(tmp_path)]
-    with subprocess.Popen(command, env=surroundings, stdout=subprocess.PIPE) as process:
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, env=surroundings, stdin=pipe, stdout=pipe) as process:
         assert process.stdout is not None
         assert process.stdout.readline().strip() == b"held"
         yield process

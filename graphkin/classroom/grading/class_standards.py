@@ -7,7 +7,7 @@ with a pencil are made for as many variants at once as go into a block, an axis 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -25,9 +25,8 @@ from graphkin.documents.scaling import scales, the_crank
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.scene.findings import Findings
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Scene, quantities_within
 from graphkin.scene.parameters import set_values
-from graphkin.scene.quantity import Quantity
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Group, Tie
 
@@ -120,27 +119,15 @@ def values_of(scene: Scene, settings: Settings) -> dict[str, Any]:
 def by_driving(mechanism: Mechanism, names: set[str]) -> bool:
     """Whether parameters only say how a mechanism of pins and guides is driven.
 
-    No step is then chosen by them: an idle link fits or not, and relative centres and inflection
-    poles are found in ways that hang on the position.
+    No step is then chosen by them: an idle link fits or not, and some of what may be asked is found
+    in ways that depend on the position.
     """
     scene = mechanism.scene
-    chosen = scene.ask.pairs or scene.ask.inflection
     idle = any(isinstance(group, Tie) for group in mechanism.groups)
-    if chosen or idle or not by_arrays(mechanism):
+    if scene.ask.chosen_by_place or idle or not by_arrays(mechanism):
         return False
-    return not names.intersection(used((scene.frame, *scene.links.values())))
-
-
-def used(part: object) -> Iterator[str]:
-    """The parameters that occur in a part of a scene."""
-    if isinstance(part, Quantity):
-        yield from part.uses()
-    elif isinstance(part, Mapping):
-        for value in part.values():
-            yield from used(value)
-    elif isinstance(part, tuple):
-        for value in part:
-            yield from used(value)
+    shapes = quantities_within((scene.frame, *scene.links.values()))
+    return not any(names.intersection(each.uses()) for each in shapes)
 
 
 def as_usual(mechanism: Mechanism, usual: Mechanism) -> Mechanism:

@@ -127,7 +127,7 @@ def of_place(standard: Standard, field: str) -> Iterator[Way]:
 
 
 def swapped(standard: Standard, field: str) -> Iterator[Way]:
-    """The normal component in the place of the tangential one, and the other way round."""
+    """The component along the bar in the place of that across it, and the other way round."""
     for this, that in (("_nu", "_tau"), ("_tau", "_nu")):
         stem, found, tail = field.rpartition(this)
         if found and tail in ("", "_mm") and f"{stem}{that}{tail}" in standard.key:

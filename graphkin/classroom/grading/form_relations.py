@@ -93,7 +93,7 @@ def relations(standard: Standard, own: Values, probe: Probe) -> Iterator[FormRel
             yield from (FormRelation((v,), v.size) for v in vectors(standard, own, *probe.steps))
         if component is not None:
             sizes = component.sizes(OwnLengths(standard, own))
-            yield from (FormRelation(*size) for size in sizes)
+            yield from (FormRelation(each.factors, each.size, each.bar) for each in sizes)
     elif len(step.args) == 4:
         yield from rates(standard, own, probe)
     elif probe.item.quantity == "slide speed":

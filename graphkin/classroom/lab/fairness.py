@@ -1,7 +1,7 @@
 """How fair variants are to their students: a class as one batch, at the scales of its sheets.
 
 A variant is fair that closes, fits its page, and asks of the hand no crossing flatter, no segment
-shorter and no right triangle narrower or longer than the lab allows. A centre or pole that its
+shorter and no triangle narrower or longer than the lab allows. A centre or pole that its
 sheet does not hold, or whose rays cross flatter than that, spoils nothing else: it is computed.
 """
 
@@ -27,6 +27,7 @@ from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
 from graphkin.classroom.lab.variant_scales import Loader, Scaling, scaling, taken
 from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
+from graphkin.construction.registry import LIMITED
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 
@@ -38,7 +39,7 @@ WORDS = {
     "page": "does not fit the page",
     "crossing": "crosses flatter than the limit",
     "segment": "is shorter than the limit",
-    "triangle": "has a right triangle outside its limits",
+    "triangle": f"has a {LIMITED} outside its limits",
     "pencil": "is drawn less exactly than the limit",
     "apart": "earns more with another's right values than the limit",
 }

@@ -10,6 +10,7 @@ from graphkin.classroom.lab.fairness import WORDS, Fairness, Fault
 from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.rules import Settings, exact_text
+from graphkin.construction.registry import LIMITED
 from graphkin.drawing.scale import ratio
 from graphkin.text.plain_table import labelled, listed, table
 
@@ -107,7 +108,7 @@ def limit_words(fair: Fair) -> str:
         more += f", a pencil's error at most {100 * fair.pencil:g} % of any value"
     return (
         f"crossings at least {fair.crossing:g}°, segments at least {fair.segment:g} mm, "
-        f"right triangles v/l from {low:g} to {high:g}{more}"
+        f"{LIMITED}s v/l from {low:g} to {high:g}{more}"
     )
 
 

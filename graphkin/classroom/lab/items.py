@@ -76,7 +76,7 @@ def meant(item: Item) -> tuple[str, str]:
 def asked(mechanism: Mechanism) -> Iterator[Item]:
     """The items that the scene asks for; everything that it can ask where it asks nothing."""
     ask, scene = mechanism.scene.ask, mechanism.scene
-    nothing = not any(ask)
+    nothing = not ask.anything
     for quantity in VECTORS:
         points = [point_of(scene, name) for name in names_asked(ask, quantity)]
         for point in moving_points(mechanism) if nothing else points:

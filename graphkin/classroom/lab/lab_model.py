@@ -86,7 +86,7 @@ class Fair(Struct, frozen=True):
     """What a variant must keep to be fair to its student.
 
     ``crossing``: the flattest angle of a crossing in degrees; ``segment``: the shortest length to
-    be measured, in mm; ``triangle``: between which v/l a right triangle can be drawn; ``apart``:
+    be measured, in mm; ``triangle``: between which v/l a triangle can be drawn; ``apart``:
     the largest share of the points that another's right values may earn on the own sheet;
     ``pencil``: the largest error of a careful drawing in what earns points, in parts of the value.
     """

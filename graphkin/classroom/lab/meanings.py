@@ -19,6 +19,7 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
 from graphkin.drawing.richtext import plain as text_of
+from graphkin.drawing.style import COMPONENTS
 from graphkin.mechanism import Mechanism
 from graphkin.text import words
 
@@ -29,12 +30,15 @@ QUANTITY = {
     "epsilon": "angular acceleration of link {of}",
     "slide speed": "speed of block {of} along its guide",
     "slide acceleration": "acceleration of block {of} along its guide",
-    "centre": "instantaneous centre of link {of}",
-    "pole": "acceleration pole of link {of}",
-    "inflection": "inflection pole of link {of}",
+    **{each.target: f"{each.words} of link {{of}}" for each in CENTRES},
 }
 """What each quantity is of which a form asks."""
-COMPONENT = {"ν": "normal component", "τ": "tangential component", "c": "Coriolis component"}
+COMPONENT = {
+    kind.sign: words("en")(kind.legend).partition(":")[0]
+    for kind in COMPONENTS
+    if kind.sign in GREEK
+}
+"""What each component of an acceleration is called, by its sign."""
 SHEET = {sheet[0]: sheet for sheet in SHEETS}
 """The sheet with whose letter an arrow's symbol begins."""
 

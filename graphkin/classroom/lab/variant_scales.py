@@ -19,7 +19,6 @@ from graphkin.documents.composing import Search, Stated, searched
 from graphkin.documents.scaling import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.motion.motion_curves import is_closer
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.text.errors import GraphkinError
 
@@ -108,7 +107,7 @@ def by_arrays(mechanism: Mechanism) -> bool:
         and scene.drivers[0].kind == "turn"
         and not (ask.curves or ask.centrodes)
         and not any(link.wheels or link.rolls for link in links)
-        and not any(step.action and is_closer(step.action.value) for step in steps)
+        and not any(step.closes for step in steps)
         and not mechanism.trial_rates
     )
 

@@ -83,13 +83,13 @@ def owned(drawing: Drawing, whose: Owner) -> Drawing:
     """A drawing whose title block names its student and bears the code."""
     number = drawing.scene.sheet.number
     both = f"{number} / {whose.code}" if number else whose.code
-    sheet = drawing.scene.sheet._replace(author=whose.name, number=both)
+    sheet = replace(drawing.scene.sheet, author=whose.name, number=both)
     return replace(drawing, scene=replace(drawing.scene, sheet=sheet))
 
 
 def owned_pages(drawings: Sequence[Drawing], whose: Owner) -> list[Drawing]:
     """Drawings whose calculation pages name their student and the code at the foot."""
-    sheets = [drawing.scene.sheet._replace(author=whose.line) for drawing in drawings]
+    sheets = [replace(drawing.scene.sheet, author=whose.line) for drawing in drawings]
     return [
         replace(drawing, scene=replace(drawing.scene, sheet=sheet))
         for drawing, sheet in zip(drawings, sheets, strict=True)

@@ -8,10 +8,11 @@ of that variant.
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import partial
 from html import escape
+from math import lcm
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from markupsafe import Markup
@@ -27,8 +28,7 @@ from graphkin.classroom.printing.answer_form import advice
 from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
 from graphkin.classroom.printing.workers import chunks, engine, results
-from graphkin.classroom.quiz.cloze import SIGNS, cloze, weights
-from graphkin.classroom.quiz.gaps import gaps
+from graphkin.classroom.quiz.gaps import Gap, Taken, gaps
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned
 from graphkin.drawing.richtext import plain
@@ -173,3 +173,37 @@ def texted(element: Element, text: str) -> Element:
     """An element with a text, as Moodle nests it."""
     SubElement(element, "text").text = text
     return element
+
+
+SIGNS = {sign: f"&#{ord(sign)};" for sign in "{}~#\\"}
+"""What means something within a gap, as references to characters, which Moodle turns back."""
+
+
+def weights(points: Iterable[Fraction]) -> tuple[list[int], int]:
+    """Points as whole numbers, which are the only ones that a gap may have, and how many times as
+    many they are."""
+    every = list(points)
+    times = lcm(*(each.denominator for each in every)) if every else 1
+    return [int(each * times) for each in every], times
+
+
+def cloze(gap: Gap, weight: int) -> str:
+    """A gap within the text of a question."""
+    kind = "MULTICHOICE" if gap.item.what == "sense" else "NUMERICAL"
+    return f"{{{weight}:{kind}:{'~'.join(map(taken, gap.takes))}}}"
+
+
+def taken(each: Taken) -> str:
+    """One thing that a gap takes."""
+    percent = 100 * each.share
+    share = "=" if percent == 100 else f"%{float(percent):g}%"
+    if isinstance(each.answer, str):
+        answer = written(each.answer)
+    else:
+        answer = f"{each.answer:.6g}:{each.allowed:.4g}"
+    return f"{share}{answer}#{written(each.told)}"
+
+
+def written(text: str) -> str:
+    """A text in which nothing ends a gap or begins one."""
+    return "".join(SIGNS.get(sign) or escape(sign) for sign in text)

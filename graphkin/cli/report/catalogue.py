@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.construction.core.quantities import RATES, VECTORS
+from graphkin.construction.core.quantities import CENTRES, RATES, VECTORS
 from graphkin.scene import scene_files
 from graphkin.scene.model import Ask, Parameter, Scene
 from graphkin.scene.parameters import range_words
 from graphkin.text.plain_table import labelled, listed
 
+OF_LINKS = [(each.asked_by[0], f"{each.circle or each.words}s of") for each in CENTRES]
 ASKED = (
     *((each.target, f"{each.words} of") for each in (*VECTORS, *RATES)),
     ("slides", "sliding of"),
-    ("centres", "instantaneous centres of"),
+    OF_LINKS[0],
     ("pairs", "relative centres of"),
-    ("poles", "acceleration poles of"),
-    ("inflection", "inflection circles of"),
+    *OF_LINKS[1:],
     ("centrodes", "centrodes of"),
     ("curves", "paths of"),
 )

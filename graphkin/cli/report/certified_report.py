@@ -16,7 +16,15 @@ from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
 from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
 from graphkin.cli.report.solution_record import Record, motion_of
 from graphkin.construction.core.program import Program, Target
-from graphkin.construction.core.quantities import CENTRES, OF_SLIDES, QUANTITIES, RATES, Sort, held
+from graphkin.construction.core.quantities import (
+    CENTRES,
+    CIRCLES,
+    OF_SLIDES,
+    QUANTITIES,
+    RATES,
+    Sort,
+    held,
+)
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.core.solution import (
@@ -42,11 +50,10 @@ SECTIONS = {"points": "point", "links": "link", "centres": "links", "slides": "b
 CALLED = {
     **{each.attribute: (each.words, each.unit) for each in QUANTITIES if each.words},
     "": ("centre of both", "m"),
-    "inflection": ("inflection circle", "m"),
-    "inflection.pole": ("inflection pole", "m"),
-    "inflection.centre": ("inflection circle, centre", "m"),
-    "inflection.radius": ("inflection circle, radius", "m"),
 }
+for _key, _each in CIRCLES.items():
+    CALLED |= {_key: (_each.circle, "m"), f"{_key}.pole": (_each.words, "m")}
+    CALLED |= {f"{_key}.{part}": (f"{_each.circle}, {part}", "m") for part in ("centre", "radius")}
 """What the keys of the record are called, with their units."""
 
 
@@ -192,19 +199,19 @@ def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Reco
     targets = {each.attribute: each for each in (*RATES, *CENTRES)}
     record: Record = {}
     for key in entry:
-        quantity = targets.get(key)
-        if quantity is None:
-            record[key] = inflection(f"{path}.{key}", name, motion, printer)
+        if key in CIRCLES:
+            record[key] = circle(f"{path}.{key}", (key, name), motion, printer)
             continue
+        quantity = targets[key]
         printed = printer.real if quantity in RATES else printer.centre
         record[key] = printed(f"{path}.{key}", held(motion, quantity), (quantity.target, name))
     return record
 
 
-def inflection(path: str, name: str, motion: LinkMotion, printer: Printer) -> Record | None:
-    """The inflection circle; None without doubt only where the link surely does not turn."""
-    target = "inflection", name
-    ratios = motion.instant_centre, motion.inflection_pole
+def circle(path: str, target: Target, motion: LinkMotion, printer: Printer) -> Record | None:
+    """The circle of a target; None without doubt only where the link surely does not turn."""
+    quantity = CIRCLES[target[0]]
+    ratios = getattr(motion, quantity.circle_from), held(motion, quantity)
     if ratios[0] is None or ratios[1] is None:
         printer.lost(path, target)
         return None

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 from math import degrees
 
-from graphkin.cli.report.coincident_pins import fallen_together
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
 from graphkin.cli.report.solution_record import plain, settings_words
 from graphkin.cli.report.structure_report import group_lines, structure
+from graphkin.construction.core.cam_profiles import CamProfile
 from graphkin.construction.core.crossings import crossings
+from graphkin.construction.core.drawn_scene import METRES
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import Trace
 from graphkin.construction.links.counted_turn import counted_link
@@ -18,10 +20,12 @@ from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.mechanism import Mechanism
 from graphkin.scene.findings import numbered
+from graphkin.scene.known_names import named
 from graphkin.scene.model import Scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import driver_problem
 from graphkin.structure.groups import Higher
+from graphkin.structure.pairs import sharers
 from graphkin.structure.turn_counting import counting
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.text.plain_table import labelled, listed, table
@@ -62,7 +66,6 @@ class Checking:
         """Pressure angle and curvature of each cam."""
         if not self.mechanism.scene.cams:
             return []
-        from graphkin.cli.report.cam_report import cam_lines
 
         return list(cam_lines(self.mechanism.scene))
 
@@ -184,7 +187,7 @@ def place_of_turns(scene: Scene, link: str) -> str:
 def crossing_lines(trace: Trace) -> list[str]:
     """The flattest crossings on paper: the angle, the part of the work, and the point.
 
-    ``trace`` holds the hand's way to what is asked: right triangles, plates and poles, too.
+    ``trace`` holds the hand's way to what is asked: figures of components, plates and poles, too.
     """
     rows: dict[tuple[str, str], str] = {}
     for found in sorted(crossings(trace), key=lambda found: found.angle):
@@ -195,3 +198,77 @@ def crossing_lines(trace: Trace) -> list[str]:
         return ["nothing crosses"]
     lines = [(angle, part, point) for (point, part), angle in rows.items()]
     return table(("angle", "part", "point (flattest crossings)"), lines)
+
+
+STEEP = 30.0
+"""Pressure angle of a sliding follower that textbooks advise not to exceed, in degrees."""
+STEEP_LEVER = 45.0
+"""The same of one that swings."""
+
+
+def cam_lines(scene: Scene) -> Iterator[str]:
+    """For each cam its pressure angle and its least radius of curvature; undercutting is told."""
+    unit = scene.units["length"]
+    for follower, cam in scene.cams.items():
+        profile = CamProfile(scene, follower)
+        moves = "swings" if cam.lever else "lifts"
+        yield f"link {cam.on} {moves} link {follower} by a {cam.tip} follower"
+        if cam.lever or not cam.is_flat:
+            angle, at = profile.steepest
+            steep = STEEP_LEVER if cam.lever else STEEP
+            over = f", above the usual {steep:g}°" if angle > steep else ""
+            yield f"  pressure angle at most {angle:.2f}° (at {at:.1f}° of the law){over}"
+        radius, at = profile.sharpest
+        size = f"{radius / METRES[unit]:.4g} {unit}"
+        if radius <= 0:
+            yield f"  undercut at {at:.1f}° of the law: radius {size}; {remedy(cam.tip)}"
+        else:
+            yield f"  convex profile's least radius {size} (at {at:.1f}° of the law)"
+
+
+def remedy(tip: str) -> str:
+    """What takes undercutting away."""
+    smaller = " or a smaller roller" if tip == "roller" else ""
+    return f"a larger base circle{smaller} mends it"
+
+
+NEAR = 1e-9
+"""Pins nearer to one another than this, in parts of the largest distance, lie on one place."""
+
+
+def fallen_together(scene: Scene, trace: Trace) -> list[str]:
+    """A sentence for each two pins that fall together though no link keeps them so.
+
+    A closure in which they do is seldom the one that is meant, for a bar then lies on another; two
+    names for what is one pin would leave its links apart.
+    """
+    places = pin_places(scene, trace)
+    size = max((abs(p - q) for p, q in combinations(places.values(), 2)), default=0.0)
+    return [
+        sentence(scene, one, other)
+        for one, other in combinations(places, 2)
+        if abs(places[one] - places[other]) <= NEAR * size and not kept(scene, one, other)
+    ]
+
+
+def pin_places(scene: Scene, trace: Trace) -> dict[str, complex]:
+    """Where the points stand that join links."""
+    pins = [point for point, links in sharers(scene).items() if len(links) > 1]
+    found = {pin: trace.value("position", pin) for pin in pins}
+    return {pin: complex(place) for pin, place in found.items() if place is not None}
+
+
+def kept(scene: Scene, one: str, other: str) -> bool:
+    """Whether one link has both points."""
+    every = (scene.frame, *scene.links.values())
+    return any(one in link.points and other in link.points for link in every)
+
+
+def sentence(scene: Scene, one: str, other: str) -> str:
+    """That two pins fall together, with their links, and what to do."""
+    owners = sharers(scene)
+    who = [f"{pin} of {listed(map(named, owners[pin]))}" for pin in (one, other)]
+    return (
+        f"{who[0]} falls on {who[1]} in this closure; "
+        "if that is not meant, take another closure or another position of the driver"
+    )

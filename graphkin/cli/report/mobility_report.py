@@ -121,7 +121,7 @@ def further(scene: Scene, driver: Driver, step: float) -> Driver:
     factor, of_pi = SI[position.unit]
     written = Fraction(step) / factor / (Fraction(pi) if of_pi else 1)
     value = Fraction(position.number(scene.values)) + written
-    return driver._replace(position=exact(value, position.unit, position.place))
+    return replace(driver, position=exact(value, position.unit, position.place))
 
 
 def spare(scene: Scene, name: str) -> bool:
@@ -145,12 +145,12 @@ def parts_without(scene: Scene) -> Iterator[tuple[str, Scene]]:
             rest = (*link.rolls[:number], *link.rolls[number + 1 :])
             on = "the frame" if rolling.on == FRAME else f"link {rolling.on}"
             name = f"the contact of link {link.name} with {on}"
-            yield name, replaced(scene, link._replace(rolls=rest))
+            yield name, replaced(scene, replace(link, rolls=rest))
         for number, slide in enumerate(link.slides[1:], 1):
             rest_slides = (*link.slides[:number], *link.slides[number + 1 :])
             on = "the frame" if slide.on == FRAME else f"link {slide.on}"
             name = f"the guide of block {link.name} on {on}"
-            yield name, replaced(scene, link._replace(slides=rest_slides))
+            yield name, replaced(scene, replace(link, slides=rest_slides))
 
 
 def replaced(scene: Scene, link: Link) -> Scene:

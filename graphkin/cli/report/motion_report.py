@@ -9,15 +9,23 @@ from typing import Any
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.solution_record import Record, settings_words
 from graphkin.cli.report.unsure_words import digits_words, is_unsure, unsure_words
-from graphkin.construction.core.quantities import CENTRES, OF_POINTS, OF_SLIDES, RATES, Sort, held
+from graphkin.construction.core.quantities import (
+    CENTRES,
+    CIRCLES,
+    OF_POINTS,
+    OF_SLIDES,
+    RATES,
+    Sort,
+    held,
+)
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.diagnosis.singularity_words import beside_dead_point
 from graphkin.documents.centre_tables import (
     breadth_of,
     centre_words,
+    circles_table,
     completed,
-    inflection_table,
     largest,
     pole_words,
     relative_table,
@@ -41,7 +49,7 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
         relative_table(solution, found.get("centres", {})),
-        inflection_table(found["links"]),
+        *(circles_table(found["links"], each) for each in CIRCLES.values()),
         slides_table(found["slides"]),
         scale_lines(found["scales"]) if "scales" in found else [],
         [f"witness  {verdict_words(verdict, scene)}", *sure_lines(verdict)],

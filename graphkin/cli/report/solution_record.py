@@ -119,22 +119,21 @@ def point(name: str, motion: PointMotion | None, wanted: Wanted) -> Record:
 
 def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Record:
     """Turning of a link, and its centres or null where they are at infinity."""
-    *places, circle = CENTRES
-    found: Record = {
-        **{q.attribute: real(held(motion, q)) for q in RATES if wanted(q, name)},
-        **{
-            q.attribute: pair(place_of(held(motion, q), breadth)) for q in places if wanted(q, name)
-        },
-    }
-    if motion.inflection_pole is not None and wanted(circle, name):
-        found[circle.target] = inflection(motion, breadth)
+    found: Record = {q.attribute: real(held(motion, q)) for q in RATES if wanted(q, name)}
+    for q in CENTRES:
+        if not wanted(q, name):
+            continue
+        if not q.circle:
+            found[q.attribute] = pair(place_of(held(motion, q), breadth))
+        elif held(motion, q) is not None:
+            found[q.target] = circle(motion, q, breadth)
     return found
 
 
-def inflection(motion: LinkMotion, breadth: float) -> Record | None:
-    """The inflection circle: its pole, centre and radius; null where the link does not turn."""
-    first = place_of(motion.instant_centre, breadth)
-    pole = place_of(motion.inflection_pole, breadth)
+def circle(motion: LinkMotion, quantity: MotionQuantity, breadth: float) -> Record | None:
+    """The circle of a quantity: its pole, centre and radius; null where the link does not turn."""
+    first = place_of(getattr(motion, quantity.circle_from), breadth)
+    pole = place_of(held(motion, quantity), breadth)
     if first is None or pole is None:
         return None
     return {"pole": pair(pole), "centre": pair((first + pole) / 2), "radius": abs(pole - first) / 2}

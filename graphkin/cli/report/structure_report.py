@@ -213,11 +213,11 @@ def group_lines(groups: tuple[Group, ...]) -> list[str]:
 def group_words(group: Group) -> str:
     """A group by its kind, class and order, its links and what it hangs on."""
     match group:
-        case Crank(driver, link, pivot):
+        case Crank(link, driver, pivot):
             other = driver.against if driver.link == link else driver.link
             against = "" if other == FRAME else f" against link {other}"
             return f"crank {link} about {pivot}{against} (class I)"
-        case Driven(_, link, pair):
+        case Driven(link, _, pair):
             return f"link {link} driven (class I): {pair_words(pair)}"
         case Dyad(links, left, inner, right):
             outer = listed(map(pair_name, (left, right)))

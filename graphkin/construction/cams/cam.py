@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration import acceleration
 from graphkin.construction.cams.cam_centre import coordinate, height, set_lever
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.velocity import velocity
 from graphkin.structure.groups import CamFollower
 from graphkin.structure.pairs import Pin, Sliding
 
@@ -29,6 +31,16 @@ def place(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
     led_by(dyad.right).set_at(pen, shapes, follower, where)
     if isinstance(dyad.inner, Sliding):
         turned_with(pen, shapes, dyad.inner, follower)
+
+
+def move(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
+    """The velocity plan: that of the equivalent linkage."""
+    velocity.dyad(pen, shapes, group.dyad)
+
+
+def accelerate(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
+    """The acceleration plan: that of the equivalent linkage."""
+    acceleration.dyad(pen, shapes, group.dyad)
 
 
 def block_on(pen: Pen, shapes: LinkShapes, pair: Sliding, lever: str) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import dot
-from graphkin.scene.model import Rolling, Slide, Wheel
+from graphkin.scene.model import Belt, Rolling, Slide, Wheel
 
 
-class Guideway(NamedTuple):
+class Guideway(Struct, frozen=True):
     """The straight guide of a block: its zero, its unit direction, and the block's first point.
 
     ``offset`` is how far the block's first point stands to the left of the guide.
@@ -33,7 +33,7 @@ class Guideway(NamedTuple):
         return self.zero + self.coordinate * self.along
 
 
-class Disc(NamedTuple):
+class Disc(Struct, frozen=True):
     """A wheel of a link in the plane; ``module`` is nought where it has no teeth."""
 
     link: str
@@ -49,7 +49,7 @@ class Disc(NamedTuple):
         return self.radius + thick
 
 
-class Touch(NamedTuple):
+class Touch(Struct, frozen=True):
     """Where a wheel touches its track; ``along`` is the way in which a straight track counts.
 
     ``zero`` is where a straight track counts from, ``other`` the wheel that a circular one is.
@@ -66,6 +66,11 @@ class Touch(NamedTuple):
     def on(self) -> str:
         """The link with the track."""
         return self.rolling.on
+
+    @property
+    def belt(self) -> Belt | None:
+        """The belt that joins both wheels, if one does."""
+        return self.rolling.belt
 
     @property
     def side(self) -> int:

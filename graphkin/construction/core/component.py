@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections import Counter
 from collections.abc import Container, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from msgspec import Struct
 
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.relation import Relation
 
 
-class Size(NamedTuple):
+class Size(Struct, frozen=True):
     """A student's size of a component in SI: the own sizes that it follows from, and the bar (m)
     that is measured for it, infinite where none is.
     """
@@ -55,13 +56,46 @@ class OwnSizes(Protocol):
         """Distance of two points in metres."""
 
 
+class PaletteAction(Struct, frozen=True):
+    """An action of a page's palette that gives a component, and what it is drawn from.
+
+    ``slots`` are the word for each thing and the kinds of picks that it may be, ``script`` is the
+    function of the picks in the page's script; ``said_as`` is the action whose sentences tell what
+    is wrong, where that is another.
+    """
+
+    key: str
+    slots: tuple[tuple[str, tuple[str, ...]], ...]
+    script: str
+    said_as: str = ""
+
+
+class Picks(Protocol):
+    """What can be picked on a page, each by the steps that it lies on; None for what cannot."""
+
+    def point_or_line(self, number: int) -> str | None:
+        """A point, line or arc."""
+
+    def bar(self, p: int, q: int) -> str | None:
+        """The bar between two points of the mechanism."""
+
+    def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
+        """The vector between two points of a plan."""
+
+    def rate(self, number: int) -> str | None:
+        """The angular velocity of a link."""
+
+
 class Component(Construction, frozen=True, kw_only=True):
     """A component of an acceleration: its ``index`` and its ``vector``, by both ways.
 
     ``vector`` is the stable value; ``read`` reads the same off a triangle on the mechanism, None
-    where no triangle is drawn.
+    where no triangle is drawn. ``palette`` is the action of a page that draws it, if one does;
+    ``limited`` is what its figure is called where its proportions decide whether it can be drawn.
     """
 
+    limited: ClassVar[str] = ""
+    palette: ClassVar[PaletteAction | None] = None
     sign: ClassVar[str]
     look: ClassVar[str]
     laid_off_key: ClassVar[str]
@@ -136,6 +170,18 @@ class Component(Construction, frozen=True, kw_only=True):
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
         """What is said of it where it leads to a point that is known; nothing where it is clear."""
         return ""
+
+    def stands_at(self, drawing: Drawing) -> int | None:
+        """The step of the pin at which its figure stands, where others do; None for others."""
+        return None
+
+    def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
+        """What its action of the palette is drawn from."""
+        return ()
+
+    def shown_between(self) -> tuple[int | None, ...]:
+        """The steps of the points on the mechanism between which it is seen; none for others."""
+        return ()
 
     @abstractmethod
     def section(self) -> str:
@@ -331,6 +377,17 @@ def components_on(drawing: Drawing) -> Iterator[Component]:
         found = component_of(drawing.trace.program, number)
         if found is not None:
             yield found
+
+
+def crowded_pins(drawing: Drawing, least: int) -> list[complex]:
+    """Where at least so many figures of components stand at one pin of a sheet."""
+    kinds = {id(step.of): step.of for _, step in drawing.normals}.values()
+    pins = Counter(kind.stands_at(drawing) for kind in kinds if isinstance(kind, Component))
+    return [
+        drawing.trace.values[pin]
+        for pin, count in pins.items()
+        if pin is not None and count >= least
+    ]
 
 
 # --- drawn, or given by number -------------------------------------------------------------------

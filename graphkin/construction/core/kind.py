@@ -24,7 +24,8 @@ class Construction(Roles, frozen=True):
     ``unmarked`` those of points that a pencil need not mark, ``directions`` those of unit vectors,
     ``slips`` by what a student's slip multiplies its result, ``drawn_in`` what a report calls the
     drawing of its crossings where that is not the plan's. ``joins`` are the roles of lines drawn as
-    far as the points through which they lead.
+    far as the points through which they lead. ``marked_as`` is the class of the circle by which the
+    mechanism shows its point, where no mark of its own step does.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
@@ -35,6 +36,7 @@ class Construction(Roles, frozen=True):
     slips: ClassVar[Mapping[str, complex]] = {}
     drawn_in: ClassVar[str] = ""
     joins: ClassVar[frozenset[str]] = frozenset()
+    marked_as: ClassVar[str] = ""
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason behind the step of a role; nothing where it needs none."""

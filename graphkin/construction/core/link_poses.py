@@ -1,7 +1,4 @@
-"""Where the bodies of a mechanism stand: the axes of links, guides, wheels and touches, in metres.
-
-A step of the trace says it where there is one; else it follows from the points that are placed.
-"""
+"""Where the bodies of a mechanism stand: axes of links, guides, wheels and touches, in metres."""
 
 from __future__ import annotations
 
@@ -81,52 +78,19 @@ class LinkPoses(Struct, frozen=True, dict=True):
         size = max(max(xs) - min(xs), max(ys) - min(ys))
         return size if size > 0 else 1.0
 
-    def axis(self, link: str, asking: frozenset[str] = frozenset()) -> complex | None:
-        """Unit direction of a link's x axis; None where nothing tells it."""
-        if link == FRAME:
-            return 1 + 0j
-        stated = self.trace.value("axis", link)
-        if stated is not None:
-            return stated  # type: ignore[no-any-return]
-        found = self.axis_by_points(link)
-        if found is None and link not in asking:
-            found = self.axis_by_guides(link, asking | {link})
+    def axis(self, link: str) -> complex | None:
+        """Unit direction of a link's x axis; None where the trace does not hold it."""
+        found: complex | None = 1 + 0j if link == FRAME else self.trace.value("axis", link)
         return found
 
-    def axis_by_points(self, link: str) -> complex | None:
-        """The direction from two placed points whose places in the link are written as such."""
-        places = written_places(self, self.scene.link(link))
-        known = [(self.positions[p], z) for p, z in places.items() if p in self.positions]
-        for i, (here, local) in enumerate(known):
-            for there, other in known[i + 1 :]:
-                if abs(other - local) > 0 and abs(there - here) > APART * self.size:
-                    way = (there - here) / (other - local)
-                    return way / abs(way)
-        return None
-
-    def axis_by_guides(self, link: str, asking: frozenset[str]) -> complex | None:
-        """The direction from the guide that a block lies along, or from a block on its guide."""
-        for slide in self.scene.link(link).slides[:1]:
-            way = self.direction(slide, asking)
-            if way is not None:
-                return way
-        for other in self.scene.links.values():
-            for slide in other.slides[:1]:
-                if slide.on != link or slide.angle is None or other.name in asking:
-                    continue
-                way = self.axis(other.name, asking)
-                if way is not None:
-                    return way / complex(slide.angle.direction(self.scene.values))
-        return None
-
-    def direction(self, slide: Slide, asking: frozenset[str] = frozenset()) -> complex | None:
+    def direction(self, slide: Slide) -> complex | None:
         """Unit direction of a guide in the plane."""
         if slide.along:
             start, end = (self.positions.get(point) for point in slide.along)
             if start is None or end is None or start == end:
                 return None
             return (end - start) / abs(end - start)
-        base = self.axis(slide.on, asking)
+        base = self.axis(slide.on)
         if base is None or slide.angle is None:
             return None
         return base * complex(slide.angle.direction(self.scene.values))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -11,6 +13,7 @@ from graphkin.drawing.richtext import escape
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import Driver
+from graphkin.text import Words
 
 NAUGHT = 1e-6
 """A vector drawn shorter than this, in mm, is none."""
@@ -114,3 +117,10 @@ def drawn_amount(drawing: Drawing, metres: float) -> str:
 def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
     """How a vector of a given size is drawn in a plan."""
     return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
+
+
+def sense(words: Words, value: Any) -> str:
+    """The word for the sense of an angular value; nothing for nought."""
+    if value == 0:
+        return ""
+    return words("page.anticlockwise" if value > 0 else "page.clockwise")

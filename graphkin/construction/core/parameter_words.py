@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
 from graphkin.construction.core.amounts import written
 from graphkin.drawing.richtext import escape
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Scene, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity, shortest
 from graphkin.text import Words
 from graphkin.text.errors import SceneError
@@ -146,15 +145,4 @@ def slope_of(scene: Scene, quantity: Quantity, name: str) -> float | None:
 
 def quantities(scene: Scene) -> Iterator[Quantity]:
     """Every quantity by which a scene says how its links, drivers and pairs are."""
-    yield from within((scene.frame, *scene.links.values(), *scene.drivers))
-
-
-def within(part: Any) -> Iterator[Quantity]:
-    """The quantities within a part of a scene."""
-    if isinstance(part, Quantity):
-        yield part
-    elif isinstance(part, dict):
-        yield from within(tuple(part.values()))
-    elif isinstance(part, tuple | list):
-        for each in part:
-            yield from within(each)
+    yield from quantities_within((scene.frame, *scene.links.values(), *scene.drivers))

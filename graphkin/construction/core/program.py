@@ -94,6 +94,10 @@ class PlanAside:
     tag: str
 
 
+CLOSE = "close"
+"""The action of a step whose group closes in as many ways as values tell."""
+
+
 class Step(Struct, frozen=True):
     """One step: an action on earlier steps, or a given value.
 
@@ -118,6 +122,11 @@ class Step(Struct, frozen=True):
     of: Roles | None = None
     role: str = ""
     aside: PlanAside | None = None
+
+    @property
+    def closes(self) -> bool:
+        """Whether it closes a group in one of its closures, which values count."""
+        return self.action is not None and self.action.key == CLOSE
 
     @property
     def letter(self) -> str:

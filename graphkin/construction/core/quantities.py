@@ -41,7 +41,8 @@ class MotionQuantity(Struct, frozen=True):
     """One quantity: ``target`` is its name in a program, ``attribute`` that in a solution.
 
     ``kind`` is the derivative that it is, or by which a centre is found; ``asked_by`` are the keys
-    of [ask] that need it. What has no ``words`` is there for another.
+    of [ask] that need it. What has no ``words`` is there for another. A place with a circle is
+    reported with it: the ``circle`` on the segment from the place ``circle_from`` of the link.
     """
 
     target: str
@@ -53,6 +54,8 @@ class MotionQuantity(Struct, frozen=True):
     unit: str
     words: str
     asked_by: tuple[str, ...]
+    circle: str = ""
+    circle_from: str = ""
 
     @property
     def plane(self) -> Plane:
@@ -95,9 +98,10 @@ QUANTITIES = (
     ),
     of_point("position", Sort.PLACE, "", "m", "curves"),
     of_link("pole", "acceleration_pole", "acceleration", "J", "m", "acceleration pole", "poles"),
-    of_link(
-        *("inflection", "inflection_pole", "acceleration", "W", "m", "inflection pole"),
-        "inflection",
+    MotionQuantity(
+        *("inflection", Whose.LINK, "inflection_pole", "acceleration", Sort.PLACE),
+        *("W", "m", "inflection pole", ("inflection",)),
+        *("inflection circle", "instant_centre"),
     ),
     of_link("inflection centre", "instant_centre", "velocity", "I", "m", "", "inflection"),
     of_slide("slide", "position", "position", "s", "m"),
@@ -127,6 +131,7 @@ OF_POINTS = those(Whose.POINT, *Sort)
 VECTORS = those(Whose.POINT, Sort.VECTOR)
 RATES = those(Whose.LINK, Sort.NUMBER)
 CENTRES = those(Whose.LINK, Sort.PLACE)
+CIRCLES = {each.target: each for each in CENTRES if each.circle}
 OF_SLIDES = those(Whose.SLIDE, *Sort)
 MOTION = {each.kind: each for each in OF_POINTS}
 TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)

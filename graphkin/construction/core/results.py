@@ -36,7 +36,7 @@ def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
 def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
     """What is known of each point, link or block of which anything is.
 
-    Of two ways to one, such as the centre on an inflection circle, the first that is known counts.
+    Of two ways to one, such as a centre that a circle needs too, the first that is known counts.
     """
     ways = {each.target: each.attribute for each in reversed(QUANTITIES) if each.whose is whose}
     names = dict.fromkeys(of for target, of in trace.program.targets if target in ways)

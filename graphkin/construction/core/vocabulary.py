@@ -128,6 +128,12 @@ def lay_off(start: Point, vector: Point) -> Point:
     return start + vector
 
 
+@action("lay-back")
+def lay_back(start: Point, vector: Point) -> Point:
+    """The start of a vector whose end is a point: laid off from there against its sense."""
+    return start - vector
+
+
 @action("join")
 def join(tail: Point, tip: Point) -> Vector:
     """The arrow from one point of a plan to another."""

@@ -6,7 +6,6 @@ from graphkin.construction.acceleration import acceleration
 from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.coriolis.coriolis import coriolis_of, end_of, lay_off_turned
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.guide_actions import (
     axis_by_guide,
@@ -16,6 +15,7 @@ from graphkin.construction.guides.guide_actions import (
 )
 from graphkin.construction.guides.guide_line import guide_at
 from graphkin.construction.guides.guides import known_guide, local_line
+from graphkin.construction.guides.sliding import end_on_driven
 from graphkin.construction.links import position
 from graphkin.construction.links.compass_arc import draw_arc
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -126,9 +126,8 @@ def accelerate_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
     rate = pen.drive(cylinder.driver).acceleration
     images = pen.the("velocity", point), pen.the("velocity", foot)
     index = letter(foot) + letter(point)
-    component = coriolis_of(pen, cylinder.far, *images, point, block, index=index)
+    corner = end_on_driven(pen, cylinder.far, images, point, block, index)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = end_of(pen, lay_off_turned, pen.the("acceleration", point), component)
         steps = corner, line, rate
         name, way = second_image(foot), sense_of(cylinder)
         with pen.calls_for(acceleration.sliding_effect(pen, rate)):

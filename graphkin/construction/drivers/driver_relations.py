@@ -9,7 +9,7 @@ from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.naming import driver_of_rate, length_scale
+from graphkin.construction.core.naming import driver_of_rate, length_scale, sense
 from graphkin.construction.core.parameter_words import is_derived, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
@@ -21,7 +21,6 @@ from graphkin.construction.core.relation import (
     squared,
 )
 from graphkin.construction.rate_relations import of_sum
-from graphkin.construction.result_tables import sense
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -203,8 +202,8 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
 def plan_scales(drawing: Drawing) -> Iterator[Relation]:
     """kv and ka from the driving crank, or chosen.
 
-    Where no crank says them ka keeps the right triangles: it is (m·kv)²/(m′·kL), where
-    the plans are m and m′ times as large as vectors on the mechanism.
+    Where no crank says them ka keeps that mean proportional: it is (m·kv)²/(m′·kL), where the plans
+    are m and m′ times as large as vectors on the mechanism.
     """
     scales, chosen = drawing.scales, drawing.words("calculation.chosen")
     number = length_scale(drawing)

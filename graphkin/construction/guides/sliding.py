@@ -10,13 +10,7 @@ from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import part_along
-from graphkin.construction.coriolis.coriolis import (
-    CoriolisComponent,
-    coriolis_of,
-    end_of,
-    lay_back,
-    lay_off_turned,
-)
+from graphkin.construction.coriolis import CoriolisComponent, coriolis_of, end_of
 from graphkin.construction.guides.coincident_points import image_under, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -49,15 +43,27 @@ def lay_off_component(
     """
     if "@" in name:
         assert vector is not None
-        return end_of(pen, lay_back, pen.the("acceleration", point), vector)
+        return end_of(pen, pen.the("acceleration", point), vector, back=True)
     start = second_image_under(pen, partner(pair, link), point)
-    return start if vector is None else end_of(pen, lay_off_turned, start, vector)
+    return start if vector is None else end_of(pen, start, vector)
 
 
 def known_end(pen: Pen, pair: Joint, link: str, point: str) -> int:
     """Where the known part of a sliding point's acceleration ends in the plan."""
     vector = turning_component(pen, pair, link, point, point)
     return lay_off_component(pen, pair, link, point, point, vector)
+
+
+def end_on_driven(
+    pen: Pen, link: str, images: tuple[int, int], point: str, block: str, index: str
+) -> int:
+    """The same for a link that a driver slides against another, as its pin on ``point`` is known.
+
+    The ``images`` of the velocity plan are those of that point and of the link's own point there.
+    """
+    vector = coriolis_of(pen, link, *images, point, block, index=index)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        return end_of(pen, pen.the("acceleration", point), vector)
 
 
 def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:

@@ -12,7 +12,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.program import CLOSE, Step
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.flat_dyads import fits_beside
 from graphkin.construction.higher_class.trial import MOST, Trial
@@ -53,7 +53,7 @@ class Trying(Trial, frozen=True, dict=True):
 
     def action(self, number: int) -> Action:
         """The step that closes the group in the closure of a number, counted from one."""
-        return Action("close", ClosureSolver(self, number))
+        return Action(CLOSE, ClosureSolver(self, number))
 
     def closed_again(self, known: tuple[Any, ...], number: int) -> tuple[Any, ...]:
         """As closed, for scalars; the last ones found are kept.

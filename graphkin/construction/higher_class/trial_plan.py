@@ -17,12 +17,11 @@ from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_p
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.line_words import heading
-from graphkin.construction.core.naming import NAUGHT, drawn_between, drawn_in, has_no_length
+from graphkin.construction.core.naming import NAUGHT, drawn_between, drawn_in, has_no_length, sense
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers.driven_slide import DrivenSlide
-from graphkin.construction.result_tables import sense
 from graphkin.construction.step_sentences import point_parts, point_sentence
 from graphkin.construction.velocity.crossed_image import CrossedImage
 from graphkin.construction.velocity.image_of_link import ImageOfLink

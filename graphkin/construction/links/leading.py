@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from graphkin.construction.guides.led_block import LedBlock
-from graphkin.construction.rolling.led_wheel import LedWheel
 from graphkin.structure.pairs import Leading, Sliding
+
+if TYPE_CHECKING:
+    from graphkin.construction.rolling.led_wheel import LedWheel
 
 
 def led_by(pair: Leading) -> LedBlock | LedWheel:
     """What a pair with a known link gives in each drawing."""
-    return LedBlock(pair) if isinstance(pair, Sliding) else LedWheel(pair)
+    if isinstance(pair, Sliding):
+        return LedBlock(pair)
+    from graphkin.construction.rolling.led_wheel import LedWheel
+
+    return LedWheel(pair)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from msgspec.structs import replace
 
-from graphkin.construction.cams.cam_centre import curvature_centre
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.link_poses import lettered
@@ -161,6 +160,8 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
         if pen.has("position", point):
             continue
         if point in pen.scene.cam_centres:
+            from graphkin.construction.cams.cam_centre import curvature_centre
+
             found = curvature_centre(pen, shapes, base, point)
         elif base.end is None or "@" in base.end:
             found = set_by_axis(pen, shapes, base, point)

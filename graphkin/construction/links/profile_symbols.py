@@ -52,7 +52,7 @@ def edges_of(drawing: Drawing) -> Iterator[Edge]:
 
 def without_radius(edge: Edge) -> Problem:
     """The problem of a profile whose centre lies on it."""
-    about, through = edge.profile
+    about, through = edge.profile.about, edge.profile.through
     found = f"{about} and {through} stand at one place"
     hint = "change the position, or leave the profile out"
     return Problem(f"{place_of(edge.link)}.profiles", found, "an arc with a radius", hint)

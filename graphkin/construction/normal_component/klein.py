@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import Measured
+from graphkin.construction.core.component import Measured, PaletteAction
 from graphkin.construction.core.naming import plan_amount, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, owned
 from graphkin.construction.core.program import Part, Plane
@@ -26,6 +26,8 @@ from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
+    PICKED,
+    SCRIPT,
     NormalComponent,
     bar_line,
     bare,
@@ -117,6 +119,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         "chord": "the common chord",
     }
     laid_off: ClassVar[frozenset[str]] = frozenset()
+    palette: ClassVar[PaletteAction] = PaletteAction("klein", PICKED, SCRIPT, "triangle")
 
     o: str
     centre: int
@@ -172,6 +175,10 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     def letter(self, drawing: Drawing, role: str) -> str:
         """The letter of a corner; where the circles cross, that of what their chord gives."""
         return super().letter(drawing, "foot" if role == "chord" else role)
+
+    def shown_between(self) -> tuple[int | None, ...]:
+        """What the chord cuts off the rod."""
+        return self.foot, self.pivot
 
     # --- saying it -------------------------------------------------------------------------------
 

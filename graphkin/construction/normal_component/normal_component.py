@@ -7,7 +7,6 @@ what the perpendicular cuts off (lab, figure 4).
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from string import digits
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -18,6 +17,8 @@ from graphkin.construction.core.component import (
     LaidOff,
     Measured,
     OwnSizes,
+    PaletteAction,
+    Picks,
     Size,
     TriangleComponent,
 )
@@ -90,6 +91,11 @@ def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
 
 # --- what it is ----------------------------------------------------------------------------------
 
+PICKED = (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",)))
+"""What a page draws it from: the pin, the bar, and the velocity about its other end."""
+SCRIPT = "normal"
+"""The function of the page's script that gives v²/l."""
+
 
 class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     """a_ν = v²/l of a point ``q`` about ``p``, and the right triangle that gives it.
@@ -104,12 +110,14 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     look: ClassVar[str] = "normal"
     effect: ClassVar[Effect] = Effect.NORMAL
     drawn_in: ClassVar[str] = "right triangle"
+    limited: ClassVar[str] = drawn_in
     laid_off_key: ClassVar[str] = ""
     laid_off_reason: ClassVar[str] = "why.normal"
     reasons: ClassVar[Mapping[str, str]] = {"cut": "why.height", "end": "why.over"}
     lines: ClassVar[Mapping[str, str]] = {"line": "{p}{q}", "edge": "⊥ at {tip}"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
+    palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT)
 
     p: str
     q: str
@@ -227,6 +235,19 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         cut, over = self.in_full(drawing, "step.normal-over-apart")
         yield self.cut, cut
         yield self.vector, over
+
+    def stands_at(self, drawing: Drawing) -> int | None:
+        """The pin, where its triangle is drawn."""
+        return None if self.is_hidden(drawing) else self.pin
+
+    def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
+        """The pin, the bar, and the velocity of the pin about its other end."""
+        bar, arrow = picks.bar(self.pivot, self.pin), picks.arrow(self.pivot_image, self.pin_image)
+        return picks.point_or_line(self.pin), bar, arrow
+
+    def shown_between(self) -> tuple[int | None, ...]:
+        """From the pin to what the triangle cuts off the bar, turned over."""
+        return self.pin, self.end
 
     def section(self) -> str:
         """The section of the calculation that holds its relation."""
@@ -376,11 +397,3 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
         return together(found, rest, tail)
     place = firsts[0] + 1
     return [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]
-
-
-def pins_of_triangles(drawing: Drawing, least: int) -> list[complex]:
-    """Where at least so many right triangles stand at one pin of a sheet."""
-    kinds = {id(step.of): step.of for _, step in drawing.normals}.values()
-    drawn = [k for k in kinds if isinstance(k, NormalComponent) and not k.is_hidden(drawing)]
-    pins = Counter(kind.pin for kind in drawn)
-    return [drawing.trace.values[pin] for pin, count in pins.items() if count >= least]

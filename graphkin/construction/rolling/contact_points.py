@@ -140,6 +140,7 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.touch"}
+    marked_as: ClassVar[str] = "contact"
 
     name: str
     wheel: str

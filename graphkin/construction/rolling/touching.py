@@ -21,7 +21,7 @@ R = TypeVar("R")
 def by_contact(draw: Callable[Concatenate[Pen, P], R]) -> Callable[Concatenate[Pen, P], R]:
     """All that a function draws is called for by the contact, or the group with one, it is given.
 
-    Steps inside that another effect calls for, such as a normal component, keep to that.
+    Steps inside that another effect calls for keep to that.
     """
 
     @wraps(draw)

@@ -75,7 +75,7 @@ def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 
 
 @by_contact
-def geared(pen: Pen, group: Geared) -> None:
+def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     """A wheel or rack: the contact has the velocity of what it touches."""
     link, contact = group.link, group.contact
     name = contact_name(contact)
@@ -156,7 +156,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 
 
 @by_contact
-def train(pen: Pen, group: Train) -> None:
+def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     """A planet between two wheels: its centre divides the line of its contacts' images."""
     link, centre = group.wheel, group.centre.point
     names = [contact_name(contact) for contact in group.contacts]
@@ -179,7 +179,7 @@ def on_line_of(
 
 
 @by_contact
-def second_train(pen: Pen, group: Train) -> None:
+def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     """Second image of a planet's centre: normal about the arm's pin, and as the contacts move.
 
     Along the arm the wheels push the planet as they like; across it the contacts' second images

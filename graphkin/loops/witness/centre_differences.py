@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.newton import LoopSolution
@@ -36,7 +37,7 @@ class Sizes(Protocol):
         """Radians per second."""
 
 
-class MotionField(NamedTuple):
+class MotionField(Struct, frozen=True, eq=False):
     """The motion z ↦ motion + turn·(z - start) of a link's points, and the bounds of its errors."""
 
     start: Complexes

@@ -199,8 +199,8 @@ def wheels(ax: Axes, stand: Outline, link: Link) -> None:
 
 def profiles(ax: Axes, stand: Outline, link: Link, size: float) -> None:
     """The arcs of a link's profiles about their contacts; none where a centre stands on its own."""
-    for about, through in link.profiles:
-        centre, contact = stand.places.get(about), stand.places.get(through)
+    for profile in link.profiles:
+        centre, contact = (stand.places.get(p) for p in (profile.about, profile.through))
         if centre is None or contact is None or centre == contact:
             continue
         half = min(PROFILE * size / abs(contact - centre), WIDEST)

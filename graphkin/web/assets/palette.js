@@ -92,7 +92,7 @@ function palette_of(record, all_done) {
     return other === null ? null : minus(value_of(point), value_of(other));
   }
 
-  /** The normal component of a point at the end of a bar, from its velocity about the other end, square to the bar. */
+  /** v²/l of a point at the end of a bar, towards its other end, from its velocity about that, perpendicular to the bar. */
   function normal(point, bar, velocity) {
     const reach = arm(point, bar), speed = value_of(velocity);
     if (!reach || Math.abs(dot(reach, speed)) > SAME * long(reach) * long(speed)) return [];
@@ -113,9 +113,7 @@ function palette_of(record, all_done) {
     similar: (i, j, point) => places_of(i).flatMap(p => places_of(j).filter(q => long(minus(q, p))).map(q =>
       plus(value_of(i), times(minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p)))))),
     coincide: (point, image) => [value_of(image)],
-    triangle: normal,
-    klein: normal,
-    coriolis: (rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))],
+    ...$COMPONENT_FUNCTIONS,
     join: (p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]],
     divide: (p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
       .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share))),
@@ -130,7 +128,7 @@ function palette_of(record, all_done) {
   };
   /** In which drawing the result of an action lies. */
   function plane_of(action, inputs) {
-    if (["triangle", "klein", "coriolis"].includes(action)) return ALONE;
+    if ($COMPONENT_ACTIONS.includes(action)) return ALONE;
     if (["transfer", "pole"].includes(action)) return 0;
     return picks[inputs[action === "coincide" ? 1 : 0]].plane;
   }

@@ -153,7 +153,7 @@ function go(seconds) {
 
 function frame(now) {
   if (!state.playing) return;
-  go(Math.min(now - state.last, 100) / 1000);
+  go(Math.min(Math.max(now - state.last, 0), 100) / 1000); // a frame may have begun before the click
   state.last = now;
   requestAnimationFrame(frame);
 }

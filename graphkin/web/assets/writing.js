@@ -1,7 +1,7 @@
 // The strokes of a step as a pen draws them, one after the other; arcs with the radius that swings.
 const PACE = 5, QUICK = 350, SLOW = 900, MOST_OF_ALL = 2600; // ms to a mm of a stroke, least and most of one, and of all
 const WIDE = Math.PI / 3, FADES = 900; // radians to each side of a tick that an arc is drawn, ms in which it fades
-const STROKES = ".construction,.ray,.compass,.trial,.trial-line,.centre,.inflection,.velocity,.relative-velocity,.acceleration,.normal,.tangential,.coriolis,.sliding,.link,.outline";
+const STROKES = $STROKES;
 let written_at = 0, strokes_left = [];
 
 /** Draw those of the step in sight. */

@@ -10,6 +10,7 @@ import pytest
 
 from graphkin.classroom.grading.graded import Answer, EarnedMark, Status
 from graphkin.classroom.grading.marking import Marker
+from graphkin.classroom.grading.slip_diagnosis import RARER, SHARE, share
 from graphkin.classroom.grading.standard import Standard
 from tests.classroom.grading.students import LABS, drawn, given, marker_of, row, taker
 
@@ -163,3 +164,11 @@ def test_one_wrong_number_among_right_ones_seldom_has_a_name():
         shares.append(sum(bool(each - {""}) for each in found) / len(tried))
     assert max(shares) < 0.3
     assert np.mean(shares) < 0.2, shares
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_no_slip_is_made_more_often_than_the_common_ones(name):
+    """What can be made in several ways, or in some fields only, is rarer; all others are alike."""
+    shares = {slip.name: share(slip) for slip in marker_of(name, 7).slips}
+    assert max(shares.values()) == SHARE
+    assert all(shares[rare] <= SHARE / 2 for rare in RARER if rare in shares)

@@ -16,9 +16,8 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.print_work import PrintOrder
-from graphkin.classroom.quiz.cloze import cloze, weights
 from graphkin.classroom.quiz.gaps import Gap, Taken, gaps
-from graphkin.classroom.quiz.moodle_quiz import bank, questions, variants_of
+from graphkin.classroom.quiz.moodle_quiz import bank, cloze, questions, variants_of, weights
 from graphkin.cli.main import app
 from graphkin.text import LANGUAGES, words
 from tests.classroom.grading.students import LABS, lab_of, marker_of, taker

@@ -15,6 +15,8 @@ from graphkin.construction.core.component import (
     LaidOff,
     Measured,
     OwnSizes,
+    PaletteAction,
+    Picks,
     Size,
     TriangleComponent,
 )
@@ -28,9 +30,10 @@ from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import (
-    Action,
     action,
     join,
+    lay_back,
+    lay_off,
     meet,
 )
 from graphkin.construction.guides.coincident_points import omega_of
@@ -75,18 +78,6 @@ def coriolis_by_hand(base: Point, top: Point, seconds: Real) -> Point:
     return (top - base) / (seconds * seconds)
 
 
-@action("lay-off-coriolis")
-def lay_off_turned(start: Point, vector: Point) -> Point:
-    """A Coriolis acceleration laid off from a point of the plan."""
-    return start + vector
-
-
-@action("lay-back-coriolis")
-def lay_back(start: Point, vector: Point) -> Point:
-    """A vector laid off from a point against its sense."""
-    return start - vector
-
-
 # --- what it is ----------------------------------------------------------------------------------
 
 
@@ -123,6 +114,11 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     lines: ClassVar[Mapping[str, str]] = {"lean": "the leaning line", "edge": "⊥ at {foot}"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"velocity", "foot"})
     slips: ClassVar[Mapping[str, complex]] = {"coriolis_missing": 0, "coriolis_reversed": -1}
+    palette: ClassVar[PaletteAction] = PaletteAction(
+        "coriolis",
+        (("rate", ("rate",)), ("velocity", ("arrow",))),
+        "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
+    )
 
     guide: str
     block: str
@@ -294,6 +290,15 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         beside = abs(cross(pin - pivot, foot - pivot)) / abs(pin - pivot)
         return bool(1000 * beside < NAUGHT * drawing.scales.kL)
 
+    def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
+        """The turning of the guide, and the relative velocity."""
+        arrow = picks.arrow(self.tail, self.tip, symbol(f"v_{self.index}"))
+        return picks.rate(self.omega), arrow
+
+    def shown_between(self) -> tuple[int | None, ...]:
+        """The side of its triangle that it is read off."""
+        return self.foot, self.top
+
     def section(self) -> str:
         """The section of the calculation that holds its relation."""
         return "coriolis_components"
@@ -455,14 +460,14 @@ def corners(scene: Scene) -> str:
     return next((pair for pair in CORNERS if not points & {*pair}), CORNERS[0])
 
 
-def end_of(pen: Pen, laying: Action, start: int, vector: int) -> int:
-    """The component laid off from a point, or back from it, with its arrow."""
+def end_of(pen: Pen, start: int, vector: int, *, back: bool = False) -> int:
+    """The component laid off from a point, or ``back`` from it, with its arrow."""
     component = pen.steps[vector].of
     assert isinstance(component, CoriolisComponent)
-    key, back = ("laid off", start, vector), laying is lay_back
+    key = ("laid off", start, vector)
     if back or key not in pen.shared:
         with pen.calls_for(Effect.CORIOLIS):
-            pen.shared[key] = pen.draw(laying, start, vector)
+            pen.shared[key] = pen.draw(lay_back if back else lay_off, start, vector)
         corner = pen.shared[key]
         pen.make(LaidOff(component=component, start=start, corner=corner, back=back))
     corner = pen.shared[key]

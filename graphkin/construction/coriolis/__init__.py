@@ -1,1 +1,0 @@
-"""Points that slide on what turns: coincident points and the Coriolis component."""
