@@ -376,7 +376,7 @@ class Session:
             with self.writing:
                 return save_files(self.folder, files, replace=replace)
 
-        return self.saving(saved, wanted.text, wanted.language)
+        return self.saving(saved, wanted.text, order.choice("page_language", LANGUAGES))
 
     def saving(self, work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
         """What was written, what is in the way, or why nothing was written."""

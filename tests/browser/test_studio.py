@@ -103,12 +103,12 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     assert page.inner_text("#scene-part .under mark") == "forty"
     assert page.is_visible("#old")
     english = page.inner_text("#problems")
-    for language, words in (("ro", "se aștepta un număr"), ("it", "atteso: un numero")):
+    for language, words in (("ro", "aici stă un număr"), ("it", "qui sta un numero")):
         page.select_option("#language", language)
         page.locator("#problems", has_text=words).wait_for(timeout=LONG)
         page.wait_for_selector("body[data-settled=true]", timeout=LONG)
     page.select_option("#language", "en")
-    page.locator("#problems", has_text="expected a number").wait_for(timeout=LONG)
+    page.locator("#problems", has_text="a number stands here").wait_for(timeout=LONG)
     assert page.inner_text("#problems") == english
     page.click("#problems button")
     assert selection(page) == "forty"

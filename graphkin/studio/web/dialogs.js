@@ -112,7 +112,12 @@ export function saveSheets(fields) {
     said.textContent = say("studio.drawing_sheets");
     find("draw").disabled = true;
     try {
-      const chosen = { formats, view: find("view").value, language: find("sheet-language").value };
+      const chosen = {
+        formats,
+        view: find("view").value,
+        language: find("sheet-language").value,
+        page_language: language,
+      };
       const answer = await saved("sheets", { ...fields(), ...chosen });
       said.textContent = "";
       if (answer?.problems.length) said.textContent = answer.problems.map(sentence).join(" ");
