@@ -45,11 +45,12 @@ if TYPE_CHECKING:
 @language_option
 @ink_option
 @formats_option(
-    "svg,pdf,html,dxf",
+    "svg,pdf,html,dxf,pmks",
     "svg,pdf",
     "Kinds of file to write; calculations come as PDF only. html: one page for a browser,"
     " which draws itself step by step (key and steps alike), or holds the task. dxf: the drawings"
-    " at true scale for a CAD program, a layer for each class of line; needs the extra [cad].",
+    " at true scale for a CAD program, a layer for each class of line; needs the extra [cad]. pmks:"
+    " the mechanism for PMKS+, where it has only pins, blocks on fixed guides and one crank.",
 )
 @force_option
 def sheet(
@@ -76,7 +77,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
-    kinds = formats_of(formats, (*FORMATS, "html", "dxf"))
+    kinds = formats_of(formats, (*FORMATS, "html", "dxf", "pmks"))
     from graphkin.writers.files import file_stem, rendered, write_all
 
     mechanism = mechanism_of(name, settings)
@@ -87,7 +88,11 @@ def sheet(
 
         page = hand_out_page(mechanism, name, stem, view, lang, ink)
         files[f"{stem}-{view}.html"] = page.encode("utf-8")
-    if kinds != ("html",):
+    if "pmks" in kinds:
+        from graphkin.documents.pmks_file import pmks_file
+
+        files[f"{stem}.pmks"] = pmks_file(mechanism)
+    if {*kinds} - {"html", "pmks"}:
         from graphkin.documents.sheet_documents import hand_out
 
         for part in hand_out(mechanism, view=view, language=lang):

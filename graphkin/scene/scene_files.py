@@ -9,6 +9,8 @@ from graphkin.text.errors import Problem, SceneError
 HERE = Path(__file__).resolve().parents[1]
 SHELVES = (HERE / "sheets", HERE.parent / "sheets")
 """The package's own shelf (a wheel), then the checkout's (an editable install)."""
+EXAMPLES = (HERE / "scenes", HERE.parent / "examples" / "scenes")
+"""The folders with the scenes that come with it, likewise."""
 LAB = "lab.toml"
 """The file that makes a scene a lab."""
 
@@ -28,6 +30,12 @@ def shelf() -> Path:
 def names() -> list[str]:
     """Names of the shipped labs, in alphabetical order."""
     return sorted(path.parent.name for path in shelf().glob("*/scene.toml"))
+
+
+def examples() -> dict[str, Path]:
+    """The scenes that come with it and are no labs, by name, in alphabetical order."""
+    found = next((folder for folder in EXAMPLES if folder.is_dir()), None)
+    return {} if found is None else {path.stem: path for path in sorted(found.glob("*.toml"))}
 
 
 def folder(name: str | Path) -> Path | None:

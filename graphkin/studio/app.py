@@ -11,7 +11,7 @@ from graphkin.drawing.glyphs import FILES
 from graphkin.drawing.glyphs import FOLDER as FONTS
 from graphkin.studio.guard import FRAMED
 from graphkin.studio.page_requests import MOST_BYTES, PageRequest, PageRequestError
-from graphkin.studio.session import Session
+from graphkin.studio.session import OPENED, Session
 from graphkin.studio.studio_page import page
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import GraphkinError
@@ -48,7 +48,7 @@ def application(session: Session) -> Any:
     app.config["catchall"] = False  # a fault is told where the studio was started
     app.route("/", "GET", lambda: start_page(session))
     app.route("/moving/<key:re:[a-zA-Z0-9_-]+>", "GET", lambda key: moving_page(session, key))
-    app.route("/scenes", "GET", lambda: record(session.listed()))
+    app.route("/scenes", "GET", lambda: record(session.listed(asked_language() or "en")))
     app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", static)
     for name in WORK:
         app.route(f"/{name}", "POST", answering(getattr(session, name)))
@@ -78,15 +78,22 @@ def start_page(session: Session) -> Any:
     """The page with the text that its address names."""
     from bottle import request
 
-    scene, lab, language = (
-        str(request.query.getunicode(key, "")) for key in ("scene", "lab", "lang")
-    )
+    asked = {key: str(value) for key in OPENED if (value := request.query.getunicode(key, ""))}
+    kind, name = next(iter(asked.items()), ("", ""))
     try:
-        opened = session.open(scene, lab, empty="empty" in request.query)
+        opened = session.open(name, kind)
     except GraphkinError as error:
         return answer(404, "text/plain", f"{error}\n".encode())
-    words = session.words(opened.text, language if language in LANGUAGES else "")
+    words = session.words(opened.text, asked_language())
     return answer(200, "text/html", page(opened, words).encode())
+
+
+def asked_language() -> str:
+    """The language that an address names; nothing for one that is none."""
+    from bottle import request
+
+    language = str(request.query.getunicode("lang", ""))
+    return language if language in LANGUAGES else ""
 
 
 def moving_page(session: Session, key: str) -> Any:

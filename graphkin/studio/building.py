@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from cmath import phase, rect
 from collections.abc import Callable, Iterator, Mapping
-from itertools import count, product
+from itertools import count, pairwise, product
 from math import degrees, radians
 from string import ascii_uppercase
 from typing import Any
@@ -81,7 +81,18 @@ def built(text: str, act: Act) -> Built:
     after = tomlkit.dumps(work.document)
     if act.kind != "close":
         after = closed(after, work.places)
-    return Built(after, work.places)
+    return Built(spaced(after, text), work.places)
+
+
+def spaced(text: str, before: str) -> str:
+    """A text with a blank line above each heading that is new in it."""
+    lines, known = text.split("\n"), {*before.split("\n")}
+    found = lines[:1]
+    for above, line in pairwise(lines):
+        if line.startswith("[") and line not in known and above.strip():
+            found.append("")
+        found.append(line)
+    return "\n".join(found)
 
 
 def refuse_shapes(tables: Mapping[str, Any]) -> None:
@@ -527,6 +538,8 @@ def forget(work: Builder) -> None:
     for key in list(branches):
         if key not in known or not set(str(branches[key]).replace("-", " ").split()[2:]) <= known:
             branches.pop(key)
+    if "branches" in work.document and not branches:
+        work.document.pop("branches")
     for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
         for n in reversed(range(len(ask[key]))):
             if not {str(ask[key][n]).partition("@")[0]} <= known:

@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from graphkin.scene.phrases import KEYWORDS
 from graphkin.scene.read_scene import known_keys
-from graphkin.studio.problem_places import units
+from graphkin.studio.mends import units
 from graphkin.studio.toml_spans import Span, spans
 
 EVERY = """

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 from graphkin.scene import scene_files
-from graphkin.scene.file_limits import decoded, read_bytes
-from graphkin.scene.read_scene import read_text
+from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.text.errors import Problem, SceneError
 from graphkin.writers.files import RESERVED
 
@@ -79,6 +79,12 @@ class Folder:
         except SceneError:
             return False
 
+    def free(self, name: str) -> str:
+        """A name like that of a scene, under which there is nothing here yet."""
+        stem = stem_of(name)
+        names = (f"{stem}-{n}{ENDING}" for n in count(2))
+        return next(each for each in names if not os.path.lexists(self.root / each))
+
     def read(self, name: str) -> str:
         """The text of a scene. Raises SceneError where there is none, or none that can be read."""
         path = self.path(name)
@@ -141,10 +147,22 @@ def stem_of(name: str) -> str:
     return folders[-1] if folders and file == SCENE else file.removesuffix(ENDING)
 
 
-def shipped() -> Iterator[tuple[str, str]]:
+def shipped(language: str) -> list[tuple[str, str]]:
     """The labs that come with graphkin: names and titles."""
-    for name in scene_files.names():
-        yield name, read_text(shipped_text(name), name).title
+    return [(name, title_of(shipped_text(name), language)) for name in scene_files.names()]
+
+
+def examples(language: str) -> list[tuple[str, str]]:
+    """The other scenes that come with it: names and titles."""
+    return [(name, title_of(example_text(name), language)) for name in scene_files.examples()]
+
+
+def title_of(text: str, language: str) -> str:
+    """The title of a scene that comes with it, in a language where it has one there."""
+    tables = tables_of(text)
+    titles = tables.get("titles")
+    own = titles.get(language) if isinstance(titles, dict) else None
+    return str(own or tables.get("title", ""))
 
 
 def shipped_text(name: str) -> str:
@@ -152,6 +170,14 @@ def shipped_text(name: str) -> str:
     if name not in scene_files.names():
         raise SceneError(Problem("lab", f"there is no lab {name}", ", ".join(scene_files.names())))
     return decoded(read_bytes(scene_files.shelf() / name / SCENE))
+
+
+def example_text(name: str) -> str:
+    """The text of another scene that comes with it. Raises SceneError for a name that is none."""
+    found = scene_files.examples().get(name)
+    if found is None:
+        raise SceneError(Problem("scene", f"there is no scene {name}", "one that is listed"))
+    return decoded(read_bytes(found))
 
 
 def shipped_rules(name: str) -> str:

@@ -21,7 +21,7 @@ from graphkin.drawing.columns import Row
 from graphkin.drawing.scale import ratio
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.studio.lab_work import LabProposal, LabTexts
-from graphkin.studio.problem_places import Edit, units
+from graphkin.studio.mends import Edit, units
 from graphkin.studio.result_panel import table
 from graphkin.text import Words
 

@@ -21,6 +21,7 @@ from graphkin.studio.result_panel import margins, results, verdict_words
 from graphkin.studio.sliders import sliders
 from graphkin.text import Words, words
 from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.problems import spoken
 
 SETTING = "setting "
 """What begins the place of a problem of a parameter that is set from outside."""
@@ -54,10 +55,11 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
         scene = read(sight)
         found["sliders"] = [to_builtins(each) for each in sliders(scene)]
         found["title"] = scene.titles.get(sight.language, scene.title)
-        found |= drawn(Mechanism(scene), sight, memory, found["problems"], go_on)
+        mechanism = memory.mechanism(scene, sight.text)
+        found |= drawn(mechanism, sight, memory, found["problems"], go_on)
     except GraphkinError as error:
         found["problems"] += error.problems
-    found["problems"] = [told(mark) for mark in marked(found["problems"], sight.text)]
+    found["problems"] = told_in(found["problems"], sight.text, sight.language)
     return found
 
 
@@ -124,21 +126,25 @@ def doubts(margin: float, verdict: Verdict) -> list[Problem]:
     return [Problem("position", flattest, f"at least {FAIR:g}", hint), *found]
 
 
-def told(mark: MarkedProblem) -> dict[str, Any]:
+def told_in(problems: Iterable[Problem], text: str, language: str) -> list[dict[str, Any]]:
+    """Problems of a text as records, in the language of the page and the order of the text."""
+    return [told(mark, language) for mark in marked(problems, text)]
+
+
+def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
     """A problem as a record, with its line and what to select; the setting it is about, if any."""
-    problem = mark.problem
-    setting = problem.place.removeprefix(SETTING) if problem.place.startswith(SETTING) else ""
+    place, said = mark.problem.place, spoken(mark.problem, language)
     return {
-        "place": problem.place,
-        "found": problem.found,
-        "expected": problem.expected,
-        "hint": str(problem.hint),
-        "mend": mark.mend and to_builtins(mark.mend),
+        "place": said.place,
+        "found": said.found,
+        "expected": said.expected,
+        "hint": str(said.hint),
+        "mends": [to_builtins(mend) for mend in mark.mends],
         "line": mark.line,
         "column": mark.column,
         "start": mark.start,
         "end": mark.end,
-        "setting": setting,
+        "setting": place.removeprefix(SETTING) if place.startswith(SETTING) else "",
     }
 
 

@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, spans
+from graphkin.construction.core.program import Program
 from graphkin.documents.captions import apart
 from graphkin.documents.detail import with_detail
 from graphkin.documents.inset import insets
@@ -25,6 +26,8 @@ from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Mark, reach
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.drawing.style import in_variables
+from graphkin.mechanism import Mechanism
+from graphkin.scene.model import Scene
 from graphkin.studio.follow_labels import FollowLabels, riding, seats_of
 from graphkin.text.errors import PageError, Problem
 from graphkin.writers.html_markup import marked_up
@@ -55,13 +58,27 @@ class AtRest(Struct, frozen=True):
 class Memory(Struct):
     """What stays from one answer to the next: scales and fields, seats of labels, edges.
 
-    ``frames`` are the edges of the drawings at rest, ``edges`` those of the drawings as they move.
+    ``frames`` are the edges of the drawings at rest, ``edges`` those of the drawings as they move;
+    ``program`` is the construction of a text, which is one for all values of its parameters.
     """
 
     at_rest: AtRest | None = None
     seats: dict[tuple[str, str], FollowLabels] = field(default_factory=dict)
     frames: dict[tuple[str, str], Rect] = field(default_factory=dict)
     edges: dict[tuple[str, str], Rect] = field(default_factory=dict)
+    program: tuple[str, Program] | None = None
+
+    def mechanism(self, scene: Scene, text: str) -> Mechanism:
+        """The mechanism of a text, its construction written once.
+
+        Raises StructureError where the values of its parameters let it not be put together.
+        """
+        found = Mechanism(scene)
+        if self.program and self.program[0] == text and found.groups:
+            found.__dict__["program"] = self.program[1]
+        else:
+            self.program = text, found.program
+        return found
 
     def held(self, text: str) -> Scales | None:
         """The scale factors that are kept while values of a text move; None where none are."""

@@ -9,8 +9,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from msgspec import Struct
 
 from graphkin.scene.file_limits import WHERE
+from graphkin.studio.mends import Edit, mends_of, units
 from graphkin.studio.toml_spans import Path, Span, spans, unquoted
-from graphkin.text.errors import Mend, Problem
+from graphkin.text.errors import Problem
 
 PART = re.compile(r'"(?:\\.|[^"\\])*"|\[(\d+)\]|[^.\[\]"]+')
 LINE = re.compile(r"line (\d+)")
@@ -28,25 +29,11 @@ VERSION = ("graphkin",)
 DRIVERS = ("drivers",)
 
 
-class Edit(Struct, frozen=True):
-    """A piece of the text, counted as a browser does, and what comes in its place.
-
-    ``name`` is the parameter, ``before`` the value that stands there now.
-    """
-
-    start: int
-    end: int
-    text: str
-    name: str = ""
-    before: str = ""
-
-
 class MarkedProblem(Struct, frozen=True):
     """A problem with where it stands: its line from 1, 0 where it has none, and what to select.
 
     ``start`` and ``end`` count as a browser does, a sign beyond the basic plane as two. ``column``,
-    from 1, is where the text fails to be TOML. ``mend`` is the change that its hint proposes, if it
-    stands in the text just once where the problem is.
+    from 1, is where the text fails to be TOML. ``mends`` are changes of which each would mend it.
     """
 
     problem: Problem
@@ -54,7 +41,7 @@ class MarkedProblem(Struct, frozen=True):
     start: int = 0
     end: int = 0
     column: int = 0
-    mend: Edit | None = None
+    mends: tuple[Edit, ...] = ()
 
 
 def marked(problems: Iterable[Problem], text: str) -> list[MarkedProblem]:
@@ -67,38 +54,17 @@ def marked(problems: Iterable[Problem], text: str) -> list[MarkedProblem]:
 
 def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
     """A problem at a span, cut to its first line."""
+    mends = tuple(mends_of(problem, text, span))
     if span is None:
-        return MarkedProblem(problem)
+        return MarkedProblem(problem, mends=mends)
     start, end = span
-    mend = mend_of(problem, text, span)
     stop = text.find("\n", start)
     end = min(end, len(text) if stop < 0 else stop)
     line = text.count("\n", 0, start) + 1
     told = LINE.fullmatch(problem.place)
     column = failing(text, line) if told else None
     column = 0 if column is None else column + 1
-    return MarkedProblem(problem, line, units(text[:start]), units(text[:end]), column, mend)
-
-
-def mend_of(problem: Problem, text: str, span: Span) -> Edit | None:
-    """The change that the hint of a problem proposes, in the lines of its span."""
-    hint = problem.hint
-    if not isinstance(hint, Mend):
-        return None
-    first = text.rfind("\n", 0, span.start) + 1
-    stop = text.find("\n", span.end)
-    lines = text[first : stop if stop >= 0 else len(text)]
-    before, after = (r"\b" if re.match(r"\w", sign) else "" for sign in (hint.old[0], hint.old[-1]))
-    found = [*re.finditer(before + re.escape(hint.old) + after, lines)]
-    if len(found) != 1:
-        return None
-    start, end = (units(text[: first + at]) for at in found[0].span())
-    return Edit(start, end, hint.new, before=hint.old)
-
-
-def units(text: str) -> int:
-    """The length of a text as a browser counts it."""
-    return len(text.encode("utf-16-le", "surrogatepass")) // 2
+    return MarkedProblem(problem, line, units(text[:start]), units(text[:end]), column, mends)
 
 
 def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:

@@ -25,7 +25,8 @@ from graphkin.writers.files import file_stem, rendered, write_all
 
 VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
-FORMATS = ("svg", "pdf", PAGE, "dxf")
+PMKS = "pmks"
+FORMATS = ("svg", "pdf", PAGE, "dxf", PMKS)
 MOST_LINES = 12
 """Lines that are shown of what saving would change in a file that is in the way."""
 
@@ -140,7 +141,11 @@ def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
         lab = lab_of(folder, name, text)
         page = hand_out_page(mechanism, lab, stem, view, language)
         files[f"{stem}-{view}.{PAGE}"] = page.encode("utf-8")
-    if set(formats) - {PAGE}:
+    if PMKS in formats:
+        from graphkin.documents.pmks_file import pmks_file
+
+        files[f"{stem}.{PMKS}"] = pmks_file(mechanism)
+    if set(formats) - {PAGE, PMKS}:
         for part in hand_out(mechanism, view=view, language=language):
             files |= rendered(
                 f"{stem}-{part.kind}-{view}", part.kind, part.pages, formats, steps=view == "steps"

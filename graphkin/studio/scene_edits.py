@@ -8,7 +8,7 @@ from fractions import Fraction
 from graphkin.scene.findings import Findings
 from graphkin.scene.parameters import plain, rational
 from graphkin.scene.quantity import shortest
-from graphkin.studio.problem_places import Edit, units
+from graphkin.studio.mends import Edit, units
 from graphkin.studio.toml_spans import values
 from graphkin.text.errors import SceneError
 

@@ -14,6 +14,7 @@ from msgspec import Struct, to_builtins
 from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.classroom.page_documents import hand_out_page
 from graphkin.construction.core.quantities import SHEETS
+from graphkin.diagnosis.ranges import driver_words
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import tables_of
@@ -23,6 +24,8 @@ from graphkin.studio.folder import (
     ENDING,
     Folder,
     completed,
+    example_text,
+    examples,
     shipped,
     shipped_rules,
     shipped_text,
@@ -31,10 +34,9 @@ from graphkin.studio.folder import (
 from graphkin.studio.guard import new_token
 from graphkin.studio.lab_panel import lab_advice, lab_report
 from graphkin.studio.lab_work import LabProblems, LabTexts, beside, proposal_of, trial_of
-from graphkin.studio.look import Sight, look, spoken_in, told
+from graphkin.studio.look import Sight, look, spoken_in, told_in
 from graphkin.studio.page_requests import PageRequest, PageRequestError
 from graphkin.studio.panels import Memory, StaleError
-from graphkin.studio.problem_places import marked
 from graphkin.studio.saving import (
     FORMATS,
     VIEWS,
@@ -51,6 +53,10 @@ from graphkin.studio.sketch import sketch
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import GraphkinError, SceneError
 
+OPENED = ("lab", "example", "like", "empty", "scene")
+"""What an address may ask to open, by its key."""
+PICTURED = ("scene", "lab", "example")
+"""What has a picture in the gallery."""
 TABS = 8
 """Pages whose last drawing is remembered."""
 EMPTY = """graphkin = 1
@@ -62,18 +68,23 @@ FIRST = "graphkin ="
 """How the first line of a scene begins."""
 
 
-def with_curves(mechanism: Mechanism, stem: str, language: str) -> str:
-    """The page of a cycle: mechanism, plans and curves that move together."""
+def language_in(order: PageRequest) -> str:
+    """The language of the page."""
+    return order.choice("language", LANGUAGES)
+
+
+def with_curves(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
+    """The page of a cycle, of one driver or of all with the time: what moves together."""
     from graphkin.motion.cycle import cycle
     from graphkin.web.frames import motion
     from graphkin.web.player import player_page
 
     spoken = spoken_in(language)
-    return player_page(motion(cycle(mechanism), spoken), spoken)
+    return player_page(motion(cycle(mechanism, driver=driver), spoken), spoken)
 
 
-def step_by_step(mechanism: Mechanism, stem: str, language: str) -> str:
-    """The page that draws itself, whose pins are dragged."""
+def step_by_step(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
+    """The page that draws itself, whose pins are dragged, each driver's by its own handle."""
     return hand_out_page(mechanism, stem, stem, language=language)
 
 
@@ -128,25 +139,35 @@ class Session:
             return {"lab": name, **lab}
         return {"scene": self.folder.name_of(scene_files.find(name)), **lab}
 
-    def open(self, scene: str, lab: str, *, empty: bool = False) -> Opened:
-        """The text of a scene here, of a shipped lab, one to start from, or an empty field.
+    def open(self, name: str, kind: str) -> Opened:
+        """The text of a scene here, or like it under another name; of a lab or another scene that
+        comes with graphkin; an empty field; one to start from.
 
         Raises SceneError for a name that is none.
         """
-        if lab:
-            return Opened(f"{lab}{ENDING}", shipped_text(lab), rules=shipped_rules(lab))
-        if empty:
-            return Opened(f"new{ENDING}", EMPTY)
-        if scene:
-            text, mark = self.folder.read(scene), mark_of_file(self.folder.path(scene))
-            rules = self.folder.rules(scene)
-            own = mark_of_file(self.folder.lab_path(scene)) if rules else ""
-            return Opened(scene, text, mark, rules, own)
+        match kind:
+            case "lab":
+                return Opened(f"{name}{ENDING}", shipped_text(name), rules=shipped_rules(name))
+            case "example":
+                return Opened(f"{name}{ENDING}", example_text(name))
+            case "like":
+                return Opened(self.folder.free(name), self.folder.read(name))
+            case "empty":
+                return Opened(f"new{ENDING}", EMPTY)
+            case "scene":
+                text, mark = self.folder.read(name), mark_of_file(self.folder.path(name))
+                rules = self.folder.rules(name)
+                own = mark_of_file(self.folder.lab_path(name)) if rules else ""
+                return Opened(name, text, mark, rules, own)
         return Opened(f"new{ENDING}", start_text())
 
-    def listed(self) -> dict[str, Any]:
-        """The scenes that can be opened: those here, and the labs that come with graphkin."""
-        return {"scenes": self.folder.scenes(), "labs": [list(lab) for lab in shipped()]}
+    def listed(self, language: str) -> dict[str, Any]:
+        """The scenes that can be opened: those here, and what comes with graphkin."""
+        return {
+            "scenes": self.folder.scenes(),
+            "labs": shipped(language),
+            "examples": examples(language),
+        }
 
     def look(self, order: PageRequest) -> dict[str, Any]:
         """What is seen of a text; only that it is stale where a newer one was asked for since."""
@@ -154,7 +175,7 @@ class Session:
         sight = Sight(
             order.scene(),
             stem_of(order.text("name")),
-            order.choice("language", LANGUAGES),
+            language_in(order),
             order.settings(),
             order.choice("mechanism", SHEETS),
             order.flag("quick"),
@@ -228,14 +249,14 @@ class Session:
         """What comes of a lab's texts in a process beside this one, as it is told on the page."""
         tab, number = f"{order.text('tab')} lab", order.number("number")
         texts = LabTexts(order.scene(), order.long_text("rules"), stem_of(order.text("name")))
-        words = spoken_in(order.choice("language", LANGUAGES))
+        words = spoken_in(language_in(order))
         self.arrived(tab, number)
         try:
             found = beside(work, texts, lambda: self.still_wanted(tab, number))
         except StaleError:
             return {"stale": True, "number": number}
         if isinstance(found, LabProblems):
-            wrong = [told(mark) for mark in marked(found.rules, texts.rules)]
+            wrong = told_in(found.rules, texts.rules, words.language)
             return {"problems": wrong, "scene_wrong": bool(found.scene), "number": number}
         known = to_builtins(told_of(found, texts, words))
         return {"problems": [], "scene_wrong": False, "number": number, **known}
@@ -243,32 +264,36 @@ class Session:
     def student(self, order: PageRequest) -> dict[str, Any]:
         """The sheets of one student, or why they cannot be drawn."""
         text, name = order.scene(), completed(order.text("name"))
-        language, view = order.choice("language", LANGUAGES), order.choice("view", VIEWS)
+        language, view = language_in(order), order.choice("view", VIEWS)
         wanted = WantedSheets(text, name, order.settings(), language, view, ("svg",))
         try:
             with self.drawing():
                 sheets = sheets_of(self.folder, wanted)
         except GraphkinError as error:
-            problems = [told(mark) for mark in marked(error.problems, text)]
+            problems = told_in(error.problems, text, language_in(order))
             return {"sheets": [], "problems": problems}
         return {"sheets": [data.decode("utf-8") for data in sheets.values()], "problems": []}
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
         """Where the page of a mechanism that moves is found: with curves, or step by step."""
         text, stem = order.scene(), stem_of(order.text("name"))
-        language, kind = order.choice("language", LANGUAGES), order.choice("page", MOVING)
+        language, kind = language_in(order), order.choice("page", MOVING)
+        drivers: list[str] = []
         try:
             mechanism = Mechanism(read_text(text, stem, None, order.settings()))
+            drivers = [driver_words(driver) for driver in mechanism.scene.drivers]
+            driver = order.number("driver")
+            moved = driver if len(drivers) > 1 and 1 <= driver <= len(drivers) else None
             with self.drawing():
-                page = MOVING_PAGES[kind](mechanism, stem, language)
+                page = MOVING_PAGES[kind](mechanism, stem, language, moved)
         except GraphkinError as error:
-            problems = [told(mark) for mark in marked(error.problems, text)]
-            return {"page": "", "problems": problems}
+            problems = told_in(error.problems, text, language)
+            return {"page": "", "problems": problems, "drivers": drivers}
         key = new_token()
         self.moving[key] = page
         while len(self.moving) > TABS:
             self.moving.popitem(last=False)
-        return {"page": f"moving/{key}", "problems": []}
+        return {"page": f"moving/{key}", "problems": [], "drivers": drivers}
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
         """A lab.toml to start from, for any scene; or why there can be none."""
@@ -276,7 +301,7 @@ class Session:
         try:
             rules = rules_for(Mechanism(read_text(text, stem_of(order.text("name")))))
         except GraphkinError as error:
-            return {"rules": "", "problems": [told(mark) for mark in marked(error.problems, text)]}
+            return {"rules": "", "problems": told_in(error.problems, text, language_in(order))}
         return {"rules": rules, "problems": []}
 
     def write(self, order: PageRequest) -> dict[str, Any]:
@@ -285,14 +310,14 @@ class Session:
         try:
             return {"edits": [to_builtins(edit) for edit in edits(text, settings)], "problems": []}
         except GraphkinError as error:
-            return {"edits": [], "problems": [told(mark) for mark in marked(error.problems, text)]}
+            return {"edits": [], "problems": told_in(error.problems, text, language_in(order))}
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
-        """The sketch of a scene here or of a lab; none of one that cannot be read."""
-        scene, lab = order.text("scene"), order.text("lab")
+        """The sketch of a scene in the gallery; none of one that cannot be read."""
+        kind = order.choice("kind", PICTURED)
         try:
             with self.drawing():
-                opened = self.open(scene, lab)
+                opened = self.open(order.text("name"), kind)
                 seen = sketch(opened.text, stem_of(opened.name), {})
         except GraphkinError:
             return {"sketch": None}
@@ -316,7 +341,7 @@ class Session:
             with self.drawing():
                 after = built(text, act)
         except GraphkinError as error:
-            return {"text": text, "problems": [told(mark) for mark in marked(error.problems, text)]}
+            return {"text": text, "problems": told_in(error.problems, text, language_in(order))}
         stand = {name: [at.real, at.imag] for name, at in after.places.items()}
         return {"text": after.text, "places": stand, "problems": []}
 
@@ -331,7 +356,7 @@ class Session:
             with self.writing:
                 return save_scene(self.folder, whole, text, mark, replace=replace, rules=rules)
 
-        return self.saving(saved, text)
+        return self.saving(saved, text, language_in(order))
 
     def sheets(self, order: PageRequest) -> dict[str, Any]:
         """Draw and save the sheets of a text."""
@@ -339,7 +364,7 @@ class Session:
             order.scene(),
             completed(order.text("name")),
             order.settings(),
-            order.choice("language", LANGUAGES),
+            language_in(order),
             order.choice("view", VIEWS),
             order.choices("formats", FORMATS),
         )
@@ -351,14 +376,14 @@ class Session:
             with self.writing:
                 return save_files(self.folder, files, replace=replace)
 
-        return self.saving(saved, wanted.text)
+        return self.saving(saved, wanted.text, order.choice("page_language", LANGUAGES))
 
-    def saving(self, work: Callable[[], Saved], text: str) -> dict[str, Any]:
+    def saving(self, work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
         """What was written, what is in the way, or why nothing was written."""
         try:
             return {**to_builtins(work()), "problems": []}
         except GraphkinError as error:
-            problems = [told(mark) for mark in marked(error.problems, text)]
+            problems = told_in(error.problems, text, language)
         return {**to_builtins(Saved()), "problems": problems}
 
 

@@ -73,10 +73,13 @@ class Moving(Struct, frozen=True):
     tracing: Tracing
 
 
-def moving(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Moving | None:
-    """How the marks of some sheets follow the driver; None where ``still`` says why they cannot."""
+def moving(
+    mechanism: Mechanism, sheets: Sequence[ScreenSheet], number: int | None = None
+) -> Moving | None:
+    """How the marks of some sheets follow the driver, driver ``number`` of several; None where
+    ``still`` says why they cannot."""
     try:
-        driven = driven_by(mechanism.scene, figures(mechanism))
+        driven = driven_by(mechanism.scene, figures(mechanism), number)
         return None if driven is None else put_together(Tracing(mechanism, driven), sheets)
     except (GraphkinError, UntraceableError):
         return None

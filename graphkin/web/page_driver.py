@@ -117,12 +117,17 @@ class PageDriver(Struct, frozen=True):
         return (place if led is None else place + known[led.name] * led.metres), speed, push
 
 
-def driven_by(scene: Scene, figures: tuple[GivenFigure, ...] = ()) -> PageDriver | None:
-    """What moves a scene: its only driver, else the time; None without a driver."""
+def driven_by(
+    scene: Scene, figures: tuple[GivenFigure, ...] = (), number: int | None = None
+) -> PageDriver | None:
+    """What moves a scene: its only driver, or driver ``number`` of several while the others stand
+    still, else the time; None without a driver."""
     if not scene.drivers:
         return None
-    number = chosen(scene, None)
-    if number is None or law_of_time(scene):
+    if number is None and law_of_time(scene):
+        return PageDriver(scene, None, "time", time_of(scene), "s", figures=figures)
+    number = chosen(scene, number)
+    if number is None:
         return PageDriver(scene, None, "time", time_of(scene), "s", figures=figures)
     driver = scene.drivers[number - 1]
     place = stated(driver, scene)[0]
@@ -155,7 +160,9 @@ def window(driven: PageDriver) -> tuple[float, float]:
     """How far it is looked: a turn, or as far as the sweeps of a cycle go."""
     if driven.what == "turn":
         return driven.start - TURN, driven.start + TURN
-    sweep = sweep_of(driven.scene)
+    own = driven.driver
+    number = None if own is None else driven.scene.drivers.index(own) + 1
+    sweep = sweep_of(driven.scene, driver=number)
     if driven.what == "time":
         return min(sweep.low, driven.start), driven.start + sweep.high
     return sweep.low / driven.metres, sweep.high / driven.metres

@@ -58,7 +58,7 @@ def player_page(motion: FrameSequence, words: Words) -> str:
     """The page of a motion. Raises SceneError where a page cannot move the mechanism as asked."""
     set_up = stage(motion, words, beside=True)
     sheets = screen_sheets(set_up)
-    moved = moving(motion.cycle.mechanism, sheets)
+    moved = moving(motion.cycle.mechanism, sheets, motion.cycle.sweep.number)
     if moved is None or moved.driven.driver is not motion.cycle.sweep.driver:
         raise SceneError(cannot(motion.cycle))
     shown = list(set_up.captions)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from graphkin.mechanism import Mechanism, load
+from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from tests.browser.opening import LONG
 
@@ -128,6 +129,20 @@ def build_pump(hand: Hand) -> None:
     hand.driver(0.3 * at["A"], 370)
     assert hand.count == "No mistakes."
     same(hand.text, "pump", "ABCD")
+
+
+def build_offset_slider_crank(hand: Hand) -> None:
+    """Build the offset slider-crank of a textbook, as the page says how, and hold it against the
+    shipped one."""
+    shipped = str(scene_files.examples()["offset-slider-crank"])
+    at = {name: 1000 * p.position for name, p in load(shipped).solve().points.items()}
+    hand.settled(lambda: hand.page.mouse.click(*hand.pixel(0)))
+    hand.bar("O1", at["A"])
+    hand.bar("A", at["B"])
+    hand.settled(lambda: hand.drag("block", hand.place("B"), hand.place("B") + 60))
+    hand.driver(0.5 * at["A"], 120)
+    assert hand.count == "No mistakes."
+    same(hand.text, shipped, "AB")
 
 
 def build_slotted_lever(hand: Hand) -> None:

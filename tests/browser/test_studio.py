@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from graphkin.mechanism import load
+from graphkin.scene import scene_files
 from graphkin.studio.server import Served
 from tests.browser.opening import LONG, barred, watched
 from tests.studio.pump import PUMP
@@ -101,6 +102,14 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     assert page.locator("#scene-part .gutter .wrong").all_inner_texts() == ["24"]
     assert page.inner_text("#scene-part .under mark") == "forty"
     assert page.is_visible("#old")
+    english = page.inner_text("#problems")
+    for language, words in (("ro", "aici stă un număr"), ("it", "qui sta un numero")):
+        page.select_option("#language", language)
+        page.locator("#problems", has_text=words).wait_for(timeout=LONG)
+        page.wait_for_selector("body[data-settled=true]", timeout=LONG)
+    page.select_option("#language", "en")
+    page.locator("#problems", has_text="a number stands here").wait_for(timeout=LONG)
+    assert page.inner_text("#problems") == english
     page.click("#problems button")
     assert selection(page) == "forty"
     page.keyboard.type("40")
@@ -390,6 +399,9 @@ def test_each_field_shows_its_drawing_whole(studio, lab, size):
     )
     assert len(fields) == 3
     assert min(min(edges) for edges in fields) > -1
+    text, drawings = (page.locator(part).bounding_box() for part in ("#scene-part", "#drawings"))
+    beside = text["x"] + text["width"] <= drawings["x"]
+    assert beside or text["y"] + text["height"] <= drawings["y"]
 
 
 def test_hostile_titles_are_shown_as_text(studio, place):
@@ -432,8 +444,14 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     moving.locator("#play").click()
     page.fill("#text", page.input_value("#text").replace('"Pump mechanism"', '"Pump of mine"'))
     moving.locator("h1", has_text="Pump of mine").wait_for()
+    assert not page.is_visible("#motion-driver")
+    five_bar = scene_files.examples()["five-bar"].read_text("utf-8")
+    page.fill("#text", five_bar)
+    page.select_option("#motion-driver", label="turn = 4")
+    moving.locator("#at[max='360']").wait_for()
     page.check("#motion-kind [value=steps]")
     moving.locator("#turn").wait_for()
+    assert not page.is_visible("#motion-driver")
     page.click("#move")
     assert page.locator("#mechanism").is_visible()
 

@@ -14,6 +14,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.studio.server import Served
 from tests.browser.building_hand import (
     Hand,
+    build_offset_slider_crank,
     build_pump,
     build_slotted_lever,
     four_bar,
@@ -34,6 +35,13 @@ def hand(chromium: Any, served: Served) -> Iterator[Hand]:
 
 def test_the_pump_is_built_from_an_empty_field(hand):
     build_pump(hand)
+
+
+def test_a_newcomer_builds_the_offset_slider_crank(hand):
+    """An empty field says how to begin, and its first click sets a fixed pin."""
+    assert hand.page.inner_text("#how").startswith("Begin with a click")
+    build_offset_slider_crank(hand)
+    assert not barred(hand.page)
 
 
 def test_a_slotted_lever_is_built_from_an_empty_field(hand):
@@ -185,8 +193,15 @@ def test_one_starts_from_a_gallery_with_a_picture_of_each(hand, served, tmp_path
         assert bars.count() >= 3 or lab == "offset-slider-crank"
     assert page.locator("[data-name='broken.toml'] svg").count() == 0
     assert not barred(page)
+    gears = page.locator("#examples [data-name='gears-ring']")
+    gears.scroll_into_view_if_needed()
+    gears.locator("svg circle.wheel").first.wait_for()
+    assert gears.locator("svg circle.wheel").count() == 3
     page.click("#labs [data-name='slotted-lever']")
     page.wait_for_selector("#file[value='slotted-lever.toml']")
+    page.goto(f"{served.address}?gallery=yes")
+    page.click("#scenes li:has([data-name='own.toml']) button:not([data-key])")
+    page.wait_for_selector("#file[value='own-2.toml']")
     page.goto(f"{served.address}?gallery=yes")
     page.click("#from-nothing")
     page.wait_for_selector("#canvas svg[viewBox]")

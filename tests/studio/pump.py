@@ -24,8 +24,8 @@ LONG = 600
 
 
 def seen(text: str = PUMP, memory: Memory | None = None, **options: Any) -> dict[str, Any]:
-    """What is seen of a text, in English."""
-    sight = Sight(text, "scene", "en", **options)
+    """What is seen of a text, in English if no other language is named."""
+    sight = Sight(text, "scene", **{"language": "en", **options})
     return look(sight, memory or Memory(), lambda: None)
 
 

@@ -9,8 +9,10 @@ from typing import Any
 import pytest
 
 from graphkin.studio.editing_help import editing_help, every_key
-from graphkin.studio.problem_places import Edit
+from graphkin.studio.mends import Edit
 from graphkin.text.errors import Mend
+from tests.golden.works import small_text
+from tests.studio.pump import seen
 from tests.studio.test_places import PUMP, SCENES, mistakes, selected_span
 
 KINDS = re.compile(r"\[\d+\]")
@@ -74,11 +76,40 @@ def test_a_mend_leaves_its_mistake_behind(right, wrong):
     """What is proposed, put into the text, takes the mistake away, and brings no other."""
     text = PUMP.replace(right, wrong, 1)
     before = mistakes(text)
-    mended = [mark for mark in before if mark.mend]
+    mended = [mark for mark in before if mark.mends]
     assert mended, [str(mark.problem) for mark in before]
-    after = applied(text, mended[0].mend)
+    after = applied(text, mended[0].mends[0])
     left = {str(mark.problem) for mark in mistakes(after)}
     assert left < {str(mark.problem) for mark in before}
+
+
+@pytest.mark.parametrize(
+    ("name", "count"),
+    [
+        ("a-block-is-driven-as-a-crank", 1),
+        ("a-closure-number-that-there-is-not", 4),
+        ("a-driver-on-a-coupler-that-the-crank-moves", 1),
+        ("a-driver-too-few", 1),
+        ("a-digit-less", 1),
+        ("a-group-of-class-three-needs-its-number", 1),
+        ("branches-that-name-nothing-1-forward", 1),
+        ("guide-on-the-pinned-link-a-link-hangs-loose", 1),
+        ("number-for-a-block", 2),
+        ("side-for-a-way", 2),
+        ("way-for-a-side", 2),
+        ("way-of-the-other-link", 2),
+    ],
+)
+def test_each_mend_that_is_offered_takes_its_mistake_away(name, count):
+    """Of mistakes whose messages say what may stand instead, each of it is offered."""
+    text = small_text("mistakes", name)
+    found = [(each["place"], each["found"], each["mends"]) for each in seen(text)["problems"]]
+    place, words, mends = next(each for each in found if each[2])
+    assert len(mends) == count
+    for mend in mends:
+        edit = Edit(mend["start"], mend["end"], mend["text"])
+        left = seen(applied(text, edit))["problems"]
+        assert (place, words) not in [(each["place"], each["found"]) for each in left]
 
 
 def applied(text: str, edit: Edit) -> str:
@@ -92,7 +123,7 @@ def applied(text: str, edit: Edit) -> str:
 def test_no_change_is_offered_where_it_is_not_clear_which_piece_is_meant():
     (mark,) = mistakes(PUMP.replace('"30 + 2*n"', '"nn + 2*nn"'))
     assert isinstance(mark.problem.hint, Mend)
-    assert mark.mend is None
+    assert not mark.mends
 
 
 def test_names_are_found_where_they_are_written():

@@ -13,6 +13,8 @@ from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene,
 from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
 
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+
 
 @pytest.fixture
 def place(tmp_path) -> Path:
@@ -169,7 +171,7 @@ def test_files_that_are_no_scenes_are_neither_read_nor_replaced(place, name):
 
 def test_a_scene_is_saved_where_it_was_opened_until_somebody_else_changes_it(place):
     session = desk_in(place)
-    opened = session.open("one.toml", "")
+    opened = session.open("one.toml", "scene")
     ours = PUMP.replace("A-B = 40", "A-B = 41")
     assert session.save(ordered(text=ours, name="one.toml", mark=opened.mark))["files"]
     theirs = PUMP.replace("C-D = 20", "C-D = 21")
@@ -218,10 +220,28 @@ def test_a_scene_outside_the_folder_is_not_opened(place, monkeypatch):
 
 def test_what_is_opened_is_what_was_named(place):
     session = desk_in(place)
-    assert session.open("one.toml", "").text == PUMP
-    assert session.open("", "pump").text == PUMP
-    assert session.open("", "pump").name == "pump.toml"
+    assert session.open("one.toml", "scene").text == PUMP
+    assert session.open("pump", "lab").text == PUMP
+    assert session.open("pump", "lab").name == "pump.toml"
     read_text(session.open("", "").text, "new")
-    for scene, lab in (("none.toml", ""), ("", "../pump"), ("../secret.toml", "")):
-        with pytest.raises(SceneError):
-            session.open(scene, lab)
+    for kind in ("scene", "like", "lab", "example"):
+        for name in ("none.toml", "../pump", "../secret.toml", "..", "/etc/passwd", "link.toml"):
+            with pytest.raises(SceneError):
+                session.open(name, kind)
+
+
+def test_one_like_a_scene_has_its_text_and_another_name(place):
+    session = desk_in(place)
+    (place / "one-2.toml").write_text("", encoding="utf-8")
+    opened = session.open("one.toml", "like")
+    assert (opened.name, opened.text, opened.mark) == ("one-3.toml", PUMP, "")
+    assert session.open("lab/scene.toml", "like").name == "lab-2.toml"
+
+
+def test_every_scene_that_comes_with_it_is_listed_with_its_title_and_opened(place):
+    session = desk_in(place)
+    listed = dict(session.listed("it")["examples"])
+    assert len(listed) > 60
+    assert listed["lifter"] == "Meccanismo di sollevamento"
+    for name in listed:
+        assert session.open(name, "example").text == (SCENES / f"{name}.toml").read_text("utf-8")

@@ -104,7 +104,7 @@ def test_scene_and_rules_are_saved_together(session, tmp_path):
     saved = asked(session, "save")
     assert saved["files"] == ("pump/scene.toml", "pump/lab.toml")
     assert read_lab(tmp_path / "pump").text == RULES
-    opened = session.open("pump/scene.toml", "")
+    opened = session.open("pump/scene.toml", "scene")
     assert (opened.rules, opened.rules_mark) == (RULES, saved["rules_mark"])
     (tmp_path / "pump" / "lab.toml").write_text("theirs", encoding="utf-8")
     marks = {"mark": opened.mark, "rules_mark": opened.rules_mark}
@@ -125,7 +125,7 @@ def test_rules_outside_the_folder_are_neither_read_nor_replaced(session, tmp_pat
     (lab / "scene.toml").write_text(PUMP, encoding="utf-8")
     (lab / "lab.toml").symlink_to(outside)
     with pytest.raises(SceneError, match="leads out of the folder"):
-        session.open("lab/scene.toml", "")
+        session.open("lab/scene.toml", "scene")
     assert asked(session, "save", name="lab/scene.toml", replace=True)["problems"]
     assert outside.read_text(encoding="utf-8") == "secret"
 

@@ -181,3 +181,19 @@ def test_who_waits_for_a_drawing_goes_when_something_newer_is_asked_for(tmp_path
         session.arrived("a", 2)
         waiting.join()
     assert answers == [{"stale": True, "number": 1}]
+
+
+def test_a_move_is_seen_as_if_it_were_the_first_look():
+    """The construction of a text is written once: what a value of a slider makes impossible is
+    told all the same, and what is drawn has the same numbers."""
+    text = scene_files.examples()["gears-pair"].read_text("utf-8")
+    text = text.replace('O2 = ["2.5*(z1 + z2)", 0]', "O2 = [160, 0]")
+    memory = Memory()
+    assert not seen(text, memory)["problems"]
+    for moves in ({"z1": "20"}, {"z1": "24", "angle": "75"}):
+        moved = seen(text, memory, quick=True, settings=moves)
+        fresh = seen(text, settings=moves)
+        assert moved["problems"] == fresh["problems"]
+        assert bool(moved["problems"]) == (moves["z1"] == "20")
+        both = [[row[-1] for row in rows(each.get("results", ""))] for each in (moved, fresh)]
+        assert both[0] == both[1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import socket
 from collections.abc import Iterator
 from contextlib import suppress
@@ -12,10 +13,16 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from graphkin.construction.core.drawn_scene import METRES
+from graphkin.mechanism import Mechanism
+from graphkin.motion.cycle import cycle
+from graphkin.scene import scene_files
+from graphkin.scene.read_scene import read_text
+from graphkin.studio.app import WORK
 from graphkin.studio.guard import HEADERS
 from graphkin.studio.page_requests import MOST_BYTES
 from graphkin.studio.server import HOME, Served, serve
-from tests.studio.pump import PUMP, desk_in, running
+from tests.studio.pump import PUMP, desk_in, ordered, running
 
 JSON = {"Content-Type": "application/json"}
 
@@ -66,7 +73,11 @@ def test_a_move_of_a_slider_is_answered(served):
     assert len(found["panels"]) == 3
 
 
-@pytest.mark.parametrize("path", ["/", "/look", "/page.js", "/x/", "/x/look", "//", "/?lab=pump"])
+OUTSIDE = ["/", "/look", "/page.js", "/x/", "/x/look", "//", "/?lab=pump", "/scenes", "/moving/x"]
+OUTSIDE += [f"/{name}" for name in WORK]
+
+
+@pytest.mark.parametrize("path", OUTSIDE)
 @pytest.mark.parametrize("method", ["GET", "POST"])
 def test_nothing_is_answered_without_the_token(served, method, path):
     answer, data = asked(served, method, path, "{}", **JSON)
@@ -86,6 +97,29 @@ def test_a_page_of_another_site_is_refused_even_with_the_token(served):
         assert answer.status == 403
     own = f"http://{HOME}:{served.port}"
     assert asked(served, "GET", "", Origin=own)[0].status == 200
+
+
+@pytest.mark.parametrize("name", WORK)
+def test_every_work_is_for_the_page_alone_and_for_what_it_asks(served, name):
+    """Not for another site, another host, a form of one, or what is none of its requests."""
+    evil = "http://evil.example"
+    assert asked(served, "POST", name, "{}", Origin=evil, **JSON)[0].status == 403
+    assert asked(served, "POST", name, "{}", Host="evil.example", **JSON)[0].status == 403
+    assert asked(served, "POST", name, "text=", Content_Type="text/plain")[0].status == 415
+    assert asked(served, "GET", name)[0].status in (404, 405)
+    for wrong in ("[]", '{"text": 5, "of": 5, "page": "all", "kind": "x", "name": [1], "view": 1}'):
+        assert asked(served, "POST", name, wrong, **JSON)[0].status == 400
+
+
+@pytest.mark.parametrize("kind", ["scene", "lab", "example"])
+@pytest.mark.parametrize(
+    "name", ["../secret.toml", "/etc/passwd", "..", "", "x\u0000", "../../pyproject"]
+)
+def test_no_picture_is_drawn_of_what_lies_elsewhere(served, tmp_path, kind, name):
+    (tmp_path.parent / "secret.toml").write_text(PUMP, encoding="utf-8")
+    order = json.dumps({"kind": kind, "name": name})
+    answer, data = asked(served, "POST", "picture", order, **JSON)
+    assert (answer.status, json.loads(data)) == (200, {"sketch": None})
 
 
 @pytest.mark.parametrize("method", ["PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "HEAD"])
@@ -134,6 +168,14 @@ def test_every_answer_forbids_what_comes_from_elsewhere(served, path):
         "?scene=%2e%2e%2fx.toml",
         "?lab=../pump",
         "?lab=%00",
+        "?example=../lifter",
+        "?example=..%2f..%2fpyproject",
+        "?like=../secret.toml",
+        "?like=/etc/passwd.toml",
+        "?scene=x.toml&lab=../pump",
+        "moving/..%2fpage",
+        "moving/../page",
+        "scenes/../guard",
     ],
 )
 def test_no_other_file_comes(served, path):
@@ -293,3 +335,24 @@ def test_a_request_that_is_never_finished_is_closed(tmp_path, monkeypatch):
     ):
         half.sendall(b"GET / HTTP/1.1\r\nHost: ")
         assert half.recv(1) == b""
+
+
+@pytest.mark.parametrize(
+    ("name", "driver"), [("five-bar", 1), ("five-bar", 2), ("cylinders-two", 2)]
+)
+def test_each_of_several_drivers_is_moved_while_the_others_stand(tmp_path, name, driver):
+    """How far the page moves is how far a cycle of that driver does."""
+    session, text = desk_in(tmp_path), scene_files.examples()[name].read_text("utf-8")
+    answer = session.motion(ordered(text=text, name=f"{name}.toml", page="curves", driver=driver))
+    assert len(answer["drivers"]) == 2
+    assert not answer["problems"]
+    page = session.moving[answer["page"].removeprefix("moving/")]
+    mechanism = Mechanism(read_text(text, name))
+    swept = cycle(mechanism, driver=driver)
+    one = METRES[mechanism.scene.units["length"]] if swept.sweep.what == "slide" else 1.0
+    start = swept.sweep.start / one
+    ends = next((low, high) for low, high in swept.ranges if low <= swept.sweep.start <= high)
+    told = re.findall(r'"low":([-.\de]+),"high":([-.\de]+),"start":([-.\de]+),"whole"', page)
+    assert [float(each) for each in told[0]] == pytest.approx([*(e / one for e in ends), start])
+    with_time = session.motion(ordered(text=text, name=f"{name}.toml", page="curves"))
+    assert session.moving[with_time["page"].removeprefix("moving/")] != page

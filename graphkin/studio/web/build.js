@@ -13,6 +13,7 @@ const NEAR = 10; // px within which a pin or a bar is meant
 const WIDE = 160; // steps of the grid across an empty field, and up it
 const ROOM = 0.2; // of the mechanism's size around it
 const PIN = 6; // px
+const BAR = 120; // px of the bar that tells the size, at most
 const LETTER = 15; // px
 const SMALL = [180, 110]; // px of a small picture
 const stood = new Map(); // where points stood, by the text
@@ -39,8 +40,11 @@ const tool = () => find("tools").elements.tool.value;
 /** Show what the text holds now; nothing changes for a text that cannot be read. */
 export function showSketch(found) {
   if (!found) return;
+  const first = sketch === null;
   sketch = found;
   stood.set(written(), found.points);
+  if (first && isEmpty()) find("tools").elements.tool.value = "pivot";
+  explain();
   draw();
 }
 
@@ -131,7 +135,12 @@ export function picture(sketch) {
   const small = element("svg", "mechanism", { "aria-hidden": "true" });
   const at = Object.values(sketch.points);
   if (!at.length) return small;
-  const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
+  const rims = sketch.wheels.flatMap(({ centre, radius }) => {
+    const [x, y] = sketch.points[centre];
+    return [[x - radius, y - radius], [x + radius, y + radius]];
+  });
+  const seen = [...at, ...rims];
+  const [xs, ys] = [seen.map((p) => p[0]), seen.map((p) => -p[1])];
   const [left, upper] = [Math.min(...xs), Math.min(...ys)];
   const [width, height] = [Math.max(...xs) - left, Math.max(...ys) - upper];
   const one = Math.max(width / SMALL[0], height / SMALL[1]) || 1;
@@ -142,6 +151,18 @@ export function picture(sketch) {
   return small;
 }
 
+/** A bar of a round length at the foot of the field: how large what is drawn is. */
+function measure(one) {
+  const power = 10 ** Math.floor(Math.log10(BAR * one));
+  const length = [5, 2, 1].map((m) => m * power).find((each) => each <= BAR * one);
+  const [x, y] = [view.x + 12 * one, view.y + (svg.clientHeight - 12) * one];
+  const letter = { x: x + length + 6 * one, y: y + 4 * one, "font-size": 0.8 * LETTER * one };
+  return [
+    element("path", "scale", { d: `M${x} ${y - 4 * one}v${8 * one}m0 ${-4 * one}h${length}m0 ${-4 * one}v${8 * one}` }),
+    element("text", "scale", letter, `${+length.toPrecision(3)} ${sketch.unit}`),
+  ];
+}
+
 /** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
 function draw(shift = {}, drawn = []) {
   if (!sketch || !svg.clientWidth) return;
@@ -150,7 +171,7 @@ function draw(shift = {}, drawn = []) {
   const points = { ...sketch.points, ...shift };
   svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
   const marks = marksOf(sketch, points, one);
-  svg.replaceChildren(...under(), ...marks, ...drawn);
+  svg.replaceChildren(...under(), ...measure(one), ...marks, ...drawn);
 }
 
 /** Where a pointer is in the scene. */
@@ -337,8 +358,11 @@ svg.addEventListener(
   { passive: false },
 );
 
+const isEmpty = () => sketch !== null && !Object.keys(sketch.points).length;
+
 function explain() {
-  find("how").textContent = say(`studio.how_${tool()}`);
+  const what = isEmpty() && ["move", "pivot"].includes(tool()) ? "begin" : tool();
+  find("how").textContent = say(`studio.how_${what}`);
   find("driven").hidden = tool() !== "driver";
   find("spanned").hidden = tool() !== "scale";
   if (sketch) find("span-unit").textContent = sketch.unit;

@@ -51,7 +51,8 @@ function pictured(items) {
       seen.unobserve(target);
       last = last.then(async () => {
         if (!find("opening").open) return;
-        const { sketch } = await ask("picture", { [target.dataset.key]: target.dataset.name });
+        const { key: kind, name } = target.dataset;
+        const { sketch } = await ask("picture", { kind, name });
         if (sketch) target.prepend(picture(sketch));
       }).catch(() => {});
     }
@@ -62,29 +63,35 @@ function pictured(items) {
 
 /** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
 export async function choose(go) {
-  const { scenes, labs } = await listed();
-  const entry = (key, name, title = "") => {
-    const item = document.createElement("li");
-    const button = document.createElement("button");
-    button.type = "button";
-    Object.assign(button.dataset, { key, name });
-    button.textContent = title ? `${name} – ${title}` : name;
-    button.addEventListener("click", () => {
+  const { scenes, labs, examples } = await listed();
+  const button = (key, name, words) => {
+    const made = document.createElement("button");
+    made.type = "button";
+    made.textContent = words;
+    made.addEventListener("click", () => {
       find("opening").close();
       go(`?${key}=${encodeURIComponent(name)}`);
     });
-    item.append(button);
+    return made;
+  };
+  const entry = (key, name, title = "") => {
+    const item = document.createElement("li");
+    const shown = button(key, name, title ? `${name} – ${title}` : name);
+    Object.assign(shown.dataset, { key, name });
+    item.append(shown);
+    if (key === "scene") item.append(button("like", name, say("studio.like")));
     return item;
   };
   find("scenes").replaceChildren(...scenes.map((name) => entry("scene", name)));
   find("labs").replaceChildren(...labs.map(([name, title]) => entry("lab", name, title)));
+  find("examples").replaceChildren(...examples.map(([name, title]) => entry("example", name, title)));
   find("no-scenes").hidden = scenes.length > 0;
   find("from-nothing").onclick = () => {
     find("opening").close();
     go("?empty=yes");
   };
   find("opening").showModal();
-  pictured(find("opening").querySelectorAll("li button"));
+  pictured(find("opening").querySelectorAll("li [data-key]"));
 }
 
 /** Let the kinds of files be chosen, then draw and save them; `fields` gives the scene as it is. */
@@ -105,7 +112,12 @@ export function saveSheets(fields) {
     said.textContent = say("studio.drawing_sheets");
     find("draw").disabled = true;
     try {
-      const chosen = { formats, view: find("view").value, language: find("sheet-language").value };
+      const chosen = {
+        formats,
+        view: find("view").value,
+        language: find("sheet-language").value,
+        page_language: language,
+      };
       const answer = await saved("sheets", { ...fields(), ...chosen });
       said.textContent = "";
       if (answer?.problems.length) said.textContent = answer.problems.map(sentence).join(" ");

@@ -12,6 +12,7 @@ const narrow = matchMedia("(max-width: 60rem)");
 const phone = matchMedia("(max-width: 40rem)"); // where a field is as high as its drawing
 const sheet = new CSSStyleSheet();
 let rules = "";
+let numbers = { results: "", margins: "" }; // of what is drawn
 let checked = ""; // what the independent check says of what is drawn
 document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];
 
@@ -31,8 +32,9 @@ export function onPointing(work) {
   });
 }
 
-/** Put everything in its place; what cannot be drawn now stays as it was, and says so. */
-export function showDrawings(answer) {
+/** Put everything in its place; what cannot be drawn now stays as it was, and says so. While a
+ * slider moves the numbers follow when the drawings are painted. */
+export function showDrawings(answer, quick = false) {
   const drawn = answer.panels !== undefined;
   old.hidden = drawn || !all.querySelector(".drawing svg");
   find("seeing").classList.toggle("old", !drawn);
@@ -63,8 +65,15 @@ export function showDrawings(answer) {
   checked = answer.verdict.words;
   verdict.textContent = `${answer.verdict.agrees ? "✓" : "✗"} ${checked}`;
   verdict.classList.toggle("wrong", !answer.verdict.agrees);
-  set(find("results"), answer.results);
-  set(find("margins"), answer.margins);
+  numbers = answer;
+  if (quick) requestAnimationFrame(() => setTimeout(showNumbers));
+  else showNumbers();
+}
+
+/** Show the numbers of what is drawn. */
+function showNumbers() {
+  set(find("results"), numbers.results);
+  set(find("margins"), numbers.margins);
 }
 
 /** Put markup that the studio made into an element, where it is another. */

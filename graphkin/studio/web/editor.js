@@ -84,6 +84,7 @@ export function editorOf(part) {
 
   /** Take the underlining away while it may stand in the wrong place. */
   function forget() {
+    shown = "";
     underline([]);
     number();
   }
@@ -96,7 +97,7 @@ export function editorOf(part) {
 
   /** Show every problem: in the gutter, under its key, and in the list. */
   function showProblems(problems) {
-    if (JSON.stringify(problems) === shown && under.querySelectorAll("mark").length) return;
+    if (JSON.stringify(problems) === shown) return;
     shown = JSON.stringify(problems);
     underline(problems);
     number(new Set(problems.map((each) => each.line)));
@@ -138,22 +139,21 @@ export function editorOf(part) {
     where.textContent = whereabouts(problem);
     const words = document.createElement("span");
     words.textContent = matter(problem);
-    words.lang = "en";
     body.append(where, " ", words);
     if (problem.line) {
       body.type = "button";
       body.addEventListener("click", () => go(problem));
     }
     entry.append(body);
-    if (problem.mend) {
+    for (const edit of problem.mends) {
       const mend = document.createElement("button");
       mend.type = "button";
       mend.className = "mend";
-      const { before, text: after } = problem.mend;
-      mend.textContent = after
-        ? say("studio.write_instead", { before, after })
-        : say("studio.leave_out", { before });
-      mend.addEventListener("click", () => change([problem.mend]));
+      const { before, text: words } = edit;
+      const after = words.trim().replaceAll("\n", ", ").replace(/^, /, "");
+      const key = before && after ? "write_instead" : after ? "write_too" : "leave_out";
+      mend.textContent = say(`studio.${key}`, { before: before.replaceAll("\n", ", "), after });
+      mend.addEventListener("click", () => change([edit]));
       entry.append(mend);
     }
     return entry;

@@ -18,7 +18,7 @@ export function whereabouts({ line, column, place }) {
 
 /** What is wrong, what was expected, and what helps. */
 export function matter({ found, expected, hint }) {
-  return [found, expected && `expected ${expected}`, hint].filter(Boolean).join("; ");
+  return [found, expected && say("studio.expected", { expected }), hint].filter(Boolean).join("; ");
 }
 
 /** A mistake in one sentence. */

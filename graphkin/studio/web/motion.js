@@ -8,6 +8,7 @@ const REST = 500; // ms without a change before the page is drawn anew
 const toggle = find("move");
 const frame = find("moving");
 const told = find("motion-told");
+const driver = find("motion-driver");
 let scene = () => ({}); // the scene as the page sends it
 let timer = 0;
 let number = 0; // of the newest request
@@ -40,22 +41,35 @@ export function moveSoon(pause = REST) {
 }
 
 async function moving() {
-  const fields = { ...scene(), page: find("motion-kind").elements.page.value };
+  const page = find("motion-kind").elements.page.value;
+  const fields = { ...scene(), page, driver: page === "curves" ? Number(driver.value) : 0 };
   const now = JSON.stringify(fields);
   if (now === shown) return;
   const own = ++number;
   told.textContent = say("studio.drawing_motion");
   try {
-    const { page, problems } = await ask("motion", fields);
+    const answer = await ask("motion", fields);
     if (own !== number) return;
-    told.textContent = problems.map(sentence).join(" ");
-    if (!page) return;
-    frame.src = `${page}#step=${LAST}`;
+    told.textContent = answer.problems.map(sentence).join(" ");
+    offer(answer.drivers, page);
+    if (!answer.page) return;
+    frame.src = `${answer.page}#step=${LAST}`;
     frame.hidden = false;
     shown = now;
   } catch (error) {
     told.textContent = error.message;
   }
+}
+
+/** Of several drivers one may be moved while the others stand still, or all with the time. */
+function offer(drivers, page) {
+  find("motion-drivers").hidden = drivers.length < 2 || page !== "curves";
+  const now = driver.value;
+  driver.replaceChildren(
+    driver.firstElementChild,
+    ...drivers.map((words, i) => new Option(words, String(i + 1))),
+  );
+  driver.value = now <= drivers.length ? now : "0";
 }
 
 find("motion-kind").addEventListener("change", () => moveSoon(0));

@@ -53,7 +53,7 @@ async function look(quick) {
     markSliders(answer.problems);
     showHelp(answer.help);
     if (answer.help) spots = answer.help.spots;
-    showDrawings(answer);
+    showDrawings(answer, quick);
     showSketch(answer.sketch);
     document.body.dataset.shown = String(own);
     if (own === number && !timer) document.body.dataset.settled = String(!quick);

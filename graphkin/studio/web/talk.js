@@ -25,10 +25,10 @@ export async function ask(what, fields) {
   return answer.json();
 }
 
-/** The scenes and labs that can be opened. */
+/** What can be opened: scenes here, labs and scenes that come with the program. */
 export async function listed() {
   try {
-    return await (await fetch("scenes")).json();
+    return await (await fetch(`scenes?lang=${language}`)).json();
   } catch {
     throw new Error(say("studio.gone"));
   }

@@ -1,0 +1,156 @@
+"""A mechanism as a file that PMKS+ opens: its joints where they stand, and the links between them.
+
+The file holds what the address of a mechanism does that PMKS+ shares (class StringTranscoder of
+github.com/PMKS-Web/PMKSWeb): numbers of a thousandth in base 64, flags as bits, the length of all
+at the end. PMKS+ knows pins, bars and plates, blocks pinned on fixed guides, and one crank; what it
+does not know is refused, never left out.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Iterable, Iterator, Sequence
+from math import floor, pi
+from string import ascii_lowercase, ascii_uppercase, digits
+
+from graphkin.construction.core.drawn_scene import METRES
+from graphkin.mechanism import Mechanism
+from graphkin.scene.model import FRAME, Link, Scene
+from graphkin.structure.link_axes import guide_line
+from graphkin.text.errors import PageError, Problem
+
+ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
+LETTERS = f"{ascii_uppercase}{ascii_lowercase}"
+"""Names of joints: PMKS+ puts them together to those of links, and takes these apart again."""
+LETTER_OF_LENGTH = f"{digits}{LETTERS}"
+MASS, THOUSANDTH = 1.0, 1000
+CENTIMETRES, INCHES = "1", "0"
+DEGREES, NEWTONS = "0", "1"
+GRIDS = 0b11000
+"""Both grids are shown."""
+CURVE, GROUND, INPUT, PRISMATIC = 16, 4, 2, 1
+COLOURS = ("c5cae9", "303e9f", "0d125a", "b2dfdb", "26a69a", "00695c")
+SIZE = 0.3
+"""How large joints are drawn, in parts of a third of the mechanism's extent."""
+
+
+def pmks_file(mechanism: Mechanism) -> bytes:
+    """A mechanism as the text of a ``.pmks`` file, lengths to 0.01 mm (in inches to 0.001 in).
+
+    Raises PageError for what PMKS+ has no joint or link for, with a problem for each.
+    """
+    scene = mechanism.scene
+    refused = list(unknown(scene))
+    if refused:
+        raise PageError(refused)
+    return PmksText(mechanism).text().encode("ascii")
+
+
+def unknown(scene: Scene) -> Iterator[Problem]:
+    """What of a scene PMKS+ does not know."""
+    hint = "leave pmks out"
+    for link in scene.links.values():
+        place = f"links.{link.name}"
+        if link.rolls or link.wheels or link.cam or link.profiles:
+            yield Problem(place, "PMKS+ has no wheels, cams or profiles", "pins and guides", hint)
+        if any(slide.on != FRAME for slide in link.slides) or len(link.slides) > 1:
+            yield Problem(place, "PMKS+ has no moving guides", "a block on a fixed guide", hint)
+        elif link.slides and len(link.points) > 1:
+            found = "PMKS+ has no block with more than one point"
+            yield Problem(place, found, "a block on a fixed guide", hint)
+    cranks = [driver for driver in scene.drivers if driver.kind == "turn"]
+    cranks = [driver for driver in cranks if driver.against == FRAME]
+    pivoted = [d for d in cranks if {*scene.link(d.link).points} & {*scene.frame.points}]
+    if len(scene.drivers) != 1 or not pivoted:
+        yield Problem("drivers", "PMKS+ moves one crank about a fixed pin", "one crank", hint)
+    points = {point for link in (scene.frame, *scene.links.values()) for point in link.points}
+    if len(points) + sum(bool(link.slides) for link in scene.links.values()) > len(LETTERS):
+        yield Problem("links", f"more than {len(LETTERS)} joints", "fewer points", hint)
+
+
+class PmksText:
+    """Joints and links of a scene, each as PMKS+ writes it."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.scene = scene = mechanism.scene
+        self.motion = mechanism.solve()
+        self.inches = scene.units["length"] == "in"
+        metre = METRES["in" if self.inches else "cm"]
+        found = {name: point.position for name, point in self.motion.points.items()}
+        held = {point for link in scene.links.values() for point in link.points}
+        self.at = {p: complex(z) / metre for p, z in found.items() if z is not None and p in held}
+        self.ids = dict(zip(self.at, LETTERS, strict=False))
+        self.guides = dict(zip(self.blocks(), LETTERS[len(self.ids) :], strict=False))
+
+    def blocks(self) -> Iterable[str]:
+        """The blocks on fixed guides."""
+        return (name for name, link in self.scene.links.items() if link.slides)
+
+    def text(self) -> str:
+        """The whole file, with its length as the last letter."""
+        driver = self.scene.drivers[0]
+        omega = float(self.motion.links[driver.link].omega or 0.0)
+        xs, ys = ([getattr(z, part) for z in self.at.values()] for part in ("real", "imag"))
+        extent = max(max(xs) - min(xs), max(ys) - min(ys))
+        shown = whole(GRIDS | (omega < 0)).rjust(2, "0")
+        speed = round(abs(omega) * 30 / pi)
+        units = f"{INCHES if self.inches else CENTIMETRES}{DEGREES}{NEWTONS}"
+        joints = "".join(f"{joint}." for joint in self.joints())
+        links = "".join(f"{link}." for link in self.links())
+        said = f"{shown}.{decimal(SIZE * extent)}.{whole(speed)},0.{units}.{joints}.{links}..N_"
+        return said + LETTER_OF_LENGTH[len(said) % len(LETTER_OF_LENGTH)]
+
+    def joints(self) -> Iterator[str]:
+        """Every pin, then the guide of every block."""
+        driven = set(self.scene.link(self.scene.drivers[0].link).points)
+        for point, place in self.at.items():
+            fixed = point in self.scene.frame.points
+            flags = CURVE | (GROUND if fixed else 0) | (INPUT if fixed and point in driven else 0)
+            yield self.joint(flags, self.ids[point], point, place, 0.0)
+        for name, own in self.guides.items():
+            link = self.scene.links[name]
+            angle = direction(guide_line(self.scene, link.slides[0]).along)
+            yield self.joint(CURVE | GROUND | PRISMATIC, own, own, self.at[link.points[0]], angle)
+
+    def joint(self, flags: int, own: str, name: str, at: complex, angle: float) -> str:
+        """One joint."""
+        place = f"{decimal(at.real)},{decimal(at.imag)},{decimal(angle)}"
+        return f"{whole(flags)}{own},{name},{place}"
+
+    def links(self) -> Iterator[str]:
+        """Every bar and plate, and the piston of every block."""
+        for number, link in enumerate(self.scene.links.values()):
+            if link.slides:
+                held = [self.ids[link.points[0]], self.guides[link.name]]
+                yield self.link("P", link, held, 0j, "")
+            else:
+                held = [self.ids[point] for point in link.points]
+                middle = sum(self.at[point] for point in link.points) / len(held)
+                yield self.link("R", link, held, middle, COLOURS[number % len(COLOURS)])
+
+    def link(self, kind: str, link: Link, held: Sequence[str], middle: complex, ink: str) -> str:
+        """One link, without links welded to it."""
+        inertia = decimal(MASS if kind == "R" else 0.0)
+        centre = f"{decimal(middle.real)},{decimal(middle.imag)}"
+        joints = "".join(f"{each}," for each in held)
+        own = "".join(held)
+        return f"Y{kind}{own},{link.name},{decimal(MASS)},{inertia},{centre},{ink},{joints},"
+
+
+def direction(way: complex) -> float:
+    """The angle of a line in radians, from 0 to below a half turn."""
+    return phase(way) % pi
+
+
+def decimal(number: float) -> str:
+    """A number to a thousandth."""
+    return whole(floor(number * THOUSANDTH + 0.5))
+
+
+def whole(number: int) -> str:
+    """A whole number in base 64; a zero before it makes it negative."""
+    rest, found = abs(number), ""
+    while rest or not found:
+        rest, digit = divmod(rest, len(ALPHABET))
+        found = ALPHABET[digit] + found
+    return f"0{found}" if number < 0 else found

@@ -1,0 +1,128 @@
+"""What is said of mistakes, in the language of a page: each English sentence is its own key.
+
+A sentence that was said in English, its gaps filled, is found among the templates of a language and
+said with the same fillings; fillings that are sentences themselves are said in that language too.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cached_property, lru_cache
+from pathlib import Path
+
+from graphkin.text import LANGUAGES
+from graphkin.text.errors import Problem
+
+HERE = Path(__file__).resolve().parent
+ENGLISH = "en"
+GAP = re.compile(r"\{\d\}")
+PARTS = (re.compile(r"; (?![^(]*\))"), re.compile(", "))
+"""What joins several sentences, and the members of a list."""
+WEAK = 4
+"""Letters at most of a template, such as "{1} or {2}", that fits only what can be said whole."""
+QUOTED = re.compile(r'"[^"]*"|\{.*?\}|\[.*?\]|\w+ = \S+')
+WORD = re.compile(r"(?<![\w-])[a-z]{3,}(?![\w-])")
+"""A word of English, not of TOML or a name."""
+JOINED = re.compile(r"\b(di|a|da|su|in) (il|la|i|le|gli|l’)(?= |(?<=’))")
+STEMS = {"di": "de", "a": "a", "da": "da", "su": "su", "in": "ne"}
+ENDS = {"il": "l", "la": "lla", "i": "i", "le": "lle", "gli": "gli", "l’": "ll’"}
+"""Italian prepositions are one word with an article that follows: ``di il`` is ``del``."""
+DEEPEST = 4
+"""How far fillings are looked into."""
+
+
+class Sentences:
+    """The sentences about mistakes in one language."""
+
+    def __init__(self, language: str) -> None:
+        self.language = language
+
+    @cached_property
+    def templates(self) -> dict[str, str]:
+        """The sentences under their English ones."""
+        import tomllib
+
+        text = (HERE / f"{self.language}.toml").read_text(encoding="utf-8")
+        return dict(tomllib.loads(text))
+
+    @cached_property
+    def gapped(self) -> list[tuple[tuple[str, ...], str]]:
+        """Those with gaps: what stands between these, and the English sentence; longest first."""
+        gapped = [(tuple(GAP.split(each)), each) for each in self.templates if GAP.search(each)]
+        return sorted(gapped, key=lambda pair: -sum(map(len, pair[0])))
+
+    def __call__(self, said: str) -> str:
+        """An English sentence in this language; as it is where none fits."""
+        found = self.said(said, 0)
+        if self.language != "it" or found == said:
+            return found
+        return JOINED.sub(lambda match: STEMS[match[1]] + ENDS[match[2]], found)
+
+    def said(self, said: str, depth: int) -> str:
+        """A sentence or a part of one."""
+        found = self.whole(said, depth)
+        if found is not None:
+            return found
+        for sign in PARTS[: 2 if depth else 1]:
+            parts = sign.split(said)
+            if len(parts) > 1:
+                return sign.pattern[:2].join(self.part(part, depth) for part in parts)
+        return said
+
+    def part(self, said: str, depth: int) -> str:
+        """A part of a sentence, or what fills a gap: a name stays as it is."""
+        return self.said(said, depth + 1) if " " in said and depth < DEEPEST else said
+
+    def whole(self, said: str, depth: int) -> str | None:
+        """The sentence whose template fits; None where none does."""
+        if said in self.templates:
+            return self.templates[said]
+        for between, template in self.gapped:
+            if len(said) <= sum(map(len, between)) or not all(each in said for each in between):
+                continue
+            match = pattern(between).fullmatch(said)
+            if match is None:
+                continue
+            fills = match.groups()
+            weak = sum(character.isalpha() for each in between for character in each) <= WEAK
+            if weak and not all(self.can_say(fill, depth) for fill in fills):
+                continue
+            names = GAP.findall(template)
+            told = [self.part(fill, depth) for fill in fills]
+            return filled(self.templates[template], dict(zip(names, told, strict=True)))
+        return None
+
+    def can_say(self, said: str, depth: int) -> bool:
+        """Whether there are words for something, or it has none that need any."""
+        plain = " " not in said or not WORD.search(QUOTED.sub("", said))
+        return plain or (depth < DEEPEST and self.whole(said, depth + 1) is not None)
+
+
+def filled(template: str, fills: Mapping[str, str]) -> str:
+    """A sentence with its gaps filled, each under its own name."""
+    return GAP.sub(lambda gap: fills[gap[0]], template)
+
+
+@lru_cache(maxsize=1024)
+def pattern(between: tuple[str, ...]) -> re.Pattern[str]:
+    """What fits a template: gaps as short as can be, none of which goes on into a next sentence."""
+    return re.compile("((?:(?!; ).)+?)".join(map(re.escape, between)), re.DOTALL)
+
+
+@lru_cache(maxsize=8)
+def sentences(language: str) -> Sentences:
+    """The sentences of a language. Raises KeyError for one without any."""
+    if language not in LANGUAGES or language == ENGLISH:
+        raise KeyError(language)
+    return Sentences(language)
+
+
+def spoken(problem: Problem, language: str) -> Problem:
+    """A problem in another language; its hint as words."""
+    if language == ENGLISH:
+        return problem
+    say = sentences(language)
+    return Problem(
+        say(problem.place), say(problem.found), say(problem.expected), say(str(problem.hint))
+    )

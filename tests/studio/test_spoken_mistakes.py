@@ -1,0 +1,146 @@
+"""Mistakes are told in the language of the page: whatever `check` says has words in each."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from graphkin.scene import toml_faults
+from graphkin.text.errors import Mend, Problem
+from graphkin.text.problems import GAP, sentences, spoken
+from tests.studio.pump import PUMP, desk_in, ordered, seen
+
+ROOT = Path(__file__).resolve().parents[2] / "graphkin"
+KEPT = Path(__file__).resolve().parents[1] / "golden" / "kept"
+ROOMS = (
+    "scene",
+    "structure",
+    "loops",
+    "construction",
+    "diagnosis",
+    "studio",
+    "documents",
+    "drawing",
+)
+ENGLISH = re.compile(
+    r"\b(?:the|is|of|and|not|which|with|than|has|have|that|these|does|one|another|give|write|take)\b"
+)
+CODE = re.compile(r'"[^"]*"|\{[^{}]*\}|\[[^]]*\]')
+FOREIGN = ("it", "ro")
+
+
+def literals() -> Iterator[str]:
+    """The texts of all problems that are written out where they are made, gaps as X1, X2."""
+    for room in ROOMS:
+        for path in sorted((ROOT / room).rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(
+                    ("Problem", "findings.add")
+                ):
+                    said = [
+                        k.value for k in node.keywords if k.arg in ("found", "expected", "hint")
+                    ]
+                    yield from filter(None, map(text_of, [*node.args[1:], *said]))
+
+
+def text_of(node: ast.expr) -> str | None:
+    """A text that is written out; None for what is computed, or has a choice within it."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if not isinstance(node, ast.JoinedStr):
+        return None
+    gaps = [part for part in node.values if isinstance(part, ast.FormattedValue)]
+    if any(isinstance(gap.value, ast.IfExp | ast.Call) for gap in gaps):
+        return None
+    numbered = iter(range(1, len(gaps) + 1))
+    parts = (
+        part.value if isinstance(part, ast.Constant) else f"X{next(numbered)}"
+        for part in node.values
+    )
+    return "".join(map(str, parts))
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_whatever_is_written_out_has_words(language):
+    say = sentences(language)
+    found = {text for text in literals() if re.search(r"[a-z]{3}", CODE.sub("", text))}
+    assert len(found) > 250
+    assert not [text for text in found if say.whole(text, 0) is None and say(text) == text]
+
+
+WRONG = ["forty", "40 mm", "40,5", ".5", "012", '"40', "[40", "{ a = 1", "True", "2*n"]
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+@pytest.mark.parametrize("value", WRONG)
+def test_what_is_no_toml_is_told_without_english(language, value):
+    problems = [*told_of(PUMP.replace("A-B = 40", f"A-B = {value}"), language)]
+    assert problems
+    assert not [text for text in problems if ENGLISH.findall(CODE.sub("", text))]
+    english = {*told_of(PUMP.replace("A-B = 40", f"A-B = {value}"), "en")}
+    assert not english & {*problems}
+
+
+def told_of(text: str, language: str) -> Iterator[str]:
+    """What is told of a text's mistakes: found, expected, hint, each by itself."""
+    for each in seen(text, language=language)["problems"]:
+        yield from filter(None, (each["found"], each["expected"], each["hint"]))
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_whatever_helps_where_there_is_no_toml_has_words(language):
+    constants = [each for each in vars(toml_faults).values() if isinstance(each, str)]
+    helps = [said for _, said in toml_faults.ADVICE] + constants
+    say = sentences(language)
+    told = [each for each in helps if re.fullmatch(r"[a-z][^\n]* [^\n]*[a-z][^\n]*", each)]
+    assert len(told) > 15
+    assert not [each for each in told if say(each) == each]
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_no_english_is_left_of_the_mistakes_that_are_kept(language):
+    """Of some ninety mistakes, what `check` says of each and what it expected."""
+    say, told = sentences(language), 0
+    for line in (KEPT / "mistakes.txt").read_text(encoding="utf-8").splitlines():
+        match = re.match(r"graphkin: [\w.-]+\.toml: [^:]+: (.+)", line)
+        for text in match[1].split("; expected ") if match else ():
+            if "not fair to ask" not in text and "enlarge the rounding" not in text:
+                words = ENGLISH.findall(CODE.sub("", say(text)))
+                assert not words, (text, say(text))
+                told += 1
+    assert told > 150
+
+
+def test_both_languages_say_the_same_sentences():
+    italian, romanian = (sentences(language).templates for language in FOREIGN)
+    assert list(italian) == list(romanian)
+    for english, said in (*italian.items(), *romanian.items()):
+        assert sorted(GAP.findall(said)) == sorted(GAP.findall(english)), english
+
+
+def test_names_and_lines_of_toml_stay_as_they_are():
+    mend = Mend("leftt of A-B", "left of A-B")
+    found = spoken(Problem("links.position", "link left has the point one alone", "", mend), "ro")
+    assert found.place == "links.position"
+    assert found.hint == "ați vrut left of A-B?"
+    say = sentences("it")
+    assert say("link wheel has no line") == "il membro wheel non ha una retta"
+    assert say('C = "left of A-B" for one group of class III, order 3') == (
+        'C = "left of A-B" per un gruppo di classe III, ordine 3'
+    )
+    assert say("belong both to the frame") == "sono entrambe del telaio"
+    assert say("no such words at all") == "no such words at all"
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [("ro", "elementul 9 nu este în [links]"), ("it", "il membro 9 non è in [links]")],
+)
+def test_the_page_hears_its_own_language(tmp_path, language, words):
+    wrong = PUMP.replace("turn = 1", "turn = 9")
+    answer = desk_in(tmp_path).look(ordered(text=wrong, language=language, number=1))
+    assert words in [each["found"] for each in answer["problems"]]
