@@ -206,6 +206,7 @@ def test_every_sentence_is_used():
     more = (
         "belts-arm",
         "belts-crossed",
+        "cam-conjugate",
         "cam-flat",
         "cam-knife",
         "cam-lever",
