@@ -24,6 +24,7 @@ CHOSEN = (
         "cylinders-two",
         "excavator-relative",
         "gears-double-planet",
+        "gears-kutzbach",
         "gears-pair",
         "gears-rack",
         "inflection-cardan",

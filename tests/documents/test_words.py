@@ -207,6 +207,7 @@ def test_every_sentence_is_used():
         "bar-on-drum",
         "belts-arm",
         "belts-crossed",
+        "cam-conjugate",
         "cam-flat",
         "cam-knife",
         "cam-lever",
