@@ -179,6 +179,7 @@ class Tally:
         self.refused: list[str] = []
         self.wrongly: list[str] = []
         self.missed: list[str] = []
+        self.untold: list[str] = []
 
     def add(self, name: str, taken: Taken, record: SheetRecord) -> None:
         """Hold what was read of a picture to what is true of it."""
@@ -194,12 +195,16 @@ class Tally:
         lab = Path(taken.lab).stem
         for point in taken.points:
             read = found.get(point.step)
+            where = f"{name} {lab} {record.kind} {point.name} ({point.step})"
+            self.clean += clean
             if read is None:
+                self.untold.append(f"{where}: {point.verdict}")
+                if point.at is not None:
+                    self.placed.append(2 * HALF)
+                    self.labs[lab, False] += 1
                 continue
             self.count[lab, point.verdict, read.verdict, read.ask] += 1
-            self.clean += clean
             self.decided += clean and not read.ask
-            where = f"{name} {lab} {record.kind} {point.name} ({point.step})"
             if point.at is not None:
                 off = 2 * HALF
                 if read.at is not None:
@@ -235,6 +240,7 @@ class Tally:
         print(f"seconds  median {np.median(self.spent):.2f}, most {np.max(self.spent):.2f}")
         for name, times in sorted(self.count.items()):
             print(*name[:3], "asked" if name[3] else "decided", times)
+        print(f"not told of  {len(self.untold)}, counted as beside", *self.untold, sep="\n")
         print("beside or asked:", *self.missed, sep="\n")
 
 
