@@ -8,6 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.core.given_data import angle_symbol
 from graphkin.construction.core.program import Program
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import runner
@@ -53,6 +54,11 @@ class PageDriver(Struct, frozen=True):
     def name(self) -> str:
         """The letter of what moves, as markup."""
         return f"*{COORDINATES[self.what].letter}*"
+
+    @property
+    def datum(self) -> str:
+        """Its symbol as among the data: with the link's name where several drive."""
+        return angle_symbol(self.scene, self.driver) if self.driver else self.name
 
     @property
     def sense(self) -> int:

@@ -71,7 +71,7 @@ def player_page(motion: FrameSequence, words: Words) -> str:
         title=title,
         words=words,
         figures=list(figures(set_up, sheets, fixed, named)),
-        driver=moved.driven.name,
+        driver=moved.driven.datum,
         speeds=SPEEDS,
         rows=[
             (row, *row_words(row, sheet.drawing))
@@ -103,7 +103,7 @@ def goes_back(moved: Moving) -> bool:
 
 def cannot(cycle: Cycle) -> Problem:
     """The problem of a page that cannot show this motion."""
-    found = "a page moves the one driver of a scene, or all of them by the time"
+    found = "a page moves one driver of a scene, or all of them by the time"
     hint = "--format gif shows other motions"
     return Problem("--format html", f"{found}; not this motion", "", hint)
 

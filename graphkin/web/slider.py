@@ -7,7 +7,6 @@ from math import floor, log10
 
 from msgspec import Struct
 
-from graphkin.construction.core.given_data import angle_symbol
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
 from graphkin.text import Words
@@ -52,10 +51,9 @@ def slider(mechanism: Mechanism, sheets: Sequence[ScreenSheet]) -> Slider:
     if found is None:
         return Slider(why=still(mechanism) or "")
     driven, reach = found.driven, found.reach
-    datum = angle_symbol(driven.scene, driven.driver) if driven.driver else driven.name
     ends = (reach.low, reach.high)
     stops, digits = stopped(driven, reach), max(1, -floor(log10(reach.step)))
-    return Slider(found.source, driven.name, datum, driven.unit, ends, stops, digits)
+    return Slider(found.source, driven.name, driven.datum, driven.unit, ends, stops, digits)
 
 
 def stopped(driven: PageDriver, reach: Reach) -> tuple[float, ...]:

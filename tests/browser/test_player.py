@@ -111,9 +111,12 @@ LETTERS = """() => {
 
 @pytest.mark.parametrize("name", ["slotted-lever"])
 def test_letters_and_panes_stand_where_python_puts_them(page_of, name):
-    """The window of each plan, and the middle of each letter, against the same place in a GIF."""
+    """The window of each plan, and the middle of each letter, against the same place in a GIF.
+
+    On a screen so large that no letter is enlarged.
+    """
     found, set_up = shown(name)
-    page = page_of(name, **STILL)
+    page = page_of(name, **STILL, viewport={"width": 3200, "height": 2400})
     for moment in found.moments[1:-1:5]:
         put(page, moment.at)
         marks = set_up.mechanism_marks(moment.alone)

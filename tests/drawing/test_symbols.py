@@ -290,6 +290,7 @@ def test_a_relative_angle_is_drawn_from_the_axis_of_the_link_it_is_relative_to()
             "A": rect(50, radians(50)),
             "B": rect(50, radians(50)) + rect(40, radians(-30)),
         },
+        {"1": rect(1, radians(50))},
     )
     board, _ = board_of(drawing, drivers=True)
     arc = of_kind(board, "angle")[1]
