@@ -119,6 +119,8 @@ class Reader:
     velocity: dict[str, complex] = field(default_factory=dict)
     """The points of the velocity plan, while the accelerations are drawn."""
     loci: list[Line | Circle] = field(default_factory=list)
+    lies: dict[str, complex] = field(default_factory=dict)
+    """The directions of links that are found by their tangents."""
     ray: Line | None = None
     end: complex | None = None
     tail: complex | None = None
@@ -371,10 +373,11 @@ class Reader:
         """The track of a wheel by the number of its link."""
         for item in self.items:
             match = re.match(
-                rf"wheel {link} rolls in {NAME} on the line through ({NAME}) at ({NUMBER}°)", item
+                rf"wheel {link} rolls in {NAME} on (the line (?:of link \w+ )?through ({NAME}) .*)",
+                item,
             )
             if match:
-                return Line.of(self.at(match[1]), cmath.rect(1, self.angle(match[2])))
+                return self.told_line(match[1], match[2])
         raise DefectError(f"no track {link} is given")
 
     def direction(self, words: str) -> complex:
@@ -500,6 +503,25 @@ class Reader:
             raise DefectError(f"{len(found)} crossings lie where {name} should be")
         self.put(name, found[0])
 
+    @says(
+        "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle on ⟨m⟩⟨n⟩ meets it where the "
+        "tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
+    )
+    def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
+        """Of the two tangents that on which the wheel lies where the data tell: side and place."""
+        rolls = self.told_of(rf"wheel \d+ rolls in {NAME} on the line of link {k} through {p} ")
+        side = re.search(r"on its (left|right)-hand side", rolls)
+        place = re.search(r"the (farther|nearer) of the two places along it", rolls)
+        if side is None or place is None:
+            raise DefectError(f"nothing tells which tangent link {k} lies along")
+        pivot, pin = self.at(p), self.at(q)
+        thales = Circle((self.at(m) + self.at(n)) / 2, abs(self.at(n) - self.at(m)) / 2)
+        ahead, left = (1 if place[1] == "farther" else -1), (1 if side[1] == "left" else -1)
+        feet = crossings(Circle(pivot, number(drawn)), thales)
+        ways = [ahead * (pin - foot) for foot in feet]
+        (along,) = [way for way in ways if left * cross(way, pin - pivot) > 0]
+        self.lies[k] = along / abs(along)
+
     @says("draw the guide")
     def draw_the_guide(self) -> None:
         """Drawn when it is cut: the page names its point only then."""
@@ -568,7 +590,12 @@ class Reader:
     def draw_track_of(self, k: str, g: str, line: str) -> None:
         through = re.search(rf"through ({NAME})", line)
         assert through
-        self.loci.append(self.told_line(line, through[1]))
+        drawn = self.told_line(line, through[1])
+        if g in self.lies:
+            off = math.degrees(cmath.phase(drawn.along / self.lies[g]))
+            if abs(off) > 0.1:  # the angle of its bar is told to a tenth of a degree
+                raise DefectError(f"link {g} was found {off:.2f}° from where it is laid off")
+        self.loci.append(drawn)
 
     @says("link ⟨k:number⟩ stands as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
     def as_at_start(self, k: str, p: str, names: str) -> None:
@@ -599,6 +626,32 @@ class Reader:
     def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(1, math.radians(number(angle)))
         self.put(name, self.at(p) + along * self.length(s, t))
+
+    @says(
+        "from ⟨o⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° to the x axis, where wheel ⟨k:number⟩ has come "
+        "by rolling: ⟨name⟩"
+    )
+    def rolled_to(self, o: str, s: str, t: str, angle: str, k: str, name: str) -> None:
+        """The centres of a wheel and of what it rolls on are as far apart as their radii say."""
+        try:
+            apart = self.length(s, t)
+        except DefectError:
+            apart = self.apart(o, name)
+        self.put(name, self.at(o) + cmath.rect(apart, math.radians(number(angle))))
+
+    def apart(self, o: str, p: str) -> float:
+        """The distance of the centres of two wheels that touch: R + r, in a ring R − r."""
+        (fixed, r), (rolling, own) = (self.wheel_about(point) for point in (o, p))
+        rings = [kind.startswith(("ring", "inner")) for kind in (fixed, rolling)]
+        return abs(r - own) if any(rings) else r + own
+
+    def wheel_about(self, point: str) -> tuple[str, float]:
+        """What wheel is about a point, and its radius on paper."""
+        for item in self.items:
+            told = rf"(.*): centre {re.escape(point)}, r = ({NUMBER}) (mm|cm|m)"
+            if match := re.match(told, item):
+                return match[1], number(match[2]) * MILLIMETRES[match[3]] / self.scale
+        raise DefectError(f"no radius is told of a wheel about {point}")
 
     @says(
         r"by the law [sψ] = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm at ⟨angle:number⟩° "
@@ -817,8 +870,10 @@ class Reader:
         self.put(name, self.at(s) + inward / abs(inward) * size)
 
     @says(
-        r"from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩)? ∥ ⟨p⟩⟨q⟩, "
+        r"from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩"
+        r"(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩(?:·⟨far⟩⟨far2⟩/⟨near⟩⟨near2⟩)?)? ∥ ⟨p⟩⟨q⟩, "
         r"from ⟨from_⟩ towards ⟨to⟩(?:, ⟨drawn:number⟩ mm)?"
+        r"(?:, for rolling gives the point of contact no other acceleration relative to [^,;(]*)?"
     )
     def lay_off(
         self, s: str, foot: str | None, a: str, from_: str, to: str, drawn: str | None, **_: str
