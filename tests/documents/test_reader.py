@@ -127,6 +127,30 @@ def test_a_side_that_is_not_told_is_a_defect(folder):
         hand.follow(key.sentences[3])
 
 
+def test_a_bar_laid_off_along_the_other_tangent_of_a_roller_is_seen(folder):
+    followed(folder, "bar-on-roller")
+    key, task = reader.sheets(folder, "bar-on-roller", "velocity")
+    for data in (
+        key.data.replace("right-hand side", "left-hand side"),
+        key.data.replace("the farther of", "the nearer of"),
+    ):
+        assert data != key.data
+        hand = reader.Reader(data, key.scale, task.links, dict(task.marks))
+        with pytest.raises(reader.DefectError, match="link 2 was found .* from where it is laid"):
+            for sentence in key.sentences:
+                hand.follow(sentence)
+
+
+def test_a_wheel_in_a_ring_whose_radius_is_not_told_has_no_place(folder):
+    followed(folder, "wheel-in-ring")
+    key, task = reader.sheets(folder, "wheel-in-ring", "velocity")
+    data = key.data.replace("wheel 1: centre P, r = 50 mm", "wheel 1: centre P")
+    assert data != key.data
+    hand = reader.Reader(data, key.scale, task.links, dict(task.marks))
+    with pytest.raises(reader.DefectError, match="no radius is told of a wheel about P"):
+        hand.follow(key.sentences[0])
+
+
 def test_the_reader_imports_nothing_of_graphkin():
     for module in (reader, printed_sheet, ruler_and_compass):
         source = Path(module.__file__).read_text(encoding="utf-8")
