@@ -121,6 +121,8 @@ class Reader:
     loci: list[Line | Circle] = field(default_factory=list)
     lies: dict[str, complex] = field(default_factory=dict)
     """The directions of links that are found by their tangents."""
+    tangent: complex | None = None
+    """That of the last link so found, until another lies on a line of two points."""
     ray: Line | None = None
     end: complex | None = None
     tail: complex | None = None
@@ -475,10 +477,13 @@ class Reader:
     @says("join ⟨p⟩ and ⟨q⟩: link ⟨k:number⟩ lies on this line")
     def join(self, p: str, q: str, k: str) -> None:
         self.ray = Line.of(self.at(p), self.at(q) - self.at(p))
-        self.bearing = (p, q)
+        self.bearing, self.tangent = (p, q), None
 
     @says("on the line of the link lay off ⟨p⟩⟨q⟩: ⟨name⟩")
     def mark_off_lever(self, p: str, q: str, name: str) -> None:
+        if self.tangent is not None:
+            self.put(name, self.at(p) + self.tangent * self.length(p, q))
+            return
         one, two = self.bearing
         other = two if one == p else one
         along = self.at(other) - self.at(p)
@@ -508,19 +513,25 @@ class Reader:
         "tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
     )
     def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
-        """Of the two tangents that on which the wheel lies where the data tell: side and place."""
-        rolls = self.told_of(rf"wheel \d+ rolls in {NAME} on the line of link {k} through {p} ")
-        side = re.search(r"on its (left|right)-hand side", rolls)
-        place = re.search(r"the (farther|nearer) of the two places along it", rolls)
+        """Of the two tangents that on which the pin lies where the data tell: side and place."""
+        wheel = rf"wheel \d+ rolls in {NAME} on the line of link {k} through {p} "
+        item = self.told_of(rf"{wheel}|{q} slides parallel to {p}{NAME}, ")
+        side = re.search(rf"on its (left|right)-hand side| ({'|'.join(SIDES)}) it\b", item)
+        place = re.search(r"the (farther|nearer) of the two places along it", item)
         if side is None or place is None:
             raise DefectError(f"nothing tells which tangent link {k} lies along")
         pivot, pin = self.at(p), self.at(q)
         thales = Circle((self.at(m) + self.at(n)) / 2, abs(self.at(n) - self.at(m)) / 2)
-        ahead, left = (1 if place[1] == "farther" else -1), (1 if side[1] == "left" else -1)
-        feet = crossings(Circle(pivot, number(drawn)), thales)
-        ways = [ahead * (pin - foot) for foot in feet]
-        (along,) = [way for way in ways if left * cross(way, pin - pivot) > 0]
-        self.lies[k] = along / abs(along)
+        ahead = 1 if place[1] == "farther" else -1
+        found = []
+        for foot in crossings(Circle(pivot, number(drawn)), thales):
+            along = ahead * (pin - foot) / abs(pin - foot)
+            own = 1j * along if side[1] == "left" else -1j * along
+            if dot(SIDES[side[2]] if side[2] else own, foot - pivot) > 0:
+                found.append(along)
+        if len(found) != 1:
+            raise DefectError(f"{len(found)} tangents from {q} leave it where the data tell")
+        self.lies[k] = self.tangent = found[0]
 
     @says("draw the guide")
     def draw_the_guide(self) -> None:
@@ -626,6 +637,44 @@ class Reader:
     def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(1, math.radians(number(angle)))
         self.put(name, self.at(p) + along * self.length(s, t))
+
+    @says(
+        "link ⟨k:number⟩ has rolled on the fixed wheel, from where it touched it at the start, by "
+        "the angle that it has turned through times the radius, ⟨arc:number⟩ mm: ⟨name⟩"
+    )
+    def rolled_bar(self, k: str, arc: str, name: str) -> None:
+        """A bar turned about a drum touches it at its side, the arc from where it did at first."""
+        item = self.told_of(rf"link {k} rolls in {NAME} on the fixed wheel by the line of link {k}")
+        told = re.search(
+            rf"through ({NAME}) at ({NUMBER}°) to {NAME}{NAME}, on its (left|right)-hand side, "
+            rf"touching it at ({NAME}) when {NAME}{NAME} is at ({NUMBER}°)",
+            item,
+        )
+        if told is None or not told[1] == told[4] == name:
+            raise DefectError(f"nothing tells where link {k} touched the wheel at the start")
+        drum = next(item for item in self.items if item.startswith("wheel of the frame: centre"))
+        about = re.search(rf"centre ({NAME})", drum)
+        assert about
+        left = 1 if told[3] == "left" else -1
+        bar = self.angle("φ")
+        along = cmath.rect(1, bar + self.angle(told[2]))
+        touched = self.at(about[1]) - left * 1j * along * self.wheel_about(about[1])[1]
+        turned = math.copysign(1, bar - self.angle(told[5]))
+        self.put(name, touched - left * turned * along * number(arc))
+
+    @says(
+        "draw the rolling line of link ⟨g:number⟩: (?P<line>the line .*?); from the centre of the "
+        "fixed wheel the perpendicular to link ⟨h:number⟩; it meets it in the point of contact "
+        "⟨name⟩"
+    )
+    def contact_on_bar(self, line: str, name: str, **_: str) -> None:
+        through = re.search(rf"through ({NAME})", line)
+        drum = self.told_of("wheel of the frame: centre")
+        about = re.search(rf"centre ({NAME})", drum)
+        assert through and about
+        rolls = self.told_line(line, through[1])
+        away = dot(rolls.along, self.at(about[1]) - rolls.point)
+        self.put(name, rolls.point + rolls.along * away)
 
     @says(
         "from ⟨o⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° to the x axis, where wheel ⟨k:number⟩ has come "
