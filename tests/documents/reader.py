@@ -285,6 +285,10 @@ class Reader:
             return Line.of(self.at(point), cmath.rect(1, self.angle(match[1])))
         if match := re.match(rf"the line of link \w+ through ({NAME}) \(positive", words):
             return Line.of(self.at(point), self.at(point) - self.at(match[1]))
+        if (own := re.match(rf"the line of link (\w+) through ({NAME})(?:,|$)", words)) and (
+            own[1] in self.lies
+        ):
+            return Line.of(self.at(own[2]), self.lies[own[1]])
         match = re.match(
             rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER})[;,] ({NUMBER})\) "
             r"(mm|cm|m)) "
@@ -375,7 +379,8 @@ class Reader:
         """The track of a wheel by the number of its link."""
         for item in self.items:
             match = re.match(
-                rf"wheel {link} rolls in {NAME} on (the line (?:of link \w+ )?through ({NAME}) .*)",
+                rf"wheel {link} rolls in {NAME} on "
+                rf"(the line (?:of link \w+ )?through ({NAME})[ ,].*)",
                 item,
             )
             if match:
@@ -487,8 +492,9 @@ class Reader:
         one, two = self.bearing
         other = two if one == p else one
         along = self.at(other) - self.at(p)
-        side = f"{other} slides along {p}{q}, on the side of {q} from {p}"
-        if not any(item.startswith(side) for item in self.items):
+        side = f" along {p}{q}, on the side of {q} from {p}"
+        ways = f"{other} slides{side}", f"pin {other} slides in a slot{side}"
+        if not any(item.startswith(ways) for item in self.items):
             raise DefectError(f"nothing tells on which side of {p} to lay off {p}{q}")
         self.put(name, self.at(p) + along / abs(along) * self.length(p, q))
 
@@ -514,8 +520,9 @@ class Reader:
     )
     def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
         """Of the two tangents that on which the pin lies where the data tell: side and place."""
-        wheel = rf"wheel \d+ rolls in {NAME} on the line of link {k} through {p} "
-        item = self.told_of(rf"{wheel}|{q} slides parallel to {p}{NAME}, ")
+        own, pinned = re.escape(p), re.escape(q)
+        wheel = rf"wheel \d+ rolls in {NAME} on the line of link {k} through {own}[ ,]"
+        item = self.told_of(rf"{wheel}|{pinned} slides parallel to {own}{NAME}, ")
         side = re.search(rf"on its (left|right)-hand side| ({'|'.join(SIDES)}) it\b", item)
         place = re.search(r"the (farther|nearer) of the two places along it", item)
         if side is None or place is None:
@@ -526,8 +533,8 @@ class Reader:
         found = []
         for foot in crossings(Circle(pivot, number(drawn)), thales):
             along = ahead * (pin - foot) / abs(pin - foot)
-            own = 1j * along if side[1] == "left" else -1j * along
-            if dot(SIDES[side[2]] if side[2] else own, foot - pivot) > 0:
+            its = 1j * along if side[1] == "left" else -1j * along
+            if dot(SIDES[side[2]] if side[2] else its, foot - pivot) > 0:
                 found.append(along)
         if len(found) != 1:
             raise DefectError(f"{len(found)} tangents from {q} leave it where the data tell")

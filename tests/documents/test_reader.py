@@ -33,6 +33,7 @@ APART = {
     "inflection-cardan": "inflection circles",
     "klein-engine": "Klein’s construction",
     "platform-3rpr": "loci and trials",
+    "platform-six": "loci and trials",
     "rapid-return": "loci and trials",
     "rod-and-wheel": "a locus",
     "plank-rollers": "halfway between two tracks",
