@@ -57,14 +57,15 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
         ("scales", list(of_scales(first))),
     ]
     own = [section for drawing in drawings for section in sections_of(drawing)]
-    used = dict.fromkeys(each.over for _, found in own for each in found if each.over)
+    used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
     measured = [r for p, q in used if (r := of_length(first, p, q)) is not None]
     return [*sections, ("lengths", measured), *own]
 
 
 def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     """A length that is measured on the mechanism; None for one that the data tell."""
-    links = (drawing.scene.frame, *drawing.scene.links.values())
+    scene = drawing.scene.bare
+    links = (scene.frame, *scene.links.values())
     lengths = (each for link in links for how in link.placings for each in how.lengths())
     if {p, q} in ({start, end} for start, end, _ in lengths):
         return None

@@ -119,6 +119,10 @@ class Reader:
     velocity: dict[str, complex] = field(default_factory=dict)
     """The points of the velocity plan, while the accelerations are drawn."""
     loci: list[Line | Circle] = field(default_factory=list)
+    lies: dict[str, complex] = field(default_factory=dict)
+    """The directions of links that are found by their tangents."""
+    tangent: complex | None = None
+    """That of the last link so found, until another lies on a line of two points."""
     ray: Line | None = None
     end: complex | None = None
     tail: complex | None = None
@@ -281,6 +285,10 @@ class Reader:
             return Line.of(self.at(point), cmath.rect(1, self.angle(match[1])))
         if match := re.match(rf"the line of link \w+ through ({NAME}) \(positive", words):
             return Line.of(self.at(point), self.at(point) - self.at(match[1]))
+        if (own := re.match(rf"the line of link (\w+) through ({NAME})(?:,|$)", words)) and (
+            own[1] in self.lies
+        ):
+            return Line.of(self.at(own[2]), self.lies[own[1]])
         match = re.match(
             rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER})[;,] ({NUMBER})\) "
             r"(mm|cm|m)) "
@@ -371,10 +379,12 @@ class Reader:
         """The track of a wheel by the number of its link."""
         for item in self.items:
             match = re.match(
-                rf"wheel {link} rolls in {NAME} on the line through ({NAME}) at ({NUMBER}°)", item
+                rf"wheel {link} rolls in {NAME} on "
+                rf"(the line (?:of link \w+ )?through ({NAME})[ ,].*)",
+                item,
             )
             if match:
-                return Line.of(self.at(match[1]), cmath.rect(1, self.angle(match[2])))
+                return self.told_line(match[1], match[2])
         raise DefectError(f"no track {link} is given")
 
     def direction(self, words: str) -> complex:
@@ -472,15 +482,19 @@ class Reader:
     @says("join ⟨p⟩ and ⟨q⟩: link ⟨k:number⟩ lies on this line")
     def join(self, p: str, q: str, k: str) -> None:
         self.ray = Line.of(self.at(p), self.at(q) - self.at(p))
-        self.bearing = (p, q)
+        self.bearing, self.tangent = (p, q), None
 
     @says("on the line of the link lay off ⟨p⟩⟨q⟩: ⟨name⟩")
     def mark_off_lever(self, p: str, q: str, name: str) -> None:
+        if self.tangent is not None:
+            self.put(name, self.at(p) + self.tangent * self.length(p, q))
+            return
         one, two = self.bearing
         other = two if one == p else one
         along = self.at(other) - self.at(p)
-        side = f"{other} slides along {p}{q}, on the side of {q} from {p}"
-        if not any(item.startswith(side) for item in self.items):
+        side = f" along {p}{q}, on the side of {q} from {p}"
+        ways = f"{other} slides{side}", f"pin {other} slides in a slot{side}"
+        if not any(item.startswith(ways) for item in self.items):
             raise DefectError(f"nothing tells on which side of {p} to lay off {p}{q}")
         self.put(name, self.at(p) + along / abs(along) * self.length(p, q))
 
@@ -499,6 +513,32 @@ class Reader:
         if len(found) != 1:
             raise DefectError(f"{len(found)} crossings lie where {name} should be")
         self.put(name, found[0])
+
+    @says(
+        "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle on ⟨m⟩⟨n⟩ meets it where the "
+        "tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
+    )
+    def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
+        """Of the two tangents that on which the pin lies where the data tell: side and place."""
+        own, pinned = re.escape(p), re.escape(q)
+        wheel = rf"wheel \d+ rolls in {NAME} on the line of link {k} through {own}[ ,]"
+        item = self.told_of(rf"{wheel}|{pinned} slides parallel to {own}{NAME}, ")
+        side = re.search(rf"on its (left|right)-hand side| ({'|'.join(SIDES)}) it\b", item)
+        place = re.search(r"the (farther|nearer) of the two places along it", item)
+        if side is None or place is None:
+            raise DefectError(f"nothing tells which tangent link {k} lies along")
+        pivot, pin = self.at(p), self.at(q)
+        thales = Circle((self.at(m) + self.at(n)) / 2, abs(self.at(n) - self.at(m)) / 2)
+        ahead = 1 if place[1] == "farther" else -1
+        found = []
+        for foot in crossings(Circle(pivot, number(drawn)), thales):
+            along = ahead * (pin - foot) / abs(pin - foot)
+            its = 1j * along if side[1] == "left" else -1j * along
+            if dot(SIDES[side[2]] if side[2] else its, foot - pivot) > 0:
+                found.append(along)
+        if len(found) != 1:
+            raise DefectError(f"{len(found)} tangents from {q} leave it where the data tell")
+        self.lies[k] = self.tangent = found[0]
 
     @says("draw the guide")
     def draw_the_guide(self) -> None:
@@ -568,7 +608,12 @@ class Reader:
     def draw_track_of(self, k: str, g: str, line: str) -> None:
         through = re.search(rf"through ({NAME})", line)
         assert through
-        self.loci.append(self.told_line(line, through[1]))
+        drawn = self.told_line(line, through[1])
+        if g in self.lies:
+            off = math.degrees(cmath.phase(drawn.along / self.lies[g]))
+            if abs(off) > 0.1:  # the angle of its bar is told to a tenth of a degree
+                raise DefectError(f"link {g} was found {off:.2f}° from where it is laid off")
+        self.loci.append(drawn)
 
     @says("link ⟨k:number⟩ stands as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
     def as_at_start(self, k: str, p: str, names: str) -> None:
@@ -599,6 +644,70 @@ class Reader:
     def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(1, math.radians(number(angle)))
         self.put(name, self.at(p) + along * self.length(s, t))
+
+    @says(
+        "link ⟨k:number⟩ has rolled on the fixed wheel, from where it touched it at the start, by "
+        "the angle that it has turned through times the radius, ⟨arc:number⟩ mm: ⟨name⟩"
+    )
+    def rolled_bar(self, k: str, arc: str, name: str) -> None:
+        """A bar turned about a drum touches it at its side, the arc from where it did at first."""
+        item = self.told_of(rf"link {k} rolls in {NAME} on the fixed wheel by the line of link {k}")
+        told = re.search(
+            rf"through ({NAME}) at ({NUMBER}°) to {NAME}{NAME}, on its (left|right)-hand side, "
+            rf"touching it at ({NAME}) when {NAME}{NAME} is at ({NUMBER}°)",
+            item,
+        )
+        if told is None or not told[1] == told[4] == name:
+            raise DefectError(f"nothing tells where link {k} touched the wheel at the start")
+        drum = next(item for item in self.items if item.startswith("wheel of the frame: centre"))
+        about = re.search(rf"centre ({NAME})", drum)
+        assert about
+        left = 1 if told[3] == "left" else -1
+        bar = self.angle("φ")
+        along = cmath.rect(1, bar + self.angle(told[2]))
+        touched = self.at(about[1]) - left * 1j * along * self.wheel_about(about[1])[1]
+        turned = math.copysign(1, bar - self.angle(told[5]))
+        self.put(name, touched - left * turned * along * number(arc))
+
+    @says(
+        "draw the rolling line of link ⟨g:number⟩: (?P<line>the line .*?); from the centre of the "
+        "fixed wheel the perpendicular to link ⟨h:number⟩; it meets it in the point of contact "
+        "⟨name⟩"
+    )
+    def contact_on_bar(self, line: str, name: str, **_: str) -> None:
+        through = re.search(rf"through ({NAME})", line)
+        drum = self.told_of("wheel of the frame: centre")
+        about = re.search(rf"centre ({NAME})", drum)
+        assert through and about
+        rolls = self.told_line(line, through[1])
+        away = dot(rolls.along, self.at(about[1]) - rolls.point)
+        self.put(name, rolls.point + rolls.along * away)
+
+    @says(
+        "from ⟨o⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° to the x axis, where wheel ⟨k:number⟩ has come "
+        "by rolling: ⟨name⟩"
+    )
+    def rolled_to(self, o: str, s: str, t: str, angle: str, k: str, name: str) -> None:
+        """The centres of a wheel and of what it rolls on are as far apart as their radii say."""
+        try:
+            apart = self.length(s, t)
+        except DefectError:
+            apart = self.apart(o, name)
+        self.put(name, self.at(o) + cmath.rect(apart, math.radians(number(angle))))
+
+    def apart(self, o: str, p: str) -> float:
+        """The distance of the centres of two wheels that touch: R + r, in a ring R − r."""
+        (fixed, r), (rolling, own) = (self.wheel_about(point) for point in (o, p))
+        rings = [kind.startswith(("ring", "inner")) for kind in (fixed, rolling)]
+        return abs(r - own) if any(rings) else r + own
+
+    def wheel_about(self, point: str) -> tuple[str, float]:
+        """What wheel is about a point, and its radius on paper."""
+        for item in self.items:
+            told = rf"(.*): centre {re.escape(point)}, r = ({NUMBER}) (mm|cm|m)"
+            if match := re.match(told, item):
+                return match[1], number(match[2]) * MILLIMETRES[match[3]] / self.scale
+        raise DefectError(f"no radius is told of a wheel about {point}")
 
     @says(
         r"by the law [sψ] = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm at ⟨angle:number⟩° "
@@ -817,8 +926,10 @@ class Reader:
         self.put(name, self.at(s) + inward / abs(inward) * size)
 
     @says(
-        r"from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩)? ∥ ⟨p⟩⟨q⟩, "
+        r"from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩"
+        r"(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩(?:·⟨far⟩⟨far2⟩/⟨near⟩⟨near2⟩)?)? ∥ ⟨p⟩⟨q⟩, "
         r"from ⟨from_⟩ towards ⟨to⟩(?:, ⟨drawn:number⟩ mm)?"
+        r"(?:, for rolling gives the point of contact no other acceleration relative to [^,;(]*)?"
     )
     def lay_off(
         self, s: str, foot: str | None, a: str, from_: str, to: str, drawn: str | None, **_: str

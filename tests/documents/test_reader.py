@@ -22,15 +22,18 @@ CLOSE = 0.3
 """How near to the key, in mm, the hand must land."""
 LABS = ("pump", "pump-collinear", "slotted-lever")
 APART = {
+    "bar-on-drum-rod": "a locus",
     "cam-flat": "the face of a follower, told by its guide",
     "cam-lever": "the face of a lever, told by its bar",
     "gears-double-planet": "trials",
+    "gears-kutzbach": "Kutzbach’s plan, which stands where the hand likes on its axis",
     "gears-ravigneaux": "trials",
     "gears-simpson": "trials",
     "hoist-differential": "strands as racks",
     "inflection-cardan": "inflection circles",
     "klein-engine": "Klein’s construction",
     "platform-3rpr": "loci and trials",
+    "platform-six": "loci and trials",
     "rapid-return": "loci and trials",
     "rod-and-wheel": "a locus",
     "plank-rollers": "halfway between two tracks",
@@ -38,6 +41,7 @@ APART = {
     "stephenson-2-binary": "loci and trials",
     "stephenson-2-ternary": "loci and trials",
     "stephenson-3-crank": "loci and trials",
+    "wheel-in-ring-rod": "a locus",
 }
 """What the reader has no rule for, by the scenes that need it."""
 ALIKE = {name for name in SCENES if name.startswith("four-bar-")} - {
@@ -125,6 +129,30 @@ def test_a_side_that_is_not_told_is_a_defect(folder):
         hand.follow(key.sentences[1].split(", right of")[0])
     with pytest.raises(reader.DefectError, match="C has no place yet"):
         hand.follow(key.sentences[3])
+
+
+def test_a_bar_laid_off_along_the_other_tangent_of_a_roller_is_seen(folder):
+    followed(folder, "bar-on-roller")
+    key, task = reader.sheets(folder, "bar-on-roller", "velocity")
+    for data in (
+        key.data.replace("right-hand side", "left-hand side"),
+        key.data.replace("the farther of", "the nearer of"),
+    ):
+        assert data != key.data
+        hand = reader.Reader(data, key.scale, task.links, dict(task.marks))
+        with pytest.raises(reader.DefectError, match=r"link 2 was found .* from where it is laid"):
+            for sentence in key.sentences:
+                hand.follow(sentence)
+
+
+def test_a_wheel_in_a_ring_whose_radius_is_not_told_has_no_place(folder):
+    followed(folder, "wheel-in-ring")
+    key, task = reader.sheets(folder, "wheel-in-ring", "velocity")
+    data = key.data.replace("wheel 1: centre P, r = 50 mm", "wheel 1: centre P")
+    assert data != key.data
+    hand = reader.Reader(data, key.scale, task.links, dict(task.marks))
+    with pytest.raises(reader.DefectError, match="no radius is told of a wheel about P"):
+        hand.follow(key.sentences[0])
 
 
 def test_the_reader_imports_nothing_of_graphkin():

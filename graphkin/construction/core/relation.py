@@ -20,7 +20,7 @@ class Relation(Struct, frozen=True):
     """left = symbols = figures = result unit, remark; ``more`` are further words after ``left``.
 
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
-    of the length that it takes. ``blank``: what a form has for a result that is no single number,
+    of the lengths that it takes. ``blank``: what a form has for a result that is no single number,
     and how it is counted. ``equation``: the vector equation that it is. ``given``: it is chosen, so
     that a form states it.
     """
@@ -33,7 +33,7 @@ class Relation(Struct, frozen=True):
     remark: str = ""
     more: tuple[str, ...] = ()
     equals: str = "="
-    over: tuple[str, str] | None = None
+    over: tuple[tuple[str, str], ...] = ()
     blank: tuple[str, ...] = ()
     equation: VectorEquation | None = None
     given: bool = False

@@ -201,7 +201,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             answer(drawing, rate * length),
             drawing.vector.caret_unit,
             drawing.words("calculation.square_drawn", bar=bar(p, q), drawn=drawn),
-            over=(p, q),
+            over=((p, q),),
         )
 
 

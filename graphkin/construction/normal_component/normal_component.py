@@ -264,7 +264,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             answer(drawing, size),
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q)),
-            over=(self.p, self.q),
+            over=((self.p, self.q),),
         )
 
     # --- marking it ------------------------------------------------------------------------------

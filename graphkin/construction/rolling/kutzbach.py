@@ -236,7 +236,7 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
             figures = f"{figure(drawing, scale)}/{figure(drawing, length)}"
             whole = f"*k*_v/{bar(self.p, self.q)}"
             result, unit = answer(drawing, scale / length), "(rad/s)/mm"
-            yield Relation("*k*_n", whole, figures, result, unit, over=(self.p, self.q))
+            yield Relation("*k*_n", whole, figures, result, unit, over=((self.p, self.q),))
 
     def length(self, drawing: Drawing) -> float:
         """The distance of the wheel's centre from its rim, in metres."""

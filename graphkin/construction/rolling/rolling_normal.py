@@ -127,7 +127,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             answer(drawing, size),
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
-            over=(self.p, self.q),
+            over=((self.p, self.q),),
         )
 
     # --- marking it ------------------------------------------------------------------------------

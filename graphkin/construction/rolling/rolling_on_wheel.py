@@ -67,7 +67,7 @@ class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
             answer(drawing, size),
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
-            over=(self.p, self.q),
+            over=pairs,
         )
 
     def sizes(self, own: OwnSizes) -> Iterator[Size]:

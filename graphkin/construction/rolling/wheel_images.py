@@ -9,6 +9,7 @@ from graphkin.construction.acceleration.turned_acceleration import (
     TurnedAcceleration,
     centripetal,
     driven_tangential,
+    tangential_effect,
 )
 from graphkin.construction.core.arrows import (
     acceleration_arrow,
@@ -17,6 +18,7 @@ from graphkin.construction.core.arrows import (
     velocity_arrows,
 )
 from graphkin.construction.core.bases import contact_name, under
+from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import (
     Pen,
     about,
@@ -261,11 +263,13 @@ def turn_from_rim(pen: Pen, link: str, rim: str, point: str, start: int) -> None
     turning, twist = omega_of(pen, link), omega_of(pen, link, EPSILON)
     name, steady = second_image(point), pen.is_nought(twist)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        end = pen.draw(centripetal, start, *ends, turning, name=name if steady else "")
+        with pen.calls_for(Effect.NORMAL):
+            end = pen.draw(centripetal, start, *ends, turning, name=name if steady else "")
         component_arrow(pen, start, end, "ν", point, rim)
         found = end
         if not steady:
-            found = pen.draw(driven_tangential, end, *ends, twist, name=name)
+            with pen.calls_for(tangential_effect(pen, twist)):
+                found = pen.draw(driven_tangential, end, *ends, twist, name=name)
             component_arrow(pen, end, found, "τ", point, rim)
         pen.make(
             TurnedAcceleration(

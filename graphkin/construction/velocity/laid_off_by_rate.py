@@ -59,7 +59,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
             answer(drawing, size),
             drawing.vector.caret_unit,
             remark,
-            over=(self.p, self.q),
+            over=((self.p, self.q),),
         )
 
 

@@ -73,8 +73,8 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
         size = 0.0 if drawing.turning(self.link) == 0 else size
         figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
         name = symbol(f"{drawing.rate.letter}_{self.link}")
-        whole, over = f"{relative}/{bar(self.p, self.q)}", (self.p, self.q)
-        return Relation(name, whole, figures, *tail, over=over)
+        whole = f"{relative}/{bar(self.p, self.q)}"
+        return Relation(name, whole, figures, *tail, over=((self.p, self.q),))
 
 
 def turning_of_link(
