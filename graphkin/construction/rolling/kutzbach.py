@@ -280,7 +280,7 @@ class SpeedRead(Construction, frozen=True, kw_only=True):
         start, cut = (symbol(steps[number].name) for number in (self.scale.start, self.cut))
         scale = scale_of(drawing, Plane.VELOCITIES) / 1000 / self.scale.length(drawing)
         drawn = abs(float(values[self.rate or 0])) / scale
-        figures = f"{figure(drawing, scale)}·{drawing.words.fixed(drawn, 1)}"
+        figures = f"{figure(drawing, scale)}·{drawing.words.fixed(drawn, 2)}"
         return Relation(symbol(f"ω_{link}"), f"*k*_n·{start}{cut}", figures, *tail)
 
 
