@@ -543,6 +543,8 @@ def settle(
             pen.make(DividedRate(first=one, second=two, share=divided, value=value))
         elif quantity == kind.quantity and (one == two or of in rims):
             pen.want(quantity, of, rims.get(of, one))
+        elif quantity == kind.quantity and pen.has(quantity, of):
+            settled[one, two] = of  # of a known link, where the line of a crossing begins
         elif quantity == kind.quantity and (one, two) in settled:
             pen.want(quantity, of, pen.the(quantity, settled[one, two]))
         elif quantity == kind.quantity:
@@ -581,8 +583,9 @@ def own_rate(pen: Pen, link: str) -> bool:
 def finish(pen: Pen, kind: TrialQuantity, point: str, closing: tuple[str, ...]) -> None:
     """The arrows to a point of the right plan; none against the end of a bar that is found last."""
     if kind is VELOCITY:
-        starts = {b.start for b in pen.bases.values() if point == b.end}
-        starts = starts or {b.start for b in pen.bases.values() if point in b.others}
+        moved = [base for base in pen.bases.values() if pen.has("velocity", base.start)]
+        starts = {b.start for b in moved if point == b.end}
+        starts = starts or {b.start for b in moved if point in b.others}
         pivots: list[str | None] = [*sorted(starts)]
         for pivot in pivots or [None]:
             velocity_arrows(pen, point, None if (point, pivot) == closing else pivot)
