@@ -91,7 +91,7 @@ AUXILIARY = OWN_LINES, CHAIN_LINES = "trial", "trial-line"
 """The looks of the lines of auxiliary plans: their own, and chain lines through their points."""
 VECTORS = ("velocity", "relative-velocity", "acceleration", *(kind.look for kind in COMPONENTS))
 """The classes of lines that are vectors."""
-DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", *VECTORS)
+DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", "ordinate", *VECTORS)
 """The classes of lines that a construction draws."""
 CENTRODES = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
 """The classes whose colours the names of centrodes take."""
@@ -150,6 +150,7 @@ STYLES: dict[str, Style] = {
     # plans
     "velocity": Style(0.5, BLUE),
     "relative-velocity": Style(0.35, TEAL),
+    "ordinate": Style(0.35, BLUE),  # of a velocity laid off square to an axis
     "acceleration": Style(0.5, RED),
     "relative-acceleration": Style(0.35, RED),
     "trial": Style(0.13, GREY),

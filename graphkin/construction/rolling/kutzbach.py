@@ -150,7 +150,7 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
     def marks(self, canvas: Canvas, role: str) -> None:
         """The point; over its foot the velocity."""
         if role == "tip":
-            canvas.leg("", "velocity", canvas.value(self.foot), canvas.value(self.tip or 0))
+            canvas.leg("", "ordinate", canvas.value(self.foot), canvas.value(self.tip or 0))
         canvas.image()
 
     def drawn(self, drawing: Drawing, start: int, end: int) -> str:
