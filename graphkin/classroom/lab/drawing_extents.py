@@ -14,6 +14,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.batch import run_batch
 from graphkin.construction.core.component import as_drawn
+from graphkin.construction.core.drawn_scene import takes_room
 from graphkin.construction.core.program import Part, Plane, Step, Target
 from graphkin.construction.core.quantities import PLANES
 from graphkin.construction.core.run import Trace
@@ -60,7 +61,7 @@ class VariantSheet(Struct, frozen=True, dict=True):
         """The box of the mechanism and what is drawn on it, in metres."""
         points = list(self.positions())
         for step, value in self.steps(Plane.MECHANISM):
-            if step.part in ON_MECHANISM[self.kind] and (step.name or isinstance(value, Vector)):
+            if step.part in ON_MECHANISM[self.kind] and takes_room(step, value):
                 points += ends(value)
         return boxes(points, len(self.seconds))
 

@@ -10,6 +10,7 @@ from msgspec import Struct, field
 
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.curve_extent import shown
+from graphkin.construction.core.kind import construction
 from graphkin.construction.core.link_poses import LinkPoses
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, PlanAside, Plane, Step
@@ -322,10 +323,15 @@ class Drawing(Struct, frozen=True, dict=True):
         """The box of the mechanism and what is drawn on it; centres and poles do not count."""
         points: list[complex] = []
         for _, step, value in self.mechanism_steps():
-            is_point = step.name or isinstance(value, Vector)  # the others are directions
-            if step.part not in (Part.CENTRE, Part.POLE) and is_point:
+            if step.part not in (Part.CENTRE, Part.POLE) and takes_room(step, value):
                 points += ends(value)
         return self.bare_extent().grown(points)
+
+
+def takes_room(step: Step, value: Any) -> bool:
+    """Whether a value on the mechanism is a vector or a place; the others are directions."""
+    kind = construction(step)
+    return bool(step.name or isinstance(value, Vector) or (kind and step.role in kind.corners))
 
 
 def ends(value: Any) -> tuple[complex, ...]:

@@ -297,8 +297,10 @@ def image(point: str) -> str:
     Both points where links touch have one image there, for nothing slips.
     """
     name, link = ends_of(point)
-    small = name.lower() if name.lower() not in (name, "o") else name.lower() + "_v"
-    return f"{small}_{link}" if link and is_in_scene(point) else small
+    small, indexed = name.lower(), bool(link and is_in_scene(point))
+    if small == name or (small == "o" and not indexed):  # the letter of a point, or of the pole
+        small += "_v"
+    return f"{small}_{link}" if indexed else small
 
 
 def second_image(point: str) -> str:

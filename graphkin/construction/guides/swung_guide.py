@@ -182,6 +182,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("small", "large", "foot", "tangent", "turn", "line")
     directions: ClassVar[frozenset[str]] = frozenset({"tangent", "turn"})
+    corners: ClassVar[frozenset[str]] = frozenset({"foot"})
     lines: ClassVar[Mapping[str, str]] = {
         **SwungGuide.lines,
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
