@@ -114,8 +114,8 @@ class PaletteMove(Struct, frozen=True):
     """An action of the palette that gives a recorded ``step`` from its ``inputs``, by their names.
 
     ``about`` is what a wrong choice is told of, ``at`` the sentence that draws it, ``needs`` are
-    the moves before it; a ``goal`` is drawn for its own sake, other moves only for a goal. ``turns`` are the rate by
-    which a vector is laid off square to its bar, and the sense of it.
+    the moves before it; a ``goal`` is drawn for its own sake, other moves only for a goal.
+    ``turns`` are the rate by which a velocity is laid off square to its bar, and its sense.
     """
 
     step: int
