@@ -20,7 +20,7 @@ from graphkin.construction.centres.relative_centre import kennedy_line, kennedy_
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
-from graphkin.construction.core.naming import rate_symbol, vector_of, way_of
+from graphkin.construction.core.naming import rate_symbol, sense, vector_of, way_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
@@ -49,6 +49,7 @@ from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate
 from graphkin.construction.velocity.parallel_through import parallel_to
 from graphkin.construction.velocity.perpendicular_through import square_to
 from graphkin.construction.velocity.translated_image import alike
+from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
@@ -114,6 +115,7 @@ class PaletteMove(Struct, frozen=True):
 
     ``about`` is what a wrong choice is told of, ``at`` the sentence that draws it, ``needs`` are
     the moves before it; a ``goal`` is drawn for its own sake, other moves only for a goal.
+    ``turns`` are the rate by which a velocity is laid off square to its bar, and its sense.
     """
 
     step: int
@@ -124,6 +126,7 @@ class PaletteMove(Struct, frozen=True):
     at: int
     needs: tuple[int, ...]
     goal: bool
+    turns: tuple[str, ...] = ()
 
 
 class YourTurn(Struct, frozen=True):
@@ -255,8 +258,9 @@ class MoveFinder:
         if action == "divide":
             needs |= {*self.needs([self.share(number)])}
         goal = bool(step.name) and step.plane is not Plane.NUMBERS
+        at = self.sentence(number)
         self.moves[number] = PaletteMove(
-            number, action, inputs, name, about, self.sentence(number), tuple(sorted(needs)), goal
+            number, action, inputs, name, about, at, tuple(sorted(needs)), goal, self.turns(number)
         )
         if step.plane is not Plane.NUMBERS and action != "transfer":
             self.point_or_line(number, name)
@@ -569,6 +573,14 @@ class MoveFinder:
         args = [arg for arg in self.steps[number].args if self.steps[arg].name]
         args = [arg for arg in args if self.steps[arg].plane is Plane.MECHANISM]
         return "".join(symbol(self.steps[arg].name) for arg in args)
+
+    def turns(self, number: int) -> tuple[str, ...]:
+        """The rate by which a velocity is laid off square to its bar, and the sense of it."""
+        kind, drawing = construction(self.steps[number]), self.drawing(number)
+        if not isinstance(kind, TurnedVelocity):
+            return ()
+        way = sense(drawing.words, drawing.trace.values[kind.omega])
+        return (rate_symbol(drawing, kind.omega), way) if way else ()
 
     def words_of(self, number: int, action: str, inputs: Sequence[str]) -> tuple[str, str]:
         """What a move gives, and what it is about in a line that tells why a choice is wrong."""

@@ -14,6 +14,7 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.divided_point import DividedRate
 from graphkin.construction.higher_class.trial_plan import TrialPlan
 from graphkin.construction.links.idle_links import IDLE
+from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
@@ -60,6 +61,8 @@ def reasons(
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(step)
+        if isinstance(kind := construction(step), PerpendicularThrough):
+            known["s"] = symbol(drawing.trace.program.steps[kind.start].name)
         if step.part not in parts or not key or is_nothing(drawing, number):
             continue
         if component_of(drawing.trace.program, number) is None and is_hidden(drawing, number):

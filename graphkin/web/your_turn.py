@@ -21,6 +21,7 @@ SAID = (
     "turn.say.saved",
     "turn.say.arc",
     "turn.say.begin",
+    "turn.say.again",
     "turn.say.choose",
     "turn.say.count",
     "turn.say.which",
@@ -30,6 +31,7 @@ SAID = (
     "turn.say.nowhere",
     "turn.say.other_cut",
     "turn.say.other_lay_off",
+    "turn.say.other_turned",
     "turn.say.hint",
     "turn.say.helped",
     "turn.say.complete",
@@ -137,6 +139,8 @@ def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
         found["needs"] = move.needs
     if move.goal:
         found["goal"] = 1
+    if move.turns:
+        found["turns"] = [*map(marked_up, move.turns)]
     return found
 
 

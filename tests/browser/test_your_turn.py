@@ -51,6 +51,10 @@ DRAW = """([action, inputs, which]) => {
   return document.querySelector('#turn-say').innerText;
 }"""
 """A move by the lists, at once: a mouse, a finger and keys are tried one by one above."""
+LIT = "[...document.querySelectorAll('.halo > *')].map(mark => mark.outerHTML).join()"
+"""All that is lit on the drawings, and the lines and points that a turn lays over them."""
+KNOWN = """() => [...document.querySelectorAll('#results tr[data-found]:not(.unknown)')]
+  .map(row => row.dataset.row)"""
 LATER = "document.querySelectorAll('.sheet:not([hidden]) .later').length"
 
 
@@ -73,6 +77,17 @@ def begun(opened: Opened, pages: Path, name: str, step: int, **options: Any) -> 
 def said(page: Any) -> str:
     """What the page says."""
     return page.locator("#turn-say").inner_text()
+
+
+def why(page: Any) -> str:
+    """Why that is so, or why the last step is drawn as it is."""
+    return page.locator("#turn-sentence").inner_text()
+
+
+def point(page: Any, at: tuple[float, float]) -> None:
+    """Point at a place of the window, until the page has shown what it shows there."""
+    page.mouse.move(*at)
+    page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def take(page: Any, action: str) -> None:
@@ -167,11 +182,14 @@ def test_a_wrong_choice_is_told_why_in_one_line(opened: Opened, pages: Path):
     assert told == "vBA is perpendicular to AB, not to O2B."
     told = by_lists(page, "perpendicular", "o", "AB")
     assert told == "vB is perpendicular to O2B, not to AB."
+    assert "O2 is at rest, so in the plan its image is o" in why(page)
     assert by_lists(page, "parallel", "a", "guide 5") == (
         "The parallel to guide 5 is drawn through o, not through a."
     )
+    assert why(page) == "relative to guide 5 its block can move only along it"
     by_lists(page, "perpendicular", "a", "AB")
     assert by_lists(page, "perpendicular", "a", "AB") == "⊥ AB (a) is drawn already."
+    assert why(page) == ""
     page.locator("#turn-score").click()
     assert "wrong turns: 3" in page.locator("#score li").inner_text()
 
@@ -180,7 +198,7 @@ def test_a_vector_laid_off_backwards_is_told(opened: Opened, pages: Path):
     page = begun(opened, pages, "pump", 5)
     by_lists(page, "lay_off", "o", "vA")
     page.locator("#which button").nth(1).click()
-    assert said(page) == "vA points the other way."
+    assert said(page) == "vA points the other way: ω1 is counter-clockwise."
     assert page.evaluate(SEEN, "a") == 0
 
 
@@ -266,6 +284,112 @@ def test_the_turn_ends_where_it_began(opened: Opened, pages: Path):
     assert page.locator("#count").inner_text() == "Step 7 of 42"
 
 
+def test_pointing_at_marks_tells_nothing_of_the_next_step(opened: Opened, pages: Path):
+    """What is lit is the turn's own, whatever has been pointed at; at the end it is nothing."""
+    page = begun(opened, pages, "pump", 5)
+    assert page.evaluate(LIT) == ""
+    for _ in range(13):
+        before = page.evaluate(LIT)
+        for place in (at(page, "A"), at(page, "B"), (3.0, 3.0)):
+            point(page, place)
+            assert page.evaluate(LIT) == before
+        page.locator("#draw-it").click()
+    assert "I3" in said(page)
+    point(page, at(page, "A"))
+    point(page, (3.0, 3.0))
+    assert page.evaluate(LIT) == ""
+
+
+def test_a_turn_leaves_nothing_lit_of_the_step_at_which_it_begins(opened: Opened, pages: Path):
+    """Nor the velocity plan that the page shows beside a step that takes a velocity over."""
+    page = opened(pages / "pump.html", "#step=19", **DESKTOP)
+    assert page.locator(".carried").is_visible()
+    page.locator("#turn").click()
+    assert not page.locator(".carried").is_visible()
+    assert page.evaluate(LIT) == ""
+
+
+def test_both_candidates_stay_until_one_is_chosen(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 5)
+    by_lists(page, "lay_off", "o", "vA")
+    asked = page.evaluate(LIT)
+    assert page.locator(".sheet:not([hidden]) text.ghost").all_text_contents() == ["1", "2"]
+    point(page, at(page, "B"))
+    page.mouse.click(*at(page, "B"))
+    point(page, (3.0, 3.0))
+    assert page.evaluate(LIT) == asked
+    assert page.locator("#which button").count() == 2
+
+
+def test_a_turn_that_was_left_goes_on(opened: Opened, pages: Path):
+    """With the same steps, wherever the page has been meanwhile, until one begins again."""
+    page = begun(opened, pages, "pump", 6)
+    assert not page.locator("#turn-again").is_visible()
+    page.locator("#turn-end").click()
+    assert page.locator("#turn").get_attribute("title") == EN("turn.begin")  # nothing to lose
+    page.locator("#turn").click()
+    by_lists(page, "perpendicular", "a", "AB")
+    by_lists(page, "parallel", "a", "guide 5")
+    page.locator("#turn-score").click()
+    count, score = (page.locator(name).inner_text() for name in ("#turn-count", "#score"))
+    page.locator("#turn-end").click()
+    assert page.locator("#turn").get_attribute("title") == EN("turn.resume")
+    page.keyboard.press("End")
+    page.locator("#turn").click()
+    assert page.locator("#turn-count").inner_text() == count
+    assert page.locator("#score").inner_text() == score
+    assert page.evaluate(SEEN, "b") == 0
+    by_lists(page, "perpendicular", "o", "O2B")
+    assert by_lists(page, "cut", "⊥ AB (a)", "⊥ O2B (o)") == "b: right."
+    page.locator("#turn-end").click()
+    assert page.locator("#count").inner_text() == "Step 42 of 42"
+    page.locator('[data-stop="5"]').first.click()
+    page.locator("#turn").click()
+    page.locator("#turn-again").click()
+    assert page.evaluate(SEEN, "a") == 0
+    assert by_lists(page, "lay_off", "o", "vA") == EN("turn.say.which")
+
+
+def test_what_a_move_finds_is_told(opened: Opened, pages: Path):
+    """Its size and its length, and in the tables; nothing that is still sought."""
+    page = begun(opened, pages, "pump", 10)
+    known = ["v_A", "v_B", "v_BA", "v_C", "v_CA", "v_CB", "ω1", "ω2", "ω3"]
+    assert page.evaluate(KNOWN) == known
+    by_lists(page, "perpendicular", "c", "CD")
+    by_lists(page, "parallel", "o", "guide 5")
+    assert page.evaluate(KNOWN) == known
+    by_lists(page, "cut", "⊥ CD (c)", "∥ guide 5 (o)")
+    assert {*page.evaluate(KNOWN)} == {*known, "v_D", "v_DC", "ω4"}
+    told = page.locator("#turn-sentence .found").all_inner_texts()
+    assert "vD = 3.827 m/s (od = 49.38 mm)" in told
+    assert "ω4 = 30.75 rad/s, clockwise" in told
+
+
+def test_an_open_score_sheet_counts_at_once(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 6)
+    page.locator("#turn-score").click()
+    counts = page.locator("#score p")
+    assert "Alone: 0;" in counts.inner_text() and "Wrong turns: 0." in counts.inner_text()
+    by_lists(page, "perpendicular", "o", "AB")
+    assert "Wrong turns: 1." in counts.inner_text()
+    by_lists(page, "perpendicular", "a", "AB")
+    assert "Alone: 1;" in counts.inner_text()
+
+
+@pytest.mark.parametrize("shape", ["desktop", "phone"])
+def test_the_palette_stays_where_it_is(opened: Opened, pages: Path, shape: str):
+    """Whatever is said and sought: a press of the same place is a press of the same button."""
+    page = begun(opened, pages, "pump", 5, **(DESKTOP if shape == "desktop" else PHONE))
+    tops = set()
+    for _ in range(9):
+        for action in ("perpendicular", "cut"):
+            page.evaluate(f"document.querySelector('[data-action={action}]').click()")
+            tops.add(page.locator("#palette").bounding_box()["y"])
+        page.evaluate("document.querySelector('#draw-it').click()")
+        tops.add(page.locator("#palette").bounding_box()["y"])
+    assert len(tops) == 1
+
+
 def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):
     page = opened(pages / "pump.html", "#step=6&x=80", **DESKTOP)
     page.locator("#turn").click()
@@ -324,6 +448,7 @@ def test_each_scene_from_its_first_step_in_any_order(opened: Opened, pages: Path
         done.add(step)
     assert page.locator("#turn-count").inner_text() == ""
     assert page.locator("#score").is_visible()
+    assert page.locator("#results .unknown").count() == 0
     for _ in range(2):
         assert page.evaluate(LATER) == 0
         page.locator("#turn-sheet").click()

@@ -44,6 +44,11 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         """The bar."""
         return self.p + self.q
 
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """That the bar keeps its length; of a pivot at rest, that its image is the pole."""
+        at_rest = self.index == self.whole and not self.touch
+        return "why.square_at_rest" if at_rest else super().reason(drawing, role)
+
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """What ends where it begins."""
         return (self.start,)

@@ -78,9 +78,9 @@ function reachable(one) {
   });
 }
 
-/** Show what a mark that is pointed at is drawn from, alone. */
+/** Show what a mark that is pointed at is drawn from, alone; in a turn this would tell what is to be drawn next. */
 function point_at(step) {
-  if (state.over === step) return;
+  if (turn || state.over === step) return;
   state.over = step;
   trace();
 }

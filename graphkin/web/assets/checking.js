@@ -54,14 +54,16 @@ function check_move(action, given, found, plane, other) {
   const step = giving(action, given, found, plane, open);
   if (step !== undefined) return make_move(step, turn.hinted === step ? "hint" : "alone", worded("right", { name: moves[step].name }));
   const before = giving(action, given, found, plane, [...turn.done].filter(one => moves[one]));
-  if (before !== undefined) return refuse_move(worded("already", { name: moves[before].name }), false);
+  if (before !== undefined) return refuse_move(worded("already", { name: moves[before].name }));
   if (other && giving(action, given, [other], plane, open) !== undefined) {
-    const meant = moves[giving(action, given, [other], plane, open)];
-    return refuse_move(worded(`other_${action}`, { name: meant.name, about: meant.about ?? meant.name }));
+    const meant = giving(action, given, [other], plane, open);
+    const [omega, sense] = moves[meant].turns ?? [];
+    const { name, about = name } = moves[meant];
+    return refuse_move(worded(omega ? "other_turned" : `other_${action}`, { name, about, omega, sense }), meant);
   }
   const lies = found.length && shape_of(action) !== "point" && shape_of(action) !== "vector" && leads_to(found[0], plane, open);
   if (lies !== undefined && lies !== false && found.length) return keep_own(action, given, found[0], plane, lies);
-  return refuse_move(why_wrong(action, given));
+  return why_wrong(action, given);
 }
 
 /** A point that is still sought and lies on a line or arc. */
@@ -81,7 +83,7 @@ function keep_own(action, given, value, plane, step) {
   show_turn();
 }
 
-/** Why a choice is wrong, by the move that is most like it. */
+/** Tell why a choice is wrong, by the move that is most like it. */
 function why_wrong(action, given) {
   const near = moves_left().filter(step => moves[step].action === action).map(step => {
     const own = moves[step].inputs.map(key => picks[key].by || key);
@@ -91,10 +93,10 @@ function why_wrong(action, given) {
     const first = inputs.findIndex((key, i) => key !== given[i]);
     return { step, inputs, first, weight: 4 * count(inputs) + 2 * (inputs[0] === given[0]) + all_done(moves[step].needs) };
   }).filter(({ weight, first }) => weight >= 4 && first >= 0).sort((a, b) => b.weight - a.weight)[0];
-  if (!near) return worded("nowhere");
+  if (!near) return refuse_move(worded("nowhere"), null);
   const { step, inputs, first } = near, name = key => picks[key].name;
   const others = inputs.filter((_, i) => i !== first).map(name).join(", ");
-  return worded(reason_key(action, first), { name: moves[step].name, about: moves[step].about ?? moves[step].name, right: name(inputs[first]), chosen: name(given[first]), other: others });
+  refuse_move(worded(reason_key(action, first), { name: moves[step].name, about: moves[step].about ?? moves[step].name, right: name(inputs[first]), chosen: name(given[first]), other: others }), step);
 }
 
 /** The sentence for an input: inputs that are alike have one, and Klein's construction those of the triangle. */
@@ -114,7 +116,7 @@ function make_move(step, how, words) {
   turn.wrong = 0;
   turn.hinted = null;
   const came = ([, needs]) => needs.length && all_done(needs) && !needs.every(one => before.has(one));
-  const at_keys = keys_within();
+  const at_keys = keys_within(), unknown = found.filter(row => row.matches(".unknown"));
   turn.fresh = [step, ...Object.entries(turning.along).filter(came).map(([one]) => Number(one))];
   turn.sheet = null;
   forget_inputs();
@@ -123,17 +125,21 @@ function make_move(step, how, words) {
   show_turn();
   const { at } = moves[step], rest = moves_left(), sentence = document.createElement("p");
   if (!rest.some(one => moves[one].at === at)) sentence.append(...copies(places[at - 1].say));
-  byId("turn-sentence").replaceChildren(sentence, ...reasons_of(step));
+  byId("turn-sentence").replaceChildren(...told_found(unknown), sentence, ...reasons_of(step));
   if (at_keys) byId("palette").querySelector(`[data-action=${action}]`).focus({ preventScroll: true });
 }
 
-function refuse_move(words, counts = true) {
+/** Nothing is drawn: why that step is drawn otherwise for which it was meant, or null; a step that stands is no wrong turn. */
+function refuse_move(words, meant) {
   const at_keys = keys_within();
-  if (counts) turn.wrong += 1;
+  if (meant !== undefined) turn.wrong += 1;
+  byId("turn-sentence").replaceChildren(...(meant ? reasons_of(meant) : []));
   turn.inputs = [];
   turn.fresh = [];
   tell_turn(words);
   show_picks();
+  byId("turn-again").hidden = !is_begun();
+  if (!byId("score").hidden) show_score();
   if (at_keys) byId("inputs").querySelector("select").focus({ preventScroll: true });
 }
 

@@ -7,7 +7,7 @@ const { plus, minus, scaled, dot, length_of, value_of, plane_of, results_of, sam
 for (const move of Object.values(moves)) move.sheet = data.bounds.findIndex(([, end]) => move.at <= end);
 const CHOICE = ["cut", "lay_off"]; // where the reader says which of two is meant
 
-let turn = null; // the turn: what is done, how, and what is picked
+let turn = null, left_turn = null; // the turn: what is done, how, and what is picked; one that was left
 const all_done = steps => steps.every(step => turn.done.has(step));
 const is_there = key => all_done(picks[key].needs) && !picks[key].by && here() === (picks[key].sheet ?? here());
 const open_goals = () => ORDER.filter(step => moves[step].goal && !turn.done.has(step));
@@ -31,35 +31,57 @@ const worded = (key, fields = null) => turning.words[key].replace(/\{(\w+)\}/g, 
 const tell_turn = text => { byId("turn-say").innerHTML = text.replace(/^\p{Ll}/u, first => first.toUpperCase()); };
 const action_name = action => byId("palette").querySelector(`[data-action=${action}]`).textContent;
 
+/** Go on with the turn that was left, or begin one at the step in sight. */
 function begin_turn() {
   pause();
+  state.over = null;
+  carry([]);
   if (motion && moved()) {
     reset_figures();
     drive(motion.start);
   }
-  const from = state.step;
-  turn = { done: new Set(ORDER.filter(step => moves[step].at < from)), from, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
+  const came = state.step;
+  if (left_turn) turn = Object.assign(left_turn, { came });
+  else new_turn(came);
   page.classList.add("turning");
   byId("turn-panel").hidden = false;
-  byId("score").hidden = byId("turn-save").hidden = true;
-  byId("score").replaceChildren();
   turn.near = follow.getAttribute("aria-pressed") === "true";
   if (turn.near) follow.click(); // all that may yet be drawn is to be in sight
   tell_turn(worded("begin"));
-  byId("turn-sentence").replaceChildren();
   show_turn();
   fit();
   byId("palette").firstElementChild.focus({ preventScroll: true });
 }
 
-function end_turn() {
-  const { from, near } = turn;
+/** Nothing is drawn yet from a step on. */
+function new_turn(came) {
   for (const key of Object.keys(picks)) if (key.startsWith("own")) delete picks[key];
+  turn = { done: new Set(ORDER.filter(step => moves[step].at < came)), from: came, came, near: turn?.near, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
+  byId("score").hidden = byId("turn-save").hidden = true;
+  byId("turn-sentence").replaceChildren();
+}
+
+/** Throw away what is drawn, and begin at the step that was in sight before the turn. */
+function turn_again() {
+  new_turn(turn.came);
+  tell_turn(worded("begin"));
+  show_turn();
+}
+
+/** Whether anything was tried that would be lost. */
+const is_begun = () => turn.log.length + turn.own + turn.wrong > 0;
+
+/** Leave the turn: what is drawn is kept. */
+function end_turn() {
+  const { came, near } = turn;
+  forget_inputs();
+  left_turn = is_begun() ? turn : null;
+  called(byId("turn"), byId("turn").dataset[left_turn ? "resume" : "begin"]);
   turn = null;
   page.classList.remove("turning");
   byId("turn-panel").hidden = true;
   if (near) follow.click();
-  show(from);
+  show(came);
   fit();
   byId("turn").focus({ preventScroll: true });
 }
@@ -84,6 +106,7 @@ function show_turn() {
     if (picks[key].kind === "guide" && Number(key) && is_there(key) && unseen()) turn.open.add(Number(key));
   }
   for (const part of sheets[sheet].parts) part.classList.toggle("later", Number(part.dataset.from) >= open);
+  for (const row of found) row.classList.toggle("unknown", !is_found(Number(row.dataset.found)));
   sheets[sheet].element.classList.remove("growing");
   tell_count(next, [...rest]);
   byId("turn-sheet").hidden = sheets.length < 2;
@@ -91,7 +114,30 @@ function show_turn() {
   look();
   light_up();
   show_inputs();
-  if (next === undefined && !byId("score").childElementCount) show_score();
+  byId("turn-again").hidden = !is_begun();
+  byId("turn-again").textContent = worded("again", { number: Math.max(turn.came, 1) });
+  if (next === undefined || !byId("score").hidden) show_score();
+}
+
+/** Whether what a sentence finds is found: all that it draws stands, and what its rates are read off. */
+function is_found(at) {
+  const drawn = ORDER.filter(step => moves[step].at === at), read = (data.rates[at] ?? []).flatMap(({ vector }) => vector ?? []);
+  const steps = [...drawn, ...own[at], ...read].map(String).filter(step => !["line", "circle"].includes(shape_of(moves[step]?.action))); // there may be other ways
+  return steps.length ? steps.every(is_drawn) : moves_left().every(step => moves[step].at > at);
+}
+
+/** Whether a step stands: as a move, or along with moves. */
+const is_drawn = step => moves[step] ? turn.done.has(Number(step)) : all_done(turning.along[step] ?? []);
+
+/** What has been found by a move, as it is told of what is asked, with its length in the plan. */
+function told_found(rows) {
+  return rows.filter(row => !row.matches(".unknown")).map(row => {
+    const line = document.createElement("p"), cells = [...row.cells], table = row.closest("table"), vector = table.matches(".vectors");
+    line.className = "found";
+    line.append(asked(cells));
+    if (vector) line.append(" (", ...copies(cells[1]), " = ", ...copies(cells[2]), " ", ...copies(table.tHead.rows[0].cells[2]), ")");
+    return line;
+  });
 }
 
 /** The part of the work to which a step belongs, as its button is called. */

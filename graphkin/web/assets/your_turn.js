@@ -55,6 +55,7 @@ if (byId("turn")) {
   for (const type of ["keydown", "click", "pointerover", "pointerdown"]) document.addEventListener(type, in_turn, true);
   byId("turn").addEventListener("click", begin_turn);
   byId("turn-end").addEventListener("click", end_turn);
+  byId("turn-again").addEventListener("click", turn_again);
   byId("turn-score").addEventListener("click", show_score);
   byId("turn-save").addEventListener("click", save_score);
   byId("hint").addEventListener("click", give_hint);
