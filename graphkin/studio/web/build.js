@@ -1,6 +1,6 @@
 // The field in which a mechanism is built by hand: every act is asked of the studio as an edit.
 
-import { replace, written } from "./editor.js";
+import { onWriting, replace, written } from "./editor.js";
 import { sentence } from "./mistakes.js";
 import { ask, find, onSpeaking, say, tell } from "./talk.js";
 import { corners, onPicture, scale, shift, under } from "./underlay.js";
@@ -89,12 +89,19 @@ function element(name, look, attributes, words = "") {
 
 const line = (look, [x1, y1], [x2, y2]) => element("line", look, { x1, y1: -y1, x2, y2: -y2 });
 
+/** The place of a block that is dragged: what is beside a fixed guide is not written. */
+function onGuide(sketch, { point, along: [u, v], fixed }, [x, y]) {
+  const [a, b] = sketch.points[point];
+  const part = ((x - a) * u + (y - b) * v) / (u * u + v * v || 1);
+  return fixed ? [a + part * u, b + part * v] : [x, y];
+}
+
 /** The marks of a sketch whose points stand so, where a pixel is so much of the scene; `named`
  * with the letters of its points. */
 function marksOf(sketch, points, one, named = true) {
   const marks = [];
   for (const block of sketch.blocks) {
-    const [x, y] = points[block.point];
+    const [x, y] = onGuide(sketch, block, points[block.point]);
     const [dx, dy] = block.along.map((part) => part / (Math.hypot(...block.along) || 1));
     const turn = `rotate(${(-Math.atan2(dy, dx) * 180) / Math.PI} ${x} ${-y})`;
     const reach = 60 * one;
@@ -115,8 +122,9 @@ function marksOf(sketch, points, one, named = true) {
     if (at.length > 1) marks.push(element("polygon", look, { points: list, "data-link": name }));
   }
   for (const ghost of sketch.ghosts) {
-    for (const near of ghost.neighbours) {
-      if (points[near]) marks.push(line("ghost", points[near], ghost.at));
+    for (const bar of ghost.bars) {
+      const list = bar.map(([x, y]) => `${x},${-y}`).join(" ");
+      marks.push(element("polygon", "ghost", { points: list }));
     }
     marks.push(element("circle", "ghost", { cx: ghost.at[0], cy: -ghost.at[1], r: PIN * one, "data-ghost": ghost.point }));
   }
@@ -163,6 +171,25 @@ function measure(one) {
   ];
 }
 
+/** A cross with its axes where x and y are nought. */
+function origin(one) {
+  const [reach, letter] = [26 * one, { "font-size": 0.8 * LETTER * one }];
+  return [
+    line("origin", [-reach, 0], [reach, 0]),
+    line("origin", [0, -reach], [0, reach]),
+    element("text", "origin", { x: reach + 3 * one, y: 4 * one, ...letter }, "x"),
+    element("text", "origin", { x: -3 * one, y: -reach - 4 * one, ...letter }, "y"),
+  ];
+}
+
+/** Coordinates on the grid, as they are written. */
+const coordinates = (at) => at.map((part) => +(Math.round(part / sketch.grid) * sketch.grid).toFixed(6));
+
+/** Say at the edge of the field where the pointer is, or what is drawn. */
+function tellPlace(at) {
+  find("at").textContent = at && sketch ? `(${coordinates(at).join("; ")}) ${sketch.unit}` : "";
+}
+
 /** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
 function draw(shift = {}, drawn = []) {
   if (!sketch || !svg.clientWidth) return;
@@ -171,7 +198,7 @@ function draw(shift = {}, drawn = []) {
   const points = { ...sketch.points, ...shift };
   svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
   const marks = marksOf(sketch, points, one);
-  svg.replaceChildren(...under(), ...measure(one), ...marks, ...drawn);
+  svg.replaceChildren(...under(), ...origin(one), ...measure(one), ...marks, ...drawn);
 }
 
 /** Where a pointer is in the scene. */
@@ -226,6 +253,13 @@ function linkAt(at, but = "") {
   });
 }
 
+/** The distances that a new point of the pressed link has from its first two. */
+function spokes(at) {
+  const held = (sketch.links[press.link] ?? []).filter((name) => sketch.points[name]).slice(0, 2);
+  const far = held.map((name) => +(Math.max(1, Math.round(away(at, sketch.points[name]) / sketch.grid)) * sketch.grid).toFixed(6));
+  return far.map((length, i) => `${held[i]}: ${length} ${sketch.unit}`).join(", ");
+}
+
 /** A ring around a pin that is aimed at. */
 function ringed(name) {
   const [x, y] = sketch.points[name];
@@ -273,9 +307,12 @@ svg.addEventListener("pointerdown", (event) => {
   svg.setPointerCapture(event.pointerId);
 });
 
+svg.addEventListener("pointerleave", () => tellPlace(null));
 svg.addEventListener("pointermove", (event) => {
-  if (!press) return;
+  if (!sketch || !view) return;
   const at = spot(event);
+  tellPlace(at);
+  if (!press) return;
   if (press.tool === "move" && press.point) {
     const goal = pointAt(at, press.point);
     draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
@@ -289,8 +326,9 @@ svg.addEventListener("pointermove", (event) => {
   const from = (press.tool !== "scale" && sketch.points[press.point]) || press.at;
   const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
   const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
-  const angle = Math.round((Math.atan2(dy, dx) * 360) / Math.PI) / 2;
-  const words = `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
+  const step = press.tool === "block" ? 5 : 0.5; // degrees, as building.py rounds them
+  const angle = Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step;
+  const words = press.tool === "plate" ? spokes(at) : press.tool === "block" ? `${angle}°` : `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
   const one = pixel();
   const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
   const drawn = [line("drawn", from, at), element("text", "letter", letter, words)];
@@ -363,12 +401,20 @@ const isEmpty = () => sketch !== null && !Object.keys(sketch.points).length;
 function explain() {
   const what = isEmpty() && ["move", "pivot"].includes(tool()) ? "begin" : tool();
   find("how").textContent = say(`studio.how_${what}`);
-  find("driven").hidden = tool() !== "driver";
+  find("driven").style.visibility = tool() === "driver" ? "visible" : "hidden";
   find("spanned").hidden = tool() !== "scale";
-  if (sketch) find("span-unit").textContent = sketch.unit;
+  if (!sketch) return;
+  find("span-unit").textContent = sketch.unit;
+  find("speed-unit").textContent = sketch.rate;
 }
 
-find("tools").addEventListener("change", explain);
+find("tools").addEventListener("change", () => {
+  told.hidden = true;
+  explain();
+});
+onWriting(() => (told.hidden = true));
+find("save").addEventListener("click", () => (told.hidden = true));
+for (const field of ["speed", "span"]) find(field).addEventListener("focus", () => find(field).select());
 find("tools").addEventListener("submit", (event) => event.preventDefault());
 onPicture(
   (error) => {
