@@ -165,7 +165,7 @@ def test_a_rate_is_told_where_the_driver_now_is(opened: Opened, pages: Path):
 
 
 def test_a_rate_that_is_not_asked_for_is_told_while_the_driver_goes(opened: Opened, pages: Path):
-    """Of each place the rates there, never those of the place before: block and lever turn alike."""
+    """Of each place the rates there, not those of the place before; block and lever turn alike."""
     page = opened(pages / "slotted-lever.html", "#step=12", stopped=True, **DESKTOP)
     drawing = screen_sheets(load("slotted-lever"), "en")[0].drawing
     asked = "[data-row='{}'][data-asked]"

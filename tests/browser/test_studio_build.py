@@ -55,6 +55,9 @@ def test_a_newcomer_builds_the_offset_slider_crank(hand):
     hand.driver(crank, 90)
     assert hand.page.locator("#canvas").bounding_box()["y"] == upper
     assert hand.text.count("speed = 90") == 1
+    hand.write("speed", "75")
+    hand.settled(lambda: hand.page.press("#speed", "Enter"))
+    assert hand.text.count("speed = 75") == 1
     assert hand.page.inner_text("#speed-unit") == "rev/min"
 
 

@@ -48,7 +48,9 @@ def test_the_other_closure_has_all_bars_as_long_as_the_one_that_is_drawn():
 
     for bar in ghost.bars:
         drawn = [[seen.points[point] for point in points] for points in held]
-        assert any(lengths(bar) == pytest.approx(lengths(own)) for own in drawn if len(own) == len(bar))
+        assert any(
+            lengths(bar) == pytest.approx(lengths(own)) for own in drawn if len(own) == len(bar)
+        )
         assert not any(set(bar) == set(own) for own in drawn)
 
 

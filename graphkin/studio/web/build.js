@@ -1,6 +1,6 @@
 // The field in which a mechanism is built by hand: every act is asked of the studio as an edit.
 
-import { onWriting, replace, written } from "./editor.js";
+import { replace, written } from "./editor.js";
 import { sentence } from "./mistakes.js";
 import { ask, find, onSpeaking, say, tell } from "./talk.js";
 import { corners, onPicture, scale, shift, under } from "./underlay.js";
@@ -124,7 +124,7 @@ function marksOf(sketch, points, one, named = true) {
   for (const ghost of sketch.ghosts) {
     for (const bar of ghost.bars) {
       const list = bar.map(([x, y]) => `${x},${-y}`).join(" ");
-      marks.push(element("polygon", "ghost", { points: list }));
+      marks.push(element(bar.length > 2 ? "polygon" : "polyline", "ghost", { points: list }));
     }
     marks.push(element("circle", "ghost", { cx: ghost.at[0], cy: -ghost.at[1], r: PIN * one, "data-ghost": ghost.point }));
   }
@@ -253,11 +253,20 @@ function linkAt(at, but = "") {
   });
 }
 
-/** The distances that a new point of the pressed link has from its first two. */
+/** What is written of a length. */
+const lengthTold = (far) =>
+  `${+(Math.max(1, Math.round(far / sketch.grid)) * sketch.grid).toFixed(6)} ${sketch.unit}`;
+
+/** The distances of a new point of the pressed link from its first two; on their line, from one. */
 function spokes(at) {
   const held = (sketch.links[press.link] ?? []).filter((name) => sketch.points[name]).slice(0, 2);
-  const far = held.map((name) => +(Math.max(1, Math.round(away(at, sketch.points[name]) / sketch.grid)) * sketch.grid).toFixed(6));
-  return far.map((length, i) => `${held[i]}: ${length} ${sketch.unit}`).join(", ");
+  const [[x, y], [u, v]] = [sketch.points[held[0]] ?? at, sketch.points[held[1]] ?? at];
+  const [long, aside] = [Math.hypot(u - x, v - y), (u - x) * (at[1] - y) - (v - y) * (at[0] - x)];
+  if (held.length > 1 && Math.abs(aside) < sketch.grid * long) {
+    const along = ((u - x) * (at[0] - x) + (v - y) * (at[1] - y)) / long;
+    return `${held[0]}: ${lengthTold(Math.abs(along))}`;
+  }
+  return held.map((name) => `${name}: ${lengthTold(away(at, sketch.points[name]))}`).join(", ");
 }
 
 /** A ring around a pin that is aimed at. */
@@ -299,6 +308,10 @@ async function act(event, kind, of, at, more = {}) {
   }
 }
 
+/** Drive a link at the speed that is written; one that is driven, at that instead of its own. */
+const drive = (event, link, at) =>
+  act(event, "driver", [link], at, { speed: [Number(find("speed").value) || 0, 0] });
+
 svg.addEventListener("pointerdown", (event) => {
   if (!sketch || event.button) return;
   tellAt(event, "");
@@ -324,14 +337,21 @@ svg.addEventListener("pointermove", (event) => {
   }
   if (!["bar", "plate", "block", "wheel", "scale"].includes(press.tool)) return;
   const from = (press.tool !== "scale" && sketch.points[press.point]) || press.at;
-  const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
-  const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
+  const goal = press.tool === "bar" ? pointAt(at, press.point) : undefined;
+  const to = sketch.points[goal] ?? at;
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const length = lengthTold(Math.hypot(dx, dy));
   const step = press.tool === "block" ? 5 : 0.5; // degrees, as building.py rounds them
-  const angle = Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step;
-  const words = press.tool === "plate" ? spokes(at) : press.tool === "block" ? `${angle}°` : `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
+  const angle = `${Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step}°`;
+  const slot = press.tool === "block" && linkAt(at, press.point);
+  const words = {
+    plate: () => spokes(at),
+    block: () => (slot ? "" : angle),
+    bar: () => (goal ? length : `${length}, ${angle}`),
+  }[press.tool]?.() ?? length;
   const one = pixel();
   const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
-  const drawn = [line("drawn", from, at), element("text", "letter", letter, words)];
+  const drawn = [line("drawn", from, to), element("text", "letter", letter, words)];
   if (press.tool === "wheel") {
     drawn.push(element("circle", "drawn", { cx: from[0], cy: -from[1], r: Math.hypot(dx, dy) }));
   }
@@ -372,7 +392,7 @@ svg.addEventListener("pointerup", (event) => {
     const rim = rimAt(at, from.point);
     act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at);
   } else if (from.tool === "driver" && from.link) {
-    act(event, "driver", [from.link], at, { speed: [Number(find("speed").value) || 0, 0] });
+    drive(event, from.link, at);
   } else if (from.tool === "delete" && (from.point || from.link)) {
     act(event, "delete", [from.point ?? from.link], at, { words: from.point ? "point" : "link" });
   } else if (from.tool !== "move") tellAt(event, say(`studio.how_${from.tool}`));
@@ -412,10 +432,14 @@ find("tools").addEventListener("change", () => {
   told.hidden = true;
   explain();
 });
-onWriting(() => (told.hidden = true));
-find("save").addEventListener("click", () => (told.hidden = true));
+for (const name of ["pointerdown", "keydown"]) addEventListener(name, () => (told.hidden = true));
 for (const field of ["speed", "span"]) find(field).addEventListener("focus", () => find(field).select());
 find("tools").addEventListener("submit", (event) => event.preventDefault());
+find("speed").addEventListener("keydown", ({ key }) => {
+  if (key !== "Enter" || sketch?.driven.length !== 1) return;
+  const { left, top } = canvas.getBoundingClientRect();
+  drive({ clientX: left, clientY: top }, sketch.driven[0], [0, 0]);
+});
 onPicture(
   (error) => {
     if (error) tell(error.message, "wrong");
