@@ -23,13 +23,15 @@ from graphkin.structure.pairs import Pin
 class GroupClosure(Struct, frozen=True):
     """One way in which a group closes: its words in [branches], and its point's place (m).
 
-    ``fails`` names what cannot be drawn then, and is empty when all the rest closes too.
+    ``fails`` names what cannot be drawn then, and is empty when all the rest closes too: ``points``
+    are then the places of all points (m), but of the picked closure.
     """
 
     words: str
     place: complex | None
     picked: bool
     fails: str
+    points: Mapping[str, complex] = MappingProxyType({})
 
 
 class Choice(Struct, frozen=True):
@@ -210,7 +212,10 @@ def closure(
         except StepFailed:
             return GroupClosure(words, None, chosen, failing)
     place = trace.value(*target)
-    return GroupClosure(words, place if isinstance(place, complex) else None, chosen, failing)
+    known_place = place if isinstance(place, complex) else None
+    found = {} if failing else {p: trace.value(what, p) for what, p in positions_of(program)}
+    points = {name: at for name, at in found.items() if isinstance(at, complex)}
+    return GroupClosure(words, known_place, chosen, failing, points)
 
 
 def run_positions(

@@ -318,7 +318,7 @@ def block(work: Builder, act: Act) -> None:
 
 
 def driver(work: Builder, act: Act) -> None:
-    """A bar on a fixed pin is turned from where it lies."""
+    """A bar on a fixed pin is turned from where it lies; one that is driven, at another speed."""
     name = act.of[0]
     work.known_link(name)
     points = work.links[name]
@@ -330,8 +330,12 @@ def driver(work: Builder, act: Act) -> None:
         work.document.add(tomlkit.nl())
         work.document["drivers"] = tomlkit.aot()
     drivers: Any = work.document["drivers"]
-    if any(str(each.get("turn")) == name for each in drivers):
-        raise SceneError(Problem(f"link {name}", "is driven already", "another link"))
+    known = next((each for each in drivers if str(each.get("turn")) == name), None)
+    if known is not None:
+        if known.get("speed") == number(act.speed) or not is_number(raw(known.get("speed"))):
+            raise SceneError(Problem(f"link {name}", "is driven already", "another link"))
+        known["speed"] = number(act.speed)
+        return
     table = tomlkit.table()
     table["turn"] = key_of(name)
     table["angle"] = 0 if lone else number(turned(work.place(points[1]) - work.place(points[0])))

@@ -33,11 +33,13 @@ GHOSTS = 8
 
 
 class Block(Struct, frozen=True):
-    """A block: its link, the point at which it is drawn, and a direction of its guide."""
+    """A block: its link, the point at which it is drawn, a direction of its guide, whether that is
+    fixed."""
 
     link: str
     point: str
     along: tuple[float, float]
+    fixed: bool = False
 
 
 class DrawnWheel(Struct, frozen=True):
@@ -50,19 +52,26 @@ class DrawnWheel(Struct, frozen=True):
 
 
 class Ghost(Struct, frozen=True):
-    """A point where it lies in another closure, and the words that choose it."""
+    """A point where it lies in another closure, and the words that choose it.
+
+    ``bars`` are the links that close so, by the places of their points there.
+    """
 
     point: str
     at: tuple[float, float]
     key: str
     words: str
-    neighbours: tuple[str, ...]
+    bars: tuple[tuple[tuple[float, float], ...], ...]
 
 
 class Sketch(Struct, frozen=True):
-    """Points by name, the points of each link, blocks, wheels, driven links, other closures."""
+    """Points by name, the points of each link, blocks, wheels, driven links, other closures.
+
+    ``rate`` is the unit of the drivers' speeds.
+    """
 
     unit: str
+    rate: str
     grid: float
     points: dict[str, tuple[float, float]]
     fixed: list[str]
@@ -93,8 +102,10 @@ def sketch(
     links = {key: points_of(table) for key, table in links_of(tables).items()}
     fixed = points_of(table_of(tables, "frame"))
     named = dict.fromkeys([*fixed, *(point for points in links.values() for point in points)])
+    rate = table_of(tables, "units").get("speed")
     return Sketch(
         unit,
+        rate if isinstance(rate, str) else "rad/s",
         grid_of(unit),
         {point: (found[point].real, found[point].imag) for point in named if point in found},
         fixed,
@@ -165,7 +176,7 @@ def blocks_of(tables: Mapping[str, Any], places: Places) -> Iterator[Block]:
         angle, along = slides.get("angle"), str(slides.get("along", "")).split("-")
         if str(slides.get("on")) == FRAME and isinstance(angle, int | float):
             way = rect(1.0, radians(angle))
-            yield Block(name, points[0], (way.real, way.imag))
+            yield Block(name, points[0], (way.real, way.imag), fixed=True)
         elif len(along) == 2 and all(point in places for point in along):
             way = places[along[1]] - places[along[0]]
             yield Block(name, points[0], (way.real, way.imag))
@@ -209,7 +220,8 @@ def others(mechanism: Mechanism) -> Iterator[Ghost]:
             if key is None or closure.picked or closure.fails or closure.place is None:
                 continue
             at = closure.place / metre
-            holders = (link.points for link in scene.links.values() if choice.pin in link.points)
-            near = dict.fromkeys(p for points in holders for p in points if p != choice.pin)
-            fit = tuple(near)
-            yield Ghost(choice.pin, (at.real, at.imag), key, closure.words, fit)
+            there = {p: (z.real / metre, z.imag / metre) for p, z in closure.points.items()}
+            held = (scene.links[link].points for link in choice.links)
+            bars = (tuple(there[p] for p in points if p in there) for points in held)
+            drawn = tuple(bar for bar in bars if len(bar) > 1)
+            yield Ghost(choice.pin, (at.real, at.imag), key, closure.words, drawn)

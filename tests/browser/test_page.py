@@ -164,6 +164,23 @@ def test_a_rate_is_told_where_the_driver_now_is(opened: Opened, pages: Path):
     assert told.inner_text() == "ω3 = vBA/AB = 11.059/0.4 = 27.65 rad/s (counter-clockwise)"
 
 
+def test_a_rate_that_is_not_asked_for_is_told_while_the_driver_goes(opened: Opened, pages: Path):
+    """Of each place the rates there, not those of the place before; block and lever turn alike."""
+    page = opened(pages / "slotted-lever.html", "#step=12", stopped=True, **DESKTOP)
+    drawing = screen_sheets(load("slotted-lever"), "en")[0].drawing
+    asked = "[data-row='{}'][data-asked]"
+    assert [page.locator(asked.format(row)).count() for row in ("ω3", "ω2")] == [1, 0]
+    for asked_for in ("80", "50"):
+        page.locator("#driver").fill(asked_for)
+        page.clock.run_for(100)
+        place = float(page.locator("#driver").input_value())
+        trace = moved(drawing, load("slotted-lever"), place)
+        omega = words("en").significant(abs(trace.value("omega", "3")))
+        assert page.locator("#sentence").inner_text().count(f" = {omega} rad/s") == 2
+    page.clock.run_for(1000)
+    assert page.locator("#sentence").inner_text().count(f" = {omega} rad/s") == 2
+
+
 def test_a_tap_beside_a_line_leads_to_its_step(opened: Opened, pages: Path):
     """A finger is wider than a line: some dots off it are still meant for it."""
     page = opened(pages / "pump.html", "#step=16", **DESKTOP)

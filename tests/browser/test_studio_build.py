@@ -40,8 +40,25 @@ def test_the_pump_is_built_from_an_empty_field(hand):
 def test_a_newcomer_builds_the_offset_slider_crank(hand):
     """An empty field says how to begin, and its first click sets a fixed pin."""
     assert hand.page.inner_text("#how").startswith("Begin with a click")
+    assert hand.count.startswith("Begin with a click")
+    hand.page.mouse.move(*hand.pixel(complex(100, -50)))
+    assert hand.page.inner_text("#at") == "(100; -50) mm"
     build_offset_slider_crank(hand)
     assert not barred(hand.page)
+    crank = 0.5 * hand.place("A")
+    hand.click("driver", crank)
+    hand.page.wait_for_selector("#told:not([hidden])", timeout=20_000)
+    assert "is driven already" in hand.told
+    hand.take("bar")
+    assert hand.page.locator("#told").is_hidden()
+    upper = hand.page.locator("#canvas").bounding_box()["y"]
+    hand.driver(crank, 90)
+    assert hand.page.locator("#canvas").bounding_box()["y"] == upper
+    assert hand.text.count("speed = 90") == 1
+    hand.write("speed", "75")
+    hand.settled(lambda: hand.page.press("#speed", "Enter"))
+    assert hand.text.count("speed = 75") == 1
+    assert hand.page.inner_text("#speed-unit") == "rev/min"
 
 
 def test_a_slotted_lever_is_built_from_an_empty_field(hand):

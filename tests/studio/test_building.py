@@ -35,6 +35,33 @@ def test_a_dragged_pin_changes_its_lengths_alone():
     ]  # fmt: skip
 
 
+def test_the_other_closure_has_all_bars_as_long_as_the_one_that_is_drawn():
+    """Also to a coupler point, which lies elsewhere with its coupler."""
+    seen = sketch(PUMP, "own", {})
+    (ghost,) = [each for each in seen.ghosts if each.point == "B"]
+    held = [seen.links[name] for name in ("2", "3")]
+    assert sorted(map(len, ghost.bars)) == sorted(map(len, held)) == [2, 3]
+
+    def lengths(places):
+        places = [complex(*at) for at in places]
+        return sorted(abs(p - q) for p in places for q in places)
+
+    for bar in ghost.bars:
+        drawn = [[seen.points[point] for point in points] for points in held]
+        assert any(
+            lengths(bar) == pytest.approx(lengths(own)) for own in drawn if len(own) == len(bar)
+        )
+        assert not any(set(bar) == set(own) for own in drawn)
+
+
+def test_a_driver_that_is_chosen_again_has_the_other_speed():
+    text = done(GEARS, "wheel", "O1", at=50 + 0j)
+    text = done(text, "driver", "1", at=50j, speed=60)
+    assert changed(text, done(text, "driver", "1", at=50j, speed=90)) == ["speed = 90"]
+    with pytest.raises(SceneError, match="is driven already"):
+        done(text, "driver", "1", at=50j, speed=60)
+
+
 def test_an_angle_that_is_an_expression_stays():
     at = places_of(PUMP)["A"] * 1.2
     after = done(PUMP, "move", "A", at=at)

@@ -89,12 +89,19 @@ function element(name, look, attributes, words = "") {
 
 const line = (look, [x1, y1], [x2, y2]) => element("line", look, { x1, y1: -y1, x2, y2: -y2 });
 
+/** The place of a block that is dragged: what is beside a fixed guide is not written. */
+function onGuide(sketch, { point, along: [u, v], fixed }, [x, y]) {
+  const [a, b] = sketch.points[point];
+  const part = ((x - a) * u + (y - b) * v) / (u * u + v * v || 1);
+  return fixed ? [a + part * u, b + part * v] : [x, y];
+}
+
 /** The marks of a sketch whose points stand so, where a pixel is so much of the scene; `named`
  * with the letters of its points. */
 function marksOf(sketch, points, one, named = true) {
   const marks = [];
   for (const block of sketch.blocks) {
-    const [x, y] = points[block.point];
+    const [x, y] = onGuide(sketch, block, points[block.point]);
     const [dx, dy] = block.along.map((part) => part / (Math.hypot(...block.along) || 1));
     const turn = `rotate(${(-Math.atan2(dy, dx) * 180) / Math.PI} ${x} ${-y})`;
     const reach = 60 * one;
@@ -115,8 +122,9 @@ function marksOf(sketch, points, one, named = true) {
     if (at.length > 1) marks.push(element("polygon", look, { points: list, "data-link": name }));
   }
   for (const ghost of sketch.ghosts) {
-    for (const near of ghost.neighbours) {
-      if (points[near]) marks.push(line("ghost", points[near], ghost.at));
+    for (const bar of ghost.bars) {
+      const list = bar.map(([x, y]) => `${x},${-y}`).join(" ");
+      marks.push(element(bar.length > 2 ? "polygon" : "polyline", "ghost", { points: list }));
     }
     marks.push(element("circle", "ghost", { cx: ghost.at[0], cy: -ghost.at[1], r: PIN * one, "data-ghost": ghost.point }));
   }
@@ -163,6 +171,25 @@ function measure(one) {
   ];
 }
 
+/** A cross with its axes where x and y are nought. */
+function origin(one) {
+  const [reach, letter] = [26 * one, { "font-size": 0.8 * LETTER * one }];
+  return [
+    line("origin", [-reach, 0], [reach, 0]),
+    line("origin", [0, -reach], [0, reach]),
+    element("text", "origin", { x: reach + 3 * one, y: 4 * one, ...letter }, "x"),
+    element("text", "origin", { x: -3 * one, y: -reach - 4 * one, ...letter }, "y"),
+  ];
+}
+
+/** Coordinates on the grid, as they are written. */
+const coordinates = (at) => at.map((part) => +(Math.round(part / sketch.grid) * sketch.grid).toFixed(6));
+
+/** Say at the edge of the field where the pointer is, or what is drawn. */
+function tellPlace(at) {
+  find("at").textContent = at && sketch ? `(${coordinates(at).join("; ")}) ${sketch.unit}` : "";
+}
+
 /** Draw everything; `shift` are points that are being dragged, `drawn` what is being drawn. */
 function draw(shift = {}, drawn = []) {
   if (!sketch || !svg.clientWidth) return;
@@ -171,7 +198,7 @@ function draw(shift = {}, drawn = []) {
   const points = { ...sketch.points, ...shift };
   svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.width} ${svg.clientHeight * one}`);
   const marks = marksOf(sketch, points, one);
-  svg.replaceChildren(...under(), ...measure(one), ...marks, ...drawn);
+  svg.replaceChildren(...under(), ...origin(one), ...measure(one), ...marks, ...drawn);
 }
 
 /** Where a pointer is in the scene. */
@@ -226,6 +253,22 @@ function linkAt(at, but = "") {
   });
 }
 
+/** What is written of a length. */
+const lengthTold = (far) =>
+  `${+(Math.max(1, Math.round(far / sketch.grid)) * sketch.grid).toFixed(6)} ${sketch.unit}`;
+
+/** The distances of a new point of the pressed link from its first two; on their line, from one. */
+function spokes(at) {
+  const held = (sketch.links[press.link] ?? []).filter((name) => sketch.points[name]).slice(0, 2);
+  const [[x, y], [u, v]] = [sketch.points[held[0]] ?? at, sketch.points[held[1]] ?? at];
+  const [long, aside] = [Math.hypot(u - x, v - y), (u - x) * (at[1] - y) - (v - y) * (at[0] - x)];
+  if (held.length > 1 && Math.abs(aside) < sketch.grid * long) {
+    const along = ((u - x) * (at[0] - x) + (v - y) * (at[1] - y)) / long;
+    return `${held[0]}: ${lengthTold(Math.abs(along))}`;
+  }
+  return held.map((name) => `${name}: ${lengthTold(away(at, sketch.points[name]))}`).join(", ");
+}
+
 /** A ring around a pin that is aimed at. */
 function ringed(name) {
   const [x, y] = sketch.points[name];
@@ -265,6 +308,10 @@ async function act(event, kind, of, at, more = {}) {
   }
 }
 
+/** Drive a link at the speed that is written; one that is driven, at that instead of its own. */
+const drive = (event, link, at) =>
+  act(event, "driver", [link], at, { speed: [Number(find("speed").value) || 0, 0] });
+
 svg.addEventListener("pointerdown", (event) => {
   if (!sketch || event.button) return;
   tellAt(event, "");
@@ -273,9 +320,12 @@ svg.addEventListener("pointerdown", (event) => {
   svg.setPointerCapture(event.pointerId);
 });
 
+svg.addEventListener("pointerleave", () => tellPlace(null));
 svg.addEventListener("pointermove", (event) => {
-  if (!press) return;
+  if (!sketch || !view) return;
   const at = spot(event);
+  tellPlace(at);
+  if (!press) return;
   if (press.tool === "move" && press.point) {
     const goal = pointAt(at, press.point);
     draw({ [press.point]: goal ? sketch.points[goal] : at }, goal ? [ringed(goal)] : []);
@@ -287,13 +337,21 @@ svg.addEventListener("pointermove", (event) => {
   }
   if (!["bar", "plate", "block", "wheel", "scale"].includes(press.tool)) return;
   const from = (press.tool !== "scale" && sketch.points[press.point]) || press.at;
-  const [dx, dy] = [at[0] - from[0], at[1] - from[1]];
-  const length = Math.round(Math.hypot(dx, dy) / sketch.grid) * sketch.grid;
-  const angle = Math.round((Math.atan2(dy, dx) * 360) / Math.PI) / 2;
-  const words = `${+length.toFixed(6)} ${sketch.unit}, ${angle}°`;
+  const goal = press.tool === "bar" ? pointAt(at, press.point) : undefined;
+  const to = sketch.points[goal] ?? at;
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const length = lengthTold(Math.hypot(dx, dy));
+  const step = press.tool === "block" ? 5 : 0.5; // degrees, as building.py rounds them
+  const angle = `${Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step}°`;
+  const slot = press.tool === "block" && linkAt(at, press.point);
+  const words = {
+    plate: () => spokes(at),
+    block: () => (slot ? "" : angle),
+    bar: () => (goal ? length : `${length}, ${angle}`),
+  }[press.tool]?.() ?? length;
   const one = pixel();
   const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
-  const drawn = [line("drawn", from, at), element("text", "letter", letter, words)];
+  const drawn = [line("drawn", from, to), element("text", "letter", letter, words)];
   if (press.tool === "wheel") {
     drawn.push(element("circle", "drawn", { cx: from[0], cy: -from[1], r: Math.hypot(dx, dy) }));
   }
@@ -334,7 +392,7 @@ svg.addEventListener("pointerup", (event) => {
     const rim = rimAt(at, from.point);
     act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at);
   } else if (from.tool === "driver" && from.link) {
-    act(event, "driver", [from.link], at, { speed: [Number(find("speed").value) || 0, 0] });
+    drive(event, from.link, at);
   } else if (from.tool === "delete" && (from.point || from.link)) {
     act(event, "delete", [from.point ?? from.link], at, { words: from.point ? "point" : "link" });
   } else if (from.tool !== "move") tellAt(event, say(`studio.how_${from.tool}`));
@@ -363,13 +421,25 @@ const isEmpty = () => sketch !== null && !Object.keys(sketch.points).length;
 function explain() {
   const what = isEmpty() && ["move", "pivot"].includes(tool()) ? "begin" : tool();
   find("how").textContent = say(`studio.how_${what}`);
-  find("driven").hidden = tool() !== "driver";
+  find("driven").style.visibility = tool() === "driver" ? "visible" : "hidden";
   find("spanned").hidden = tool() !== "scale";
-  if (sketch) find("span-unit").textContent = sketch.unit;
+  if (!sketch) return;
+  find("span-unit").textContent = sketch.unit;
+  find("speed-unit").textContent = sketch.rate;
 }
 
-find("tools").addEventListener("change", explain);
+find("tools").addEventListener("change", () => {
+  told.hidden = true;
+  explain();
+});
+for (const name of ["pointerdown", "keydown"]) addEventListener(name, () => (told.hidden = true));
+for (const field of ["speed", "span"]) find(field).addEventListener("focus", () => find(field).select());
 find("tools").addEventListener("submit", (event) => event.preventDefault());
+find("speed").addEventListener("keydown", ({ key }) => {
+  if (key !== "Enter" || sketch?.driven.length !== 1) return;
+  const { left, top } = canvas.getBoundingClientRect();
+  drive({ clientX: left, clientY: top }, sketch.driven[0], [0, 0]);
+});
 onPicture(
   (error) => {
     if (error) tell(error.message, "wrong");

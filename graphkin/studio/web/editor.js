@@ -95,14 +95,15 @@ export function editorOf(part) {
     under.style.transform = `translateY(${-text.scrollTop}px)`;
   }
 
-  /** Show every problem: in the gutter, under its key, and in the list. */
-  function showProblems(problems) {
-    if (JSON.stringify(problems) === shown) return;
-    shown = JSON.stringify(problems);
+  /** Show every problem: in the gutter, under its key, and in the list; `instead` is said in place of
+   * how many there are. */
+  function showProblems(problems, instead = "") {
+    if (JSON.stringify([problems, instead]) === shown) return;
+    shown = JSON.stringify([problems, instead]);
     underline(problems);
     number(new Set(problems.map((each) => each.line)));
     text.setAttribute("aria-invalid", String(problems.length > 0));
-    const said = counted(problems.length);
+    const said = instead || counted(problems.length);
     if (count.textContent !== said) count.textContent = said;
     count.classList.toggle("wrong", problems.length > 0);
     list.replaceChildren(...problems.map(item));

@@ -33,6 +33,10 @@ let chosen = ""; // the language, where it was chosen here
 
 const scene = () => ({ text: written(), name: file.value.trim(), settings: settings() });
 
+/** Whether nothing is built yet, and nothing that is written is wrong. */
+const isBare = ({ sketch, problems }) =>
+  sketch && ![...Object.keys(sketch.points), ...Object.keys(sketch.links)].length && problems.every(({ line }) => !line);
+
 /** Ask for a look at the scene as it is, and show the answer unless a newer one is there; whether
  * it is shown. */
 async function look(quick) {
@@ -45,7 +49,8 @@ async function look(quick) {
     if (answer.stale || own < shown) return false;
     shown = own;
     wrong = answer.problems;
-    showProblems(wrong);
+    if (isBare(answer)) showProblems([], say("studio.how_begin"));
+    else showProblems(wrong);
     if (answer.title !== undefined) {
       find("title").textContent = answer.title;
       showSliders(answer.sliders);

@@ -17,6 +17,7 @@ function show(step) {
   byId("previous").disabled = state.step === 0;
   byId("next").disabled = state.step === last;
   begin();
+  if (state.going && !state.dead) read();
   say();
   if (motion) {
     read_out();

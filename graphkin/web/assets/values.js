@@ -25,15 +25,15 @@ const tables = [...document.querySelectorAll("#results table")].map(table => {
   return { kind: table.className, rows: rows.map(row => ({ row, cells: [...row.querySelectorAll("td")], asked: "asked" in row.dataset })) };
 });
 
-/** Write those of this position; while it moves, what is asked and is in sight. */
+/** Write those of this position; while it moves, what is asked and what the step in sight reads off. */
 function read() {
-  const values = motion.values(state.x), going = state.going;
+  const values = motion.values(state.x), going = state.going, told = new Set(rates_read().map(({ row }) => row));
   for (const { kind, rows } of tables) {
     const known = rows.filter(({ row }) => row.dataset.row in values);
     const sizes = known.map(({ row }) => Math.abs(values[row.dataset.row]));
     const noise = 1e-9 * Math.max(...sizes);
     known.forEach(({ row, cells, asked }, i) => {
-      if (asked || !going) TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
+      if (asked || !going || told.has(row.dataset.row)) TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
     });
   }
   read_margins(going ? places[state.step - 1].crossings : document.querySelectorAll("#steps .crossing"));
