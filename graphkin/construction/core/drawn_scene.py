@@ -10,7 +10,6 @@ from msgspec import Struct, field
 
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.curve_extent import shown
-from graphkin.construction.core.kind import construction
 from graphkin.construction.core.link_poses import LinkPoses
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, PlanAside, Plane, Step
@@ -330,8 +329,8 @@ class Drawing(Struct, frozen=True, dict=True):
 
 def takes_room(step: Step, value: Any) -> bool:
     """Whether a value on the mechanism is a vector or a place; the others are directions."""
-    kind = construction(step)
-    return bool(step.name or isinstance(value, Vector) or (kind and step.role in kind.corners))
+    is_corner = step.of is not None and step.role in step.of.corners
+    return bool(step.name) or isinstance(value, Vector) or is_corner
 
 
 def ends(value: Any) -> tuple[complex, ...]:

@@ -25,8 +25,7 @@ class Construction(Roles, frozen=True):
     ``slips`` by what a student's slip multiplies its result, ``drawn_in`` what a report calls the
     drawing of its crossings where that is not the plan's. ``joins`` are the roles of lines drawn as
     far as the points through which they lead. ``marked_as`` is the class of the circle by which the
-    mechanism shows its point, where no mark of its own step does. ``corners`` are the roles of
-    points on the mechanism that have no name and need room all the same.
+    mechanism shows its point, where no mark of its own step does.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
@@ -38,7 +37,6 @@ class Construction(Roles, frozen=True):
     drawn_in: ClassVar[str] = ""
     joins: ClassVar[frozenset[str]] = frozenset()
     marked_as: ClassVar[str] = ""
-    corners: ClassVar[frozenset[str]] = frozenset()
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason behind the step of a role; nothing where it needs none."""

@@ -71,10 +71,12 @@ class Roles(Struct, frozen=True):
     """The steps of one construction by their roles: a record with a step's number in each.
 
     ``gives`` are the roles of the steps that it draws itself, None in those that it does without;
-    the other numbers are those of the steps that it starts from.
+    the other numbers are those of the steps that it starts from. ``corners`` are the roles of
+    points on the mechanism that have no name and need room all the same.
     """
 
     gives: ClassVar[tuple[str, ...]] = ()
+    corners: ClassVar[frozenset[str]] = frozenset()
 
     def given(self) -> Iterator[tuple[str, int]]:
         """Its own steps: the role and the number of each."""
