@@ -5,6 +5,7 @@ const LONGEST = 0.2, SHORTEST = 0.2; // of the narrower field's width, and of th
 function bars(sheet, sizes, boxes) {
   const scales = sizes.map((size, i) => dots(size, boxes[i]));
   const most = LONGEST * Math.min(...sizes.map(([across]) => across));
+  if (!(most > 0)) return; // not laid out yet
   const alike = round(most / Math.max(...scales)); // one number for both shows where more is drawn to a dot
   sheet.fields.forEach(({ svg }, i) => {
     const figure = svg.closest("figure"), long = alike * scales[i] < SHORTEST * most ? round(most / scales[i]) : alike;
