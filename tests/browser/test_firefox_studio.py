@@ -90,7 +90,7 @@ def test_the_pump_is_built(hand):
 
 
 def test_a_slotted_lever_is_built(hand):
-    build_slotted_lever(hand)
+    build_slotted_lever(hand, r"38|38\.5|39")
 
 
 def test_a_four_bar_with_a_coupler_point_is_built(hand):
