@@ -128,7 +128,7 @@ def check(name: str, settings: tuple[str, ...]) -> None:
 def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
     """Explain which effects of the motion the construction needs.
 
-    For what the scene asks: which effects are in (normal components, an accelerated
+    For what the scene asks: which effects are in (tangential components, an accelerated
     driver, ...), which are out, why, how many steps each of them costs, and the time that those
     steps alone take here and now.
 

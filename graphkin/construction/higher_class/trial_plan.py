@@ -233,7 +233,7 @@ def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
 
 
 def turned_again(drawing: Drawing, number: int) -> str:
-    """How a point of the second plan is found whose normal component is that of the first.
+    """How a point of the second plan is found whose centripetal component is that of the first.
 
     Nothing of any other point.
     """

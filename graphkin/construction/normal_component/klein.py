@@ -276,6 +276,16 @@ def klein_component(
     return normal_component(pen, pivot, pin, kind, drawn)
 
 
+def component_in_dyad(
+    pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]], pivot: str, pin: str
+) -> int:
+    """The normal component of a pin about one of its dyad's pivots, as the scene wants it drawn."""
+    crank = crank_of(pen, sides)
+    if crank is None:
+        return normal_component(pen, pivot, pin)
+    return klein_component(pen, shapes, crank, sides, pin)
+
+
 def refuse_unused(pen: Pen) -> None:
     """Raise StructureError where a scene wants Klein's construction and has no place for it."""
     used = any(isinstance(step.of, KleinComponent) for step in pen.steps)

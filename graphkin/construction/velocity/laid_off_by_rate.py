@@ -40,7 +40,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         return self.link in (driver.link, driver.against)
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
-        """What a known turning gives: rate times bar, or its square for the normal component."""
+        """What a known turning gives: rate times bar, or its square for what leads to the pivot."""
         value = abs(float(drawing.trace.values[rate]))
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
