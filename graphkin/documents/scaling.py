@@ -159,13 +159,13 @@ LEAST = 5.0
 """Length in mm below which a mechanism, or the longest vector of a plan, is no drawing."""
 
 
-def refuse_dots(scales: Scales, trials: Sequence[Drawing], stated: Sequence[str]) -> None:
+def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]) -> None:
     """Raise PageError where a stated scale factor draws a mechanism or a plan as a mere dot.
 
-    ``trials`` are the sheets at full size, ``stated`` the keys that the scene writes. A plan of
+    ``sheets`` are drawn at full size, ``stated`` the keys that the scene writes. A plan of
     which all is nought is no fault.
     """
-    across = min(1000 * trial.reach / scales.kL for trial in trials)
+    across = min(1000 * sheet.reach / scales.kL for sheet in sheets)
     if across < LEAST and "scale" in stated:
         most = scales.kL * across / LEAST
         found = f"at 1:{digits(scales.kL)} the mechanism is drawn {across:.2g} mm across"
@@ -174,18 +174,18 @@ def refuse_dots(scales: Scales, trials: Sequence[Drawing], stated: Sequence[str]
         times = digits(scales.of_bar("velocity"))
         found = f"at {times} times the mechanism is drawn {across:.2g} mm across"
         raise dot("enlarge", found, "a smaller enlarge")
-    for trial in trials:
-        longest = 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / scales.kL
-        if longest >= LEAST or not trial.settled(trial.largest):
+    for sheet in sheets:
+        longest = 1000 * abs(sheet.at_scale(sheet.plane, sheet.largest)) / scales.kL
+        if longest >= LEAST or not sheet.settled(sheet.largest):
             continue
-        found = f"the longest {trial.kind} is drawn {longest:.2g} mm long"
-        if trial.kind == "acceleration" and "ka" in stated:
+        found = f"the longest {sheet.kind} is drawn {longest:.2g} mm long"
+        if sheet.kind == "acceleration" and "ka" in stated:
             ka = scales.ka / 1000
             most = not_above(ka * longest / LEAST)
             raise dot(
                 "ka", f"at {digits(ka)} (m/s²)/mm {found}", f"a smaller ka, {digits(most)} or less"
             )
-        own = scales.of_bar(trial.kind)
+        own = scales.of_bar(sheet.kind)
         if "enlarge" in stated and own < 1:
             raise dot("enlarge", f"at {digits(own)} times {found}", "a larger enlarge")
 

@@ -30,7 +30,7 @@ Loader = Callable[[int], Mechanism]
 
 class Scaling(Struct):
     """The scale factors of each variant, as drawing.scale.Scales an array for each; NaN where
-    nothing fits. ``rates`` is what the hand tries in trial plans, by the step.
+    nothing fits. ``rates`` is what the hand tries in auxiliary plans, by the step.
     """
 
     kL: Array  # noqa: N815

@@ -1,4 +1,4 @@
-"""What a driver, a trial or the turning of a wheel gives along a guide, laid off in a plan."""
+"""What a driver, what is tried or a wheel's turning gives along a guide, laid off in a plan."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide; in a trial the motion along it."""
+        """What is given along the guide; where it is tried the motion along it."""
         if self.image in drawing.auxiliary:
             yield self.motion_of(drawing, self.point)
             return

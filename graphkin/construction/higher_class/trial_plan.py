@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from msgspec import Struct
 
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
+
+    reason: ClassVar[str] = "why.trial"
 
     tag: str
     link: str
