@@ -322,6 +322,11 @@ class Link(Struct, frozen=True):
     cam: Cam | None = None
 
     @property
+    def has_wheels(self) -> bool:
+        """Whether it has wheels, or rolls on those of others."""
+        return bool(self.wheels or self.rolls)
+
+    @property
     def paths(self) -> tuple[GuideOrTrack, ...]:
         """What it slides and rolls on."""
         return (*self.slides, *self.rolls)

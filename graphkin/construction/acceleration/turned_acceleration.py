@@ -15,8 +15,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at
-from graphkin.construction.core.vocabulary import action, difference, sum_of
-from graphkin.construction.rolling.wheel_actions import speed_rolled
+from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
 from graphkin.construction.velocity.laid_off_by_rate import (
     LaidOffAboutPivot,
     by_bar,
@@ -190,11 +189,11 @@ def turned_image(
         component_arrow(pen, end, image, "τ", pin, pivot)
     pen.make(
         TurnedAcceleration(
-            p=pivot,
+            p=letter(pivot),
             q=letter(pin),
             index=about(pen, pin, pivot),
             whole=owned(pin),
-            base=pivot,
+            base=owned(pivot),
             link=link,
             start=start,
             omega=omega,
@@ -217,5 +216,5 @@ def accelerated(pen: Pen, rate: int) -> bool:
     if step.given is not None:
         given = {drive.acceleration for drive in pen.drives.values()}
         return rate in given and not pen.is_nought(rate)
-    passed_on = step.action in (sum_of, difference, speed_rolled)
+    passed_on = step.action in (sum_of, difference, speed_at_rim)
     return passed_on and any(accelerated(pen, arg) for arg in step.args)

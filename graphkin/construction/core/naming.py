@@ -35,7 +35,7 @@ def way_of(drawing: Drawing, name: str) -> str:
     if name in scene.keepers:
         name = scene.keepers[name][0]
     if name == FRAME:
-        on = next(rolling.on for rolling in scene.frame.rolls)
+        on = next(track for name, track in scene.touching if name == FRAME)
         return drawing.words("page.track_of_bar", g=escape(on))
     link = scene.links.get(name)
     key = "page.guide_of" if link is None or link.slides else "page.track_of"

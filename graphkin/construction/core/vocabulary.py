@@ -134,6 +134,12 @@ def difference(a: Real, b: Real) -> Real:
     return a - b
 
 
+@action("speed-at-rim")
+def speed_at_rim(rate: Real, radius: Real) -> Real:
+    """The speed of a wheel's centre along the line that its rim keeps to, as it turns at a rate."""
+    return -rate * radius
+
+
 @action("lay-off")
 def lay_off(start: Point, vector: Point) -> Point:
     """The end of a vector laid off from a point."""
