@@ -101,10 +101,7 @@ class Finder:
 
         Wheels that an open belt turns alike have none.
         """
-        scene = self.pen.scene
-        every = ((link.name, each) for link in scene.every_link for each in link.rolls)
-        pairs = ((name, each.on) for name, each in every if not scene.turn_alike(name, each))
-        return frozenset(ordered(self.links, *pair) for pair in pairs)
+        return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.in_touch)
 
     @cached_property
     def ways(self) -> dict[Pair, tuple[str, str] | None]:
