@@ -18,13 +18,13 @@ from graphkin.construction.core.pen import Pen, about, letter, owned
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.normal_component.klein import component_in_dyad
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
 )
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.requests import KLEIN
 from graphkin.structure.pairs import Joint
 
 if TYPE_CHECKING:
@@ -60,7 +60,11 @@ class RoundPivot(Struct, frozen=True):
     def component_in_dyad(
         self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]]
     ) -> int:
-        """The same where it is one of the ``sides`` of a dyad."""
+        """The same where it is one of the ``sides`` of a dyad, as the scene wants it drawn."""
+        if pen.scene.sheet.method != KLEIN:
+            return self.component(pen)
+        from graphkin.construction.normal_component.klein import component_in_dyad
+
         return component_in_dyad(pen, shapes, sides, self.pivot, self.point)
 
     def end(self, pen: Pen, vector: int | None) -> int:

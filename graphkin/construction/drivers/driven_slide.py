@@ -7,8 +7,7 @@ from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import driver_index
-from graphkin.construction.core.naming import driver_of_rate, has_no_length, vector_of
+from graphkin.construction.core.naming import driver_index, driver_of_rate, has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer

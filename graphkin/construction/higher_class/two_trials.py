@@ -17,9 +17,8 @@ from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.bases import bases, contact_name, ending, under
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.kind import Construction, construction, constructions
-from graphkin.construction.core.naming import drawn_between, scale_of, way_of
+from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.quantities import EPSILON, OMEGA
