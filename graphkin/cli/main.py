@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin import __version__
-from graphkin.cli.console import FAILED, CommandGroup, complain, say
+from graphkin.cli.console import FAILED, CommandGroup, complain, end, say
 from graphkin.cli.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
@@ -319,5 +319,5 @@ def main() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
     try:
         app(prog_name="graphkin")
-    finally:
-        gc.freeze()  # what is left ends with the process: to look through it takes a sixth of solve
+    except SystemExit as left:
+        end(left)

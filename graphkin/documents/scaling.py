@@ -16,7 +16,6 @@ from graphkin.construction.core.solution import Curve, Solution, Verdict
 from graphkin.documents.composing import Needs, Search, Stated, searched
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
-from graphkin.motion.motion_curves import curves_of
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words
 from graphkin.text.errors import PageError, Problem, SceneError
@@ -58,7 +57,7 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     Where triangles that may give way leave no room for a larger mechanism, they do. Raises
     PageError where what the scene states leaves them no room, or leaves nothing of them.
     """
-    curves = curves_of(mechanism) if curves is None else curves
+    curves = curves_drawn(mechanism) if curves is None else curves
     said = stated(mechanism)
     crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)
     natural = 0.0 if crank else natural_seconds(mechanism)
@@ -67,6 +66,16 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     if said.keys:
         refuse_dots(chosen, drafts_of(mechanism, curves, chosen), said.keys)
     return chosen
+
+
+def curves_drawn(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The curves on the sheets; what traces them is loaded for mechanisms that have some."""
+    ask = mechanism.scene.ask
+    if not (ask.centrodes or ask.curves or mechanism.is_of_higher_class):
+        return ()
+    from graphkin.motion.motion_curves import curves_of
+
+    return curves_of(mechanism)
 
 
 def stated(mechanism: Mechanism) -> Stated:

@@ -12,7 +12,6 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
-from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.leading import led_by
@@ -62,6 +61,8 @@ def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
 
 def slide_on(pen: Pen, shapes: LinkShapes, pair: Leading, link: str, rate: int) -> None:
     """Second image of the point of a link that is led along its line at a rate."""
+    from graphkin.construction.drivers.driven_slide import slide_image
+
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
     line = led_by(pair).direction(pen, shapes)

@@ -8,7 +8,6 @@ what the perpendicular cuts off (lab, figure 4).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from string import digits
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
@@ -344,7 +343,7 @@ def right_triangle(
 
 def bare(point: str) -> str:
     """The letter of a point without its index: B for B, B2 and B_left."""
-    return point.partition(",")[0].partition("_")[0].rstrip(digits)
+    return point.partition(",")[0].partition("_")[0].rstrip("0123456789")
 
 
 def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
