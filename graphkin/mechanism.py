@@ -95,12 +95,12 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     @cached_property
     def is_of_higher_class(self) -> bool:
-        """Whether a group is closed by trials: what knows of these is loaded for it alone."""
+        """Whether a group is closed by trying: what knows of that is loaded for it alone."""
         return any(isinstance(group, CoupledTrain | Higher) for group in self.groups)
 
     @cached_property
     def trial_rates(self) -> Mapping[int, float]:
-        """What the hand tries in the trial plans of groups of higher class, by the step."""
+        """What the hand tries in the auxiliary plans of groups of higher class, by the step."""
         if not self.is_of_higher_class:
             return {}
         from graphkin.construction.higher_class.trial_rates import trial_rates

@@ -27,7 +27,7 @@ from graphkin.scene.model import Scene
 from graphkin.text.errors import SceneError
 
 SPARE = 64
-"""Bits beyond those of the digits at the first trial."""
+"""Bits beyond those of the digits at the first attempt."""
 DOUBLINGS = 3
 """How often the bits are doubled before a number counts as not decided."""
 IRRATIONAL = (ArithmeticError, TypeError, ValueError, AttributeError, SceneError)

@@ -114,14 +114,14 @@ def check_lab(name: str) -> None:
     from graphkin.classroom.lab.read_lab import read_lab
 
     click.get_current_context().meta.pop(READING, None)
-    trial = tried(read_lab(name))
-    tell(["", *trial_lines(trial)])
-    if trial.unasked:
-        complain(f"drawn on no sheet: {', '.join(trial.unasked)}")
-    if trial.spoilt:
-        unfair = trial.unfair + len(trial.coarse)
-        if kept := {name for name, _ in trial.by_keys}:
-            complain(f"{len(kept)} of a class of {len(trial.compared)} have unfair data")
+    outcome = tried(read_lab(name))
+    tell(["", *trial_lines(outcome)])
+    if outcome.unasked:
+        complain(f"drawn on no sheet: {', '.join(outcome.unasked)}")
+    if outcome.spoilt:
+        unfair = outcome.unfair + len(outcome.coarse)
+        if kept := {name for name, _ in outcome.by_keys}:
+            complain(f"{len(kept)} of a class of {len(outcome.compared)} have unfair data")
         if unfair:
-            complain(f"{unfair} of {len(trial.many)} variants are unfair")
+            complain(f"{unfair} of {len(outcome.many)} variants are unfair")
         leave(FAILED)

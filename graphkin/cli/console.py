@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import re
 import sys
+import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from importlib import import_module
@@ -188,6 +190,21 @@ def cut_short() -> NoReturn:
     """Leave as one whose reader has left; click would leave with 1, which is our FAILED."""
     silence()
     raise Exit(BROKEN_PIPE)
+
+
+def end(left: SystemExit) -> NoReturn:
+    """End the process with the status of a command.
+
+    What is registered for the end is done, but what is left is not taken apart, object by object:
+    that takes a tenth of the time of ``graphkin solve pump``.
+    """
+    if threading.active_count() > 1 or sys.gettrace() or sys.getprofile():
+        raise left
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError, AttributeError):
+            stream.flush()
+    os._exit(status_of(left.code))
 
 
 def silence() -> None:

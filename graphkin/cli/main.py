@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin import __version__
-from graphkin.cli.console import FAILED, CommandGroup, complain, say
+from graphkin.cli.console import FAILED, CommandGroup, complain, end, say
 from graphkin.cli.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def check(name: str, settings: tuple[str, ...]) -> None:
 def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
     """Explain which effects of the motion the construction needs.
 
-    For what the scene asks: which effects are in (normal components, an accelerated
+    For what the scene asks: which effects are in (tangential components, an accelerated
     driver, ...), which are out, why, how many steps each of them costs, and the time that those
     steps alone take here and now.
 
@@ -319,5 +319,5 @@ def main() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
     try:
         app(prog_name="graphkin")
-    finally:
-        gc.freeze()  # what is left ends with the process: to look through it takes a sixth of solve
+    except SystemExit as left:
+        end(left)

@@ -18,9 +18,9 @@ from graphkin.construction.guides import sliding
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.normal_component import klein
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
+from graphkin.scene.requests import KLEIN
 from graphkin.structure.groups import (
     CamFollower,
     CoupledTrain,
@@ -65,7 +65,10 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
 
         draw_ladder(pen)
     write_accelerations(pen, shapes, standing)
-    klein.refuse_unused(pen)
+    if scene.sheet.method == KLEIN:
+        from graphkin.construction.normal_component.klein import refuse_unused
+
+        refuse_unused(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
     return pen.program()

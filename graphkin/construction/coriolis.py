@@ -25,7 +25,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.too_short import laid_off
@@ -35,9 +35,10 @@ from graphkin.construction.core.vocabulary import (
     lay_back,
     lay_off,
     meet,
+    perpendicular_at,
+    set_way,
 )
 from graphkin.construction.guides.coincident_points import omega_of
-from graphkin.construction.normal_component.normal_component import set_velocity, square_at
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
@@ -101,7 +102,6 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     sign: ClassVar[str] = "c"
     look: ClassVar[str] = "coriolis"
     effect: ClassVar[Effect] = Effect.CORIOLIS
-    drawn_in: ClassVar[str] = "right triangle"
     laid_off_key: ClassVar[str] = "coriolis"
     laid_off_reason: ClassVar[str] = "why.coriolis"
     follows: ClassVar[bool] = True
@@ -200,7 +200,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
                 yield number, kind
 
     def is_shown_before(self, drawing: Drawing) -> bool:
-        """Whether a right triangle, or an earlier triangle of its kind, has drawn that velocity."""
+        """Whether another kind's triangle, or an earlier one of its own, has drawn it."""
         assert self.velocity is not None
         number, kind = next(self.same_velocity(drawing.choosing), (None, None))
         if number is None:
@@ -347,6 +347,14 @@ def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
             yield kind
 
 
+def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
+    """The component of what slides that a step lays off; None for other steps."""
+    laid = step.of
+    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
+        return None
+    return laid, laid.component
+
+
 # --- why it is needed ----------------------------------------------------------------------------
 
 
@@ -432,9 +440,9 @@ def similar_triangles(
     tip_name = f"{letter(point)}{PRIME}_c{index}"
     with pen.hands_way():
         with pen.on(Part.NORMAL, Plane.MECHANISM):
-            velocity = pen.draw(set_velocity, pin, *images, seconds, name=tip_name)
+            velocity = pen.draw(set_way, pin, *images, seconds, name=tip_name)
             foot = pen.draw(coriolis_base, pivot, tail, tip, seconds, name=first)
-            edge = pen.draw(square_at, foot, pivot)
+            edge = pen.draw(perpendicular_at, foot, pivot)
             lean = pen.draw(coriolis_ray, foot, pivot, pin, velocity)
             top = pen.draw(meet, edge, lean, name=second)
         with pen.on(Part.NORMAL, Plane.NUMBERS):

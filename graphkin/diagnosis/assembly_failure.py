@@ -155,7 +155,7 @@ def branch_of(scene: Scene, links: str) -> str:
 
 
 def least_miss(scene: Scene, failed: StepFailed) -> str:
-    """By how much a group of higher class fails to close, at the trial that comes nearest."""
+    """By how much a group of higher class fails to close, at the value that comes nearest."""
     import numpy as np
 
     closer = closer_of(failed.step)

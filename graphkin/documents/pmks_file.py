@@ -51,7 +51,7 @@ def unknown(scene: Scene) -> Iterator[Problem]:
     hint = "leave pmks out"
     for link in scene.links.values():
         place = f"links.{link.name}"
-        if link.rolls or link.wheels or link.cam or link.profiles:
+        if link.has_wheels or link.cam or link.profiles:
             yield Problem(place, "PMKS+ has no wheels, cams or profiles", "pins and guides", hint)
         if any(slide.on != FRAME for slide in link.slides) or len(link.slides) > 1:
             yield Problem(place, "PMKS+ has no moving guides", "a block on a fixed guide", hint)

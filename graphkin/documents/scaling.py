@@ -9,15 +9,13 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.program import PLACES, Target
+from graphkin.construction.core.program import PLACES, SPEEDS, Target
 from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
 from graphkin.construction.core.results import gathered
 from graphkin.construction.core.solution import Curve, Solution, Verdict
-from graphkin.construction.rolling.kutzbach import SPEEDS
 from graphkin.documents.composing import Needs, Search, Stated, searched
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
-from graphkin.motion.motion_curves import curves_of
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words
 from graphkin.text.errors import PageError, Problem, SceneError
@@ -59,7 +57,7 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     Where triangles that may give way leave no room for a larger mechanism, they do. Raises
     PageError where what the scene states leaves them no room, or leaves nothing of them.
     """
-    curves = curves_of(mechanism) if curves is None else curves
+    curves = curves_drawn(mechanism) if curves is None else curves
     said = stated(mechanism)
     crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)
     natural = 0.0 if crank else natural_seconds(mechanism)
@@ -68,6 +66,16 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     if said.keys:
         refuse_dots(chosen, drafts_of(mechanism, curves, chosen), said.keys)
     return chosen
+
+
+def curves_drawn(mechanism: Mechanism) -> tuple[Curve, ...]:
+    """The curves on the sheets; what traces them is loaded for mechanisms that have some."""
+    ask = mechanism.scene.ask
+    if not (ask.centrodes or ask.curves or mechanism.is_of_higher_class):
+        return ()
+    from graphkin.motion.motion_curves import curves_of
+
+    return curves_of(mechanism)
 
 
 def stated(mechanism: Mechanism) -> Stated:
@@ -159,13 +167,13 @@ LEAST = 5.0
 """Length in mm below which a mechanism, or the longest vector of a plan, is no drawing."""
 
 
-def refuse_dots(scales: Scales, trials: Sequence[Drawing], stated: Sequence[str]) -> None:
+def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]) -> None:
     """Raise PageError where a stated scale factor draws a mechanism or a plan as a mere dot.
 
-    ``trials`` are the sheets at full size, ``stated`` the keys that the scene writes. A plan of
+    ``sheets`` are drawn at full size, ``stated`` the keys that the scene writes. A plan of
     which all is nought is no fault.
     """
-    across = min(1000 * trial.reach / scales.kL for trial in trials)
+    across = min(1000 * sheet.reach / scales.kL for sheet in sheets)
     if across < LEAST and "scale" in stated:
         most = scales.kL * across / LEAST
         found = f"at 1:{digits(scales.kL)} the mechanism is drawn {across:.2g} mm across"
@@ -174,18 +182,18 @@ def refuse_dots(scales: Scales, trials: Sequence[Drawing], stated: Sequence[str]
         times = digits(scales.of_bar("velocity"))
         found = f"at {times} times the mechanism is drawn {across:.2g} mm across"
         raise dot("enlarge", found, "a smaller enlarge")
-    for trial in trials:
-        longest = 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / scales.kL
-        if longest >= LEAST or not trial.settled(trial.largest):
+    for sheet in sheets:
+        longest = 1000 * abs(sheet.at_scale(sheet.plane, sheet.largest)) / scales.kL
+        if longest >= LEAST or not sheet.settled(sheet.largest):
             continue
-        found = f"the longest {trial.kind} is drawn {longest:.2g} mm long"
-        if trial.kind == "acceleration" and "ka" in stated:
+        found = f"the longest {sheet.kind} is drawn {longest:.2g} mm long"
+        if sheet.kind == "acceleration" and "ka" in stated:
             ka = scales.ka / 1000
             most = not_above(ka * longest / LEAST)
             raise dot(
                 "ka", f"at {digits(ka)} (m/s²)/mm {found}", f"a smaller ka, {digits(most)} or less"
             )
-        own = scales.of_bar(trial.kind)
+        own = scales.of_bar(sheet.kind)
         if "enlarge" in stated and own < 1:
             raise dot("enlarge", f"at {digits(own)} times {found}", "a larger enlarge")
 

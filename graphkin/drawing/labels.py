@@ -18,6 +18,7 @@ from graphkin.drawing.marks import Mark, Text, reach
 from graphkin.drawing.placement import Spot, place
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.shapes import Array, Box
+from graphkin.drawing.style import OWN_LINES
 from graphkin.text.errors import PageError, Problem
 
 ROUNDS = 4
@@ -30,7 +31,7 @@ KEY = 4
 """Priority of a key number."""
 NEAR = 0.6
 """How near to a note a label may stand, in mm."""
-HELPERS = ("construction", "trial")
+HELPERS = ("construction", OWN_LINES)
 """Classes of letters that a drawing can do without where there is no room for them."""
 
 

@@ -15,11 +15,11 @@ from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.marks import LineMark, Mark, Polyline
 from graphkin.drawing.placement import CLEAR, Spot
 from graphkin.drawing.shapes import Array, struck
-from graphkin.drawing.style import VECTORS
+from graphkin.drawing.style import OWN_LINES, VECTORS
 
 STRONG = (*VECTORS, "link", "outline", "guide", "guide-bar")
 """Classes of the lines that leaders should not cross."""
-BARS, DIRECTIONS = ("link",), ("construction", "trial")
+BARS, DIRECTIONS = ("link",), ("construction", OWN_LINES)
 """Classes of the bars of a mechanism, and of the lines that a plan is constructed by."""
 KINDS = {cls: kinds for kinds in (BARS, VECTORS, DIRECTIONS) for cls in kinds}
 MARGIN = 0.3

@@ -6,7 +6,6 @@ equation between the follower's unknown and the cam's angle, whatever turns the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from msgspec.structs import replace
@@ -20,14 +19,18 @@ from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.scene.quantity import Quantity, exact
 
 
-@dataclass(frozen=True, slots=True)
-class ByLaw(Quantity):
+class ByLaw(Quantity, frozen=True, eq=False):
     """The coordinate or the angle of a follower, which its cam's angle gives; its rates are none
     of their own.
     """
 
     scene: Scene | None = None
     follower: str = ""
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """By what it is told from others."""
+        return *super().key, self.scene, self.follower
 
     @property
     def cam(self) -> Cam:

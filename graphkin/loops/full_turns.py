@@ -56,7 +56,7 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
 
 
 def unrolled(loops: Equations, part: Mask) -> Mask:
-    """The coordinates along bars of a group that roll on a wheel which is known before.
+    """The coordinates along bars of a group that touch a wheel which is known before.
 
     A wheel is as far on its track as it has come; a bar touches its wheel where the bar's angle
     says, and that is counted within half a turn as one that only pins tell.
@@ -66,7 +66,7 @@ def unrolled(loops: Equations, part: Mask) -> Mask:
     for j, guide in enumerate(loops.guides):
         wheel, bar = loops.turned.of[guide.block], loops.turned.of[guide.on]
         known = wheel == 0 or wheel not in free
-        found[loops.turning_count + j] = guide.moved_by == "roll" and known and bar in free - {0}
+        found[loops.turning_count + j] = not guide.turns_alike and known and bar in free - {0}
     return found
 
 

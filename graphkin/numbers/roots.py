@@ -169,14 +169,14 @@ def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Arra
             break
         start, middle, end = low[live], best[live], high[live]
         longer = end - middle > middle - start
-        trial = middle + GOLDEN * np.where(longer, end - middle, start - middle)
-        found = sign[live] * misfit(element[live], trial)
+        candidate = middle + GOLDEN * np.where(longer, end - middle, start - middle)
+        found = sign[live] * misfit(element[live], candidate)
         better = found < least[live]
-        new_end = np.where(better, middle, trial), np.where(better, least[live], found)
+        new_end = np.where(better, middle, candidate), np.where(better, least[live], found)
         up = better == longer
         low[live[up]], below[live[up]] = (each[up] for each in new_end)
         high[live[~up]], above[live[~up]] = (each[~up] for each in new_end)
-        best[live[better]], least[live[better]] = trial[better], found[better]
+        best[live[better]], least[live[better]] = candidate[better], found[better]
     return element, ends[0], best, ends[1], least
 
 
@@ -198,16 +198,16 @@ def closed_in(misfit: Misfit, which: Array, low: Array, high: Array) -> Array:
             break
         start, end, before, after = low[live], high[live], left[live], right[live]
         with np.errstate(all="ignore"):
-            trial = end - after * (end - start) / (after - before)
-        inside = (trial - start) * (trial - end) < 0
-        trial = np.where(inside, trial, (start + end) / 2)
-        value = misfit(which[live], trial)
-        best[live] = np.where(abs(value) < least[live], trial, best[live])
+            candidate = end - after * (end - start) / (after - before)
+        inside = (candidate - start) * (candidate - end) < 0
+        candidate = np.where(inside, candidate, (start + end) / 2)
+        value = misfit(which[live], candidate)
+        best[live] = np.where(abs(value) < least[live], candidate, best[live])
         least[live] = np.minimum(abs(value), least[live])
         other = value * after < 0
         low[live], left[live] = np.where(other, end, start), np.where(other, after, before / 2)
-        high[live], right[live] = trial, value
+        high[live], right[live] = candidate, value
         pole = (turn >= SURE) & (abs(value) > GROWN * height[live])
-        narrow = abs(trial - low[live]) <= NEXT * np.maximum(abs(low[live]), abs(trial))
-        live = live[~(pole | narrow | (least[live] == 0) | (abs(trial - low[live]) < 1e-300))]
+        narrow = abs(candidate - low[live]) <= NEXT * np.maximum(abs(low[live]), abs(candidate))
+        live = live[~(pole | narrow | (least[live] == 0) | (abs(candidate - low[live]) < 1e-300))]
     return np.where(least <= CLOSE * height, best, np.nan)

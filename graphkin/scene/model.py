@@ -6,7 +6,7 @@ points before it; where a link is put in the plane is for the construction to fi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -18,6 +18,7 @@ from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.numbers.cam_motions import Rise, displaced
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
+from graphkin.text.plain_table import listed
 
 FRAME = "0"
 """Name of the fixed link."""
@@ -322,6 +323,11 @@ class Link(Struct, frozen=True):
     cam: Cam | None = None
 
     @property
+    def has_wheels(self) -> bool:
+        """Whether it has wheels, or rolls on those of others."""
+        return bool(self.wheels or self.rolls)
+
+    @property
     def paths(self) -> tuple[GuideOrTrack, ...]:
         """What it slides and rolls on."""
         return (*self.slides, *self.rolls)
@@ -335,6 +341,16 @@ class Link(Struct, frozen=True):
             rolls=tuple(rolling.called(names) for rolling in self.rolls),
             cam=None if self.cam is None else self.cam.called(names),
         )
+
+
+def link_words(name: str) -> str:
+    """A link by its name, link 0 as the frame."""
+    return "the frame" if name == FRAME else f"link {name}"
+
+
+def joined_words(names: Sequence[str]) -> str:
+    """Several links by their names, the frame apart."""
+    return listed(map(link_words, names)) if FRAME in names else f"links {listed(names)}"
 
 
 DriverKind = Literal["turn", "slide", "roll"]
@@ -528,6 +544,12 @@ class Scene(Struct, frozen=True, dict=True):
     def touching(self) -> tuple[tuple[str, str], ...]:
         """Each wheel with the link on which it rolls or to which a belt runs, as written."""
         return tuple((link.name, each.on) for link in self.every_link for each in link.rolls)
+
+    @property
+    def in_touch(self) -> tuple[tuple[str, str], ...]:
+        """The same without those that an open belt turns alike: none of their points touch."""
+        every = ((link.name, each) for link in self.every_link for each in link.rolls)
+        return tuple((name, each.on) for name, each in every if not self.turn_alike(name, each))
 
     @property
     def belted(self) -> tuple[tuple[str, str], ...]:

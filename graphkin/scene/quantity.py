@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real
 from graphkin.scene.evaluate import EvaluationError, differentiated, evaluate
@@ -40,8 +41,7 @@ ENDING = 17
 """Significant digits up to which a number that ends is written in full."""
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True, eq=False):
     """A number as written, perhaps an expression in parameters, with its unit.
 
     ``place`` is the key it was read from, for errors; two quantities are equal without it.
@@ -50,7 +50,18 @@ class Quantity:
     text: str
     tree: Tree
     unit: str = ""
-    place: str = field(default="", compare=False)
+    place: str = ""
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """By what it is told from others."""
+        return self.text, self.tree, self.unit
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
 
     def uses(self) -> frozenset[str]:
         """Names of the parameters in it, and ``t`` if it is a law of time."""

@@ -14,7 +14,6 @@ from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, shown
-from graphkin.scene.keepers import with_keepers
 from graphkin.scene.link_names import read_names
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Link, Scene
@@ -22,12 +21,10 @@ from graphkin.scene.parameters import read_parameters, set_values
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name
 from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
-from graphkin.scene.read_cams import with_cams
 from graphkin.scene.read_drivers import read_drivers
 from graphkin.scene.read_joints import read_belts, read_drums, read_rolls, read_slides, read_wheels
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
-from graphkin.scene.touching_profiles import normals
 from graphkin.text.errors import GraphkinError, Mend, Problem, SceneError
 
 FORMAT = 1
@@ -127,7 +124,10 @@ def assembled(
     title = top.text("title", name)
     frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
     links, drivers = read_links(top, frame, measures, module), read_drivers(top, measures)
-    frame, links = with_keepers(frame, links, drivers, measures)
+    if any(link.rolls for link in (frame, *links.values())):
+        from graphkin.scene.keepers import with_keepers
+
+        frame, links = with_keepers(frame, links, drivers, measures)
     return Scene(
         name=name,
         title=title,
@@ -185,7 +185,7 @@ def read_module(top: Table, measures: Measures) -> Quantity | None:
 def read_links(
     top: Table, fixed: Link, measures: Measures, module: Quantity | None
 ) -> dict[str, Link]:
-    """The moving links, by name."""
+    """The moving links, by name; what reads touching profiles and cams is loaded for these."""
     table = top.table("links")
     if not table.raw and not measures.findings.inside(table.place):
         measures.findings.add("links", "no link", "a table [links.NAME] for each moving link")
@@ -206,10 +206,17 @@ def read_links(
         else:
             written[name] = Table(place, raw, measures.findings)
             links[name] = read_link(name, written[name], measures, module)
-    frame = Table(FRAME_WORD, as_table(top.raw.get(FRAME_WORD)), measures.findings)
-    for name, lengths in normals(written, frame, links, measures):
-        links[name] = read_link(name, lengths, measures, module)
-    return with_cams(written, fixed, links, measures)
+    if any("touches" in each for each in written.values()):
+        from graphkin.scene.touching_profiles import normals
+
+        frame = Table(FRAME_WORD, as_table(top.raw.get(FRAME_WORD)), measures.findings)
+        for name, lengths in normals(written, frame, links, measures):
+            links[name] = read_link(name, lengths, measures, module)
+    if any("cam" in each for each in written.values()):
+        from graphkin.scene.read_cams import with_cams
+
+        return with_cams(written, fixed, links, measures)
+    return links
 
 
 def as_table(raw: object) -> dict[str, Any]:

@@ -26,7 +26,8 @@ LINKS_ASKED = tuple(
 ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
-METHODS = ("triangles", "klein")
+KLEIN = "klein"
+METHODS = ("triangles", KLEIN)
 """What gives the components of accelerations."""
 PLANS = ("images", "kutzbach")
 RULES = ("largest", "lab")

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from msgspec import Struct
 
-from graphkin.scene.model import FRAME, Driver
+from graphkin.scene.findings import natural
+from graphkin.scene.model import FRAME, Driver, joined_words, link_words
 from graphkin.structure.assur import assur_class
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Joint, Leading, Pin, Sliding
+from graphkin.text.plain_table import listed
 
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 
@@ -36,6 +38,13 @@ class Crank(OneLink, frozen=True):
         beside = "" if against == FRAME else f", against link {against}"
         return f"driven by a crank about {self.pivot}{beside}"
 
+    @property
+    def words(self) -> str:
+        """Its kind, class and order, its links and what it is joined to."""
+        other = other_of(self.driver, self.link)
+        against = "" if other == FRAME else f" against link {other}"
+        return f"crank {self.link} about {self.pivot}{against} (class I)"
+
 
 class Driven(OneLink, frozen=True):
     """A link that a driver slides along a guide, or rolls on a track, of a known link."""
@@ -54,6 +63,11 @@ class Driven(OneLink, frozen=True):
         against = other_of(self.driver, self.link)
         beside = "frame" if against == FRAME else f"link {against}"
         return f"driven, {self.pair.moving} on {beside}"
+
+    @property
+    def words(self) -> str:
+        """Its kind, class and order, its links and what it is joined to."""
+        return f"link {self.link} driven (class I): {self.pair.words}"
 
 
 class Dyad(Struct, frozen=True):
@@ -79,6 +93,13 @@ class Dyad(Struct, frozen=True):
         """What it is called."""
         return f"dyad {self.type}"
 
+    @property
+    def words(self) -> str:
+        """Its kind, class and order, its links and what it is joined to."""
+        outer = listed(pair.brief for pair in self.outer)
+        of = f"{self.title} (class II, order 2) of links {listed(self.links)}"
+        return f"{of}, inner {self.inner.brief}, outer {outer}"
+
 
 class CamFollower(Struct, frozen=True):
     """A follower that a cam sets by its law, with the equivalent linkage of the instant.
@@ -102,6 +123,11 @@ class CamFollower(Struct, frozen=True):
     def title(self) -> str:
         """What it is called."""
         return f"{self.dyad.title}, set by the law of a cam"
+
+    @property
+    def words(self) -> str:
+        """It and its links."""
+        return titled(self)
 
 
 class Cylinder(Struct, frozen=True):
@@ -153,6 +179,11 @@ class Stretched(Struct, frozen=True):
             return f"{self.dyad.title} with driven cylinders of {pairs[0]} and of {pairs[1]}"
         return f"{self.dyad.title} with a driven cylinder of {pairs[0]}"
 
+    @property
+    def words(self) -> str:
+        """It and its links."""
+        return titled(self)
+
 
 class Geared(OneLink, frozen=True):
     """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
@@ -170,6 +201,12 @@ class Geared(OneLink, frozen=True):
         """What it is called."""
         does = "has a belt with" if self.contact.rolling.belt else "rolls on"
         return f"{does} link {partner(self.contact, self.link)}"
+
+    @property
+    def words(self) -> str:
+        """What it is joined to, and what moves it."""
+        other = link_words(partner(self.contact, self.link))
+        return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
 
 
 class Spun(Struct, frozen=True):
@@ -202,6 +239,13 @@ class Spun(Struct, frozen=True):
         on = partner(self.contact, self.link)
         return f"link {self.link} turned by its driver, rolling on link {on}"
 
+    @property
+    def words(self) -> str:
+        """Its class, what it rolls on, and what follows from that."""
+        other = link_words(partner(self.contact, self.link))
+        follows = f"link {self.holder} on {self.pivot.brief} follows"
+        return f"link {self.link} driven (class I): it rolls on {other}; {follows}"
+
 
 class Train(Struct, frozen=True):
     """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
@@ -223,6 +267,13 @@ class Train(Struct, frozen=True):
         links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
         return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
 
+    @property
+    def words(self) -> str:
+        """Its arm, its wheel, and what that rolls on."""
+        others = listed(link_words(partner(contact, self.wheel)) for contact in self.contacts)
+        arm = f"arm {self.arm} on {self.pivot.brief}"
+        return f"{arm} with wheel {self.wheel}, which rolls on {others}"
+
 
 class Tie(OneLink, frozen=True):
     """A link that two pairs join to known links: at two pins it is idle, on two guides a wedge."""
@@ -242,11 +293,25 @@ class Tie(OneLink, frozen=True):
             return "led by two guides"
         return "idle: joins what moves together without it"
 
+    @property
+    def words(self) -> str:
+        """Its link, and what holds it."""
+        held = listed(pair.brief for pair in self.outer)
+        if isinstance(self.first, Sliding):
+            led = f"link {self.link} led by {held}"
+            return f"{led}: both tell how it is turned, so that one is idle"
+        return f"link {self.link} between {held}, which stand already: it must be idle"
+
 
 class TriedLink(OneLink, frozen=True):
     """A link whose place in its pair with a known one is tried until the rest closes."""
 
     pair: Joint
+
+    @property
+    def words(self) -> str:
+        """What is tried of it."""
+        return f"tried at link {self.link} on {self.pair.brief}"
 
 
 class CoupledTrain(Struct, frozen=True):
@@ -273,6 +338,13 @@ class CoupledTrain(Struct, frozen=True):
     def title(self) -> str:
         """What it is called."""
         return "coupled train of wheels"
+
+    @property
+    def words(self) -> str:
+        """Its links, where it is tried, and what closes it."""
+        names = listed(sorted(self.links, key=natural))
+        start = f"{self.title} (links {names}): {self.trial.words}"
+        return f"{start}, closed by the {self.last.brief}"
 
 
 class Higher(Struct, frozen=True):
@@ -309,6 +381,13 @@ class Higher(Struct, frozen=True):
         rank, order = self.order
         return f"group of class {ROMAN[min(rank, 8)]}, order {order}"
 
+    @property
+    def words(self) -> str:
+        """Its class, its links, where it is tried, and what closes it."""
+        names, last = listed(sorted(self.links, key=natural)), self.last
+        end = f"link {last.link}" if isinstance(last, Tie) else f"the driver of link {last.link}"
+        return f"{self.title} (links {names}): {self.trial.words}, closed by {end}"
+
 
 class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
@@ -326,6 +405,11 @@ class Unresolved(Struct, frozen=True):
     def title(self) -> str:
         """What it is called."""
         return "a group for which no construction was found"
+
+    @property
+    def words(self) -> str:
+        """It and its links."""
+        return titled(self)
 
 
 Group = (
@@ -347,3 +431,8 @@ Group = (
 def other_of(driver: Driver, link: str) -> str:
     """The link against which a link is driven."""
     return driver.against if driver.link == link else driver.link
+
+
+def titled(group: CamFollower | Stretched | Unresolved) -> str:
+    """What a group is called, with its links."""
+    return f"{group.title}: {joined_words(group.links)}"

@@ -7,9 +7,8 @@ from itertools import combinations
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.known_names import quoted
-from graphkin.scene.model import FRAME, Scene, Slide
+from graphkin.scene.model import FRAME, Scene, Slide, link_words
 from graphkin.structure.link_axes import guide_line, metres
-from graphkin.structure.touching_wheels import link_words
 from graphkin.structure.turning import LEVEL
 from graphkin.text.errors import Problem
 

@@ -9,7 +9,15 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.scene.contact_letters import contact_letters
-from graphkin.scene.model import Rolling, Scene, Slide, Wheel, of_one_size
+from graphkin.scene.model import (
+    Rolling,
+    Scene,
+    Slide,
+    Wheel,
+    joined_words,
+    link_words,
+    of_one_size,
+)
 from graphkin.structure.touching_wheels import radius, touching
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError
@@ -44,6 +52,16 @@ class Pin(Struct, frozen=True):
     links: tuple[str, str]
 
     @property
+    def brief(self) -> str:
+        """It in short."""
+        return f"pin {self.point}"
+
+    @property
+    def words(self) -> str:
+        """It with the links that it joins."""
+        return f"{self.brief} of {joined_words(self.links)}"
+
+    @property
     def place(self) -> str:
         """The point where it lies; ``point`` may be one link's own under it, such as A@3."""
         return self.point.partition("@")[0]
@@ -59,6 +77,13 @@ class Sliding(Struct, frozen=True):
 
     slide: Slide
     links: tuple[str, str]
+
+    @property
+    def words(self) -> str:
+        """It with the link on which its block slides."""
+        return f"slide of block {self.block} on {link_words(self.links[1])}"
+
+    brief = words
 
     @property
     def block(self) -> str:
@@ -94,6 +119,24 @@ class Contact(Struct, frozen=True):
     track: Wheel | None
     arm: str | None
     letter: str
+
+    @property
+    def brief(self) -> str:
+        """It in short."""
+        return f"contact of {joined_words(self.links)}"
+
+    @property
+    def words(self) -> str:
+        """It with its wheels, or what it rolls on, and the link that keeps their distance."""
+        link, on = self.links
+        track = "a track" if self.track is None else f"wheel {self.track.centre}"
+        words = f"wheel {self.wheel.centre} of {link_words(link)} on {track} of {link_words(on)}"
+        if self.rolling.belt is not None:
+            kind = "crossed" if self.rolling.belt.crossed else "open"
+            words = f"{kind} belt to wheel {self.wheel.centre} of link {link}"
+            words += f" from {track} of {link_words(on)}"
+        kept = "" if self.arm is None else f", at a distance that {link_words(self.arm)} keeps"
+        return words + kept
 
     @property
     def taken(self) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, of_one_size
+from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, track_line
 from graphkin.structure.turning import LEVEL, stands
@@ -211,8 +211,3 @@ def shown(scene: Scene, length: float) -> str:
     """A length in the unit of the scene."""
     unit = scene.units["length"]
     return f"{length / float(SI[unit][0]):.10g} {unit}"
-
-
-def link_words(name: str) -> str:
-    """A link by its name, link 0 as the frame."""
-    return "the frame" if name == FRAME else f"link {name}"

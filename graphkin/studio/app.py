@@ -31,7 +31,7 @@ WORK = (
     "write",
     "save",
     "sheets",
-    "trial",
+    "variants",
     "ranges",
     "student",
     "begin",

@@ -232,7 +232,7 @@ class Session:
         """What a page last saw."""
         return self.memories.setdefault(tab, Memory())
 
-    def trial(self, order: PageRequest) -> dict[str, Any]:
+    def variants(self, order: PageRequest) -> dict[str, Any]:
         """A lab tried on a thousand variants and a class of thirty."""
         return self.of_lab(order, trial_of, lambda found, _, words: lab_report(found, words))
 

@@ -9,7 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import METRES, Drawing
-from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.quantities import MOTION
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import Rect

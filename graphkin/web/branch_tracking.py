@@ -126,7 +126,7 @@ def last_value(
 
 
 def drawn(missed: Callable[[float], Any], value: float) -> bool:
-    """Whether a group can be drawn at a trial value."""
+    """Whether a group can be drawn at a value that is tried."""
     try:
         return math.isfinite(missed(value)[0])
     except (ValueError, ZeroDivisionError, OverflowError):

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.parameter_words import quantities, unit_of
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.richtext import escape

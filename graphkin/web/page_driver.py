@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.given_data import angle_symbol
+from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.program import Program
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import runner

@@ -133,7 +133,7 @@ class YourTurn(Struct, frozen=True):
     """All moves of some sheets, all that can be picked, and the moves behind what comes along.
 
     ``places`` are the steps of the points of the mechanism that have an image of a plan, ``shares``
-    the steps by which the lines of two trials are divided, with the moves that each needs;
+    the steps by which the lines of auxiliary plans are divided, with the moves that each needs;
     ``alike`` tells whether a link has a third point, whose image is similar to it.
     """
 
@@ -218,7 +218,7 @@ class MoveFinder:
         return next(own, ran[0])
 
     def places_of_images(self) -> dict[int, tuple[int, ...]]:
-        """For each image of a plan the places of its points; those of trials by their letter."""
+        """For each image the places of its points; those of auxiliary plans by their letter."""
         targets = self.drawings[0].trace.program.targets
         found: dict[int, list[int]] = {}
         for (quantity, of), number in targets.items():
@@ -266,7 +266,7 @@ class MoveFinder:
             self.point_or_line(number, name)
 
     def share(self, number: int) -> int:
-        """The step that measures in what ratio a point divides the line of its trials."""
+        """The step that measures in what ratio a point divides the line that leads to it."""
         kind = construction(self.steps[number])
         assert isinstance(kind, DividedPoint)
         by_hand = self.steps[kind.share].by_hand

@@ -11,11 +11,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.higher_class.divided_point import DividedRate
-from graphkin.construction.higher_class.trial_plan import TrialPlan
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
 from graphkin.drawing.symbol_markup import symbol
@@ -31,8 +28,6 @@ AGAIN = {
 """What is said of the second and each further one of a kind."""
 LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
 """The reason that is given at the end, for all points at once."""
-TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
-"""Why the turning of links is read off as each sheet says."""
 VECTORS_APART = "vectors"
 """The name of a sentence that draws vectors between images that the one before has found."""
 BY_NAME = {
@@ -83,33 +78,24 @@ def reasons(
 
 
 def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
-    """Why what a sentence says that is of no step, reads a rate off, or begins a trial plan."""
+    """Why a sentence says what is of no step, reads a rate off, or begins an auxiliary plan."""
     steps, words = drawing.trace.program.steps, drawing.words
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
-        yield words(of_rate(drawing, steps[sentence.step])), NO_STEP
+        kind = construction(steps[sentence.step])
+        yield words(kind.rate_reason(drawing) if kind else "why.rate"), NO_STEP
     elif sentence.name.startswith(IDLE):
         yield words("why.idle"), NO_STEP
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
-    elif isinstance(plan, TrialPlan) and sentence.name:
-        yield words("why.trial_again" if plan.repeats else "why.trial"), NO_STEP
-
-
-def of_rate(drawing: Drawing, step: Step) -> str:
-    """Why a rate is found as it is: from a bar and its image, between trials, or from others."""
-    match construction(step):
-        case TurningOfLink():
-            return TURNS[drawing.kind]
-        case DividedRate():
-            return "why.trials"
-    return "why.rate"
+    elif plan and plan.reason and sentence.name:
+        yield words(f"{plan.reason}_again" if plan.repeats else plan.reason), NO_STEP
 
 
 def is_nothing(drawing: Drawing, number: int) -> bool:
-    """Whether a point of a trial plan falls on what it is drawn from, or a line finds only such."""
+    """Whether a point of such a plan falls on what it is drawn from, or a line finds only such."""
     plan, step = auxiliary_plan(drawing, number), drawing.trace.program.steps[number]
-    if not isinstance(plan, TrialPlan):
+    if plan is None:
         return False
     if isinstance(drawing.trace.values[number], Line):
         return plan.is_idle(drawing, number)

@@ -135,7 +135,7 @@ class Tracing(Struct, frozen=True, dict=True):
     # --- groups of higher class ----------------------------------------------------------------
 
     def closers(self, drawn: Trace) -> dict[int, Any]:
-        """The steps that close groups, with a traced trial in their place."""
+        """The steps that close groups, with traced inputs in their place."""
         found = {}
         for number, closer in closing_steps(drawn):
             names = names_of(number, drawn.values[number])

@@ -17,8 +17,6 @@ from graphkin.construction.normal_component.normal_component import (
     bar_line,
     normal,
     normal_by_hand,
-    set_velocity,
-    square_at,
     turn_over,
 )
 from graphkin.documents.sheet_documents import scales
@@ -64,8 +62,8 @@ def triangle(ratio: float, bar: float = 0.1) -> Original:
     seconds = given(Plane.NUMBERS, "one")
     pole = draw(vocabulary.pole, plane=Plane.VELOCITIES)
     image = given(Plane.VELOCITIES)
-    tip = draw(set_velocity, pin, pole, image, seconds)
-    square = draw(square_at, tip, pivot)
+    tip = draw(vocabulary.set_way, pin, pole, image, seconds)
+    square = draw(vocabulary.perpendicular_at, tip, pivot)
     line = draw(bar_line, pivot, pin)
     foot = draw(vocabulary.meet, square, line)
     end = draw(turn_over, foot, pin)

@@ -156,3 +156,61 @@ def test_nothing_that_a_terminal_obeys_is_printed_of_a_file_name(run: Run, tmp_p
         assert SHOWN in getattr(result, channel)
         assert not set(HOSTILE) & set("\x1b\x07\u202e\x9b") & set(result.stdout + result.stderr)
     assert json.loads(run("solve", scene, "--json").stdout)["name"] == HOSTILE
+
+
+ENDING = """
+import atexit, sys
+atexit.register(print, "registered")
+sys.argv = ["graphkin", *{words!r}]
+{before}
+from graphkin.cli.main import main
+try:
+    main()
+except SystemExit:
+    print("taken apart")
+"""
+
+
+def ended(words: list[str], before: str = "") -> tuple[int, list[str]]:
+    """The status of a command in a process of its own, and what it says, line by line."""
+    return of_process(ENDING.format(words=words, before=before))
+
+
+def of_process(code: str) -> tuple[int, list[str]]:
+    """The status of a program, and what it says."""
+    words = [sys.executable, "-c", code]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout.splitlines()
+
+
+@pytest.mark.parametrize(("words", "status"), [(["list"], 0), (["solve", "pmup"], 2)])
+def test_the_end_does_what_is_registered_and_keeps_the_status(words: list[str], status: int):
+    found, lines = ended(words)
+    assert found == status
+    assert lines[-1] == "registered"
+    assert len(lines) > 1 or status
+
+
+@pytest.mark.parametrize(
+    "before",
+    [
+        "sys.setprofile(lambda *_: None)",
+        "import threading; threading.Thread(target=threading.Event().wait, daemon=True).start()",
+    ],
+)
+def test_who_watches_or_works_beside_it_sees_the_usual_end(before: str):
+    assert ended(["list"], before)[1][-2:] == ["taken apart", "registered"]
+
+
+def test_solve_loads_nothing_that_only_other_mechanisms_or_pages_need():
+    code = "import sys; sys.argv = ['graphkin', 'solve', 'pump']; " + (
+        "from graphkin.cli.main import app\ntry: app()\nexcept SystemExit: print(*sys.modules)"
+    )
+    loaded = of_process(code)[1][-1].split()
+    assert "graphkin.loops.witness" in loaded
+    rooms = ("writers", "motion", "accuracy", "web", "classroom", "studio", "reading")
+    kinds = ("rolling", "cams", "higher_class", "coriolis", "tape", "centres.kennedy")
+    parts = tuple(f"graphkin.{each}" for each in rooms)
+    parts += tuple(f"graphkin.construction.{each}" for each in kinds)
+    parts += ("graphkin.scene.keepers", "graphkin.scene.read_cams", "graphkin.drawing.labels")
+    assert [name for name in loaded if name.startswith(parts)] == []

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.higher_class.two_trials import TwoTrials
-from graphkin.construction.rolling.rolling_on_wheel import RollingOnWheel
+from graphkin.construction.rolling.rolling_normal import RollingOnWheel
 from graphkin.loops.assemble import assemble
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text

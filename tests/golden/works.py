@@ -8,8 +8,10 @@ what the modules are called. A work is named by its command line without the sce
 
 from __future__ import annotations
 
+import atexit
 import csv
 import io
+import os
 import re
 import runpy
 import shutil
@@ -115,7 +117,8 @@ def graphkin(*words: object) -> str:
     """What a command says on both channels, and its status if it has one."""
     out, err, status = io.StringIO(), io.StringIO(), ""
     argv = patch.object(sys, "argv", ["graphkin", *map(str, words)])
-    with argv, redirect_stdout(out), redirect_stderr(err):
+    leaving = patch.object(os, "_exit", sys.exit), patch.object(atexit, "_run_exitfuncs")
+    with argv, leaving[0], leaving[1], redirect_stdout(out), redirect_stderr(err):
         try:
             runpy.run_module("graphkin", run_name="__main__")
         except SystemExit as left:

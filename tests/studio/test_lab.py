@@ -37,7 +37,7 @@ def session(tmp_path) -> Any:
 
 def test_a_lab_is_tried_as_the_command_tries_it(session):
     """As many are fair, and each two students are as far apart; unsaved texts count as they are."""
-    report, trial = asked(session, "trial"), tried(read_lab("pump"))
+    report, trial = asked(session, "variants"), tried(read_lab("pump"))
     assert (report["fair"], report["count"]) == (len(trial.many) - trial.unfair, len(trial.many))
     assert report["fair"] == 29
     shares = trial.neighbours.exact
@@ -47,19 +47,19 @@ def test_a_lab_is_tried_as_the_command_tries_it(session):
     last = report["students"][-1]
     assert (last["name"], last["settings"]) == ("30", {"n": "30"})
     assert "v_DC: 0.0441 < 0.05" in last["faults"]
-    strict = asked(session, "trial", rules=RULES.replace("crossing = 9 ", "crossing = 65 "))
+    strict = asked(session, "variants", rules=RULES.replace("crossing = 9 ", "crossing = 65 "))
     assert 0 < strict["fair"] < 29
 
 
 def test_mistakes_of_both_texts_are_told_apart(session):
-    wrong = asked(session, "trial", rules=RULES.replace("segment = 3", "segment = -3\nmany = 1"))
+    wrong = asked(session, "variants", rules=RULES.replace("segment = 3", "segment = -3\nmany = 1"))
     told = [(each["place"], RULES[: each["start"]].count("\n")) for each in wrong["problems"]]
     assert [place for place, _ in told] == ["fair.segment", "fair.many"]
     assert not wrong["scene_wrong"]
-    wrong = asked(session, "trial", text=PUMP.replace("O1-A = 30", "O1-A = -30"))
+    wrong = asked(session, "variants", text=PUMP.replace("O1-A = 30", "O1-A = -30"))
     assert wrong["scene_wrong"]
     assert wrong["problems"] == []
-    wrong = asked(session, "trial", rules="[variants")
+    wrong = asked(session, "variants", rules="[variants")
     assert wrong["problems"][0]["line"] == 1
 
 
@@ -70,8 +70,8 @@ def test_what_is_proposed_is_fair(session):
     start, end = found["mending"]["start"], found["mending"]["end"]
     assert PUMP[start:end] == found["mending"]["before"] == "25"
     mended = PUMP[:start] + found["mending"]["text"] + PUMP[end:]
-    assert asked(session, "trial", text=mended)["fair"] == 30
-    report = asked(session, "trial", rules=found["rules"])
+    assert asked(session, "variants", text=mended)["fair"] == 30
+    report = asked(session, "variants", rules=found["rules"])
     assert report["fair"] == report["count"] == 1000
     kept = RULES[RULES.index("[fair]") :]
     assert found["rules"].endswith(kept)
@@ -80,7 +80,7 @@ def test_what_is_proposed_is_fair(session):
 
 def test_a_lab_is_begun_for_any_scene(session):
     rules = session.begin(ordered(text=SLIDER, name="own.toml"))["rules"]
-    report = asked(session, "trial", text=SLIDER, rules=rules)
+    report = asked(session, "variants", text=SLIDER, rules=rules)
     assert report["problems"] == []
     assert report["fair"] > 0
     assert "v_B = 1" in rules

@@ -32,7 +32,7 @@ from graphkin.construction.core.program import Target
 NODE = sqrt(3)
 """Where an error is tried, in standard deviations."""
 WEIGHT = 1 / 6
-"""The weight of each of the two trials; the exact drawing has the rest."""
+"""The weight of each of the two errors that are tried; the exact drawing has the rest."""
 BENT = 0.1
 """The sum of all drifts of an answer, over its deviation, above which errors do not just add."""
 TRIED = 500

@@ -156,7 +156,7 @@ def sketches(
 ) -> list[VariantSheet]:
     """The sheets of many variants, by the ``seconds`` in which velocities are set on each as ways.
 
-    ``values`` are the scene's parameters as arrays; ``rates`` what the hand tries in trial plans.
+    ``values`` are the scene's parameters as arrays; ``rates`` what the hand tries.
     """
     import numpy as np
 

@@ -119,7 +119,7 @@ def fair_ranges(lab: Lab) -> FairRanges:
     """
     mechanism = Mechanism(read_scene(lab.scene))
     space = space_of(mechanism.scene)
-    tried = trial(mechanism, lab, space, whole_box(space))
+    tried = drawn_within(mechanism, lab, space, whole_box(space))
     alone = tuple(name for name in mechanism.scene.parameters if name not in space)
     limited = lab.fair.pencil is not None
     fair = tried.places[tried.fairness.fair]
@@ -211,7 +211,7 @@ def whole_box(space: Space) -> Box:
     return [(0, len(values) - 1) for values in space.values()]
 
 
-def trial(
+def drawn_within(
     mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1
 ) -> Tried:
     """Draws within a box: all that there are, or as many as a design has from a start on."""
@@ -297,7 +297,7 @@ def peeled(mechanism: Mechanism, lab: Lab, tried: Tried) -> Box | None:
         if found is None:
             return None
         box = pasted(found, whole_box(tried.space), places, fair) if turn == 0 else found
-        more = trial(mechanism, lab, tried.space, box, 1 + (turn + 1) * DRAWS)
+        more = drawn_within(mechanism, lab, tried.space, box, 1 + (turn + 1) * DRAWS)
         if more.fairness.fair.all():
             return box
         places = np.concatenate([places, more.places])

@@ -21,37 +21,37 @@ SCALES = 8
 SPREAD = ("", "least", "quarter", "half", "three quarters", "most")
 
 
-def trial_lines(trial: LabTrial) -> Iterator[str]:
+def trial_lines(outcome: LabTrial) -> Iterator[str]:
     """The whole report on a lab that was tried."""
-    lab, fairness = trial.lab, trial.fairness
-    count = len(trial.many)
+    lab, fairness = outcome.lab, outcome.fairness
+    count = len(outcome.many)
     yield from labelled("rule", [rule_words(lab)])
-    alike = f", {trial.different} of them different" if trial.different < count else ""
-    yield from labelled("tried", [f"{tried_words(trial)}{alike}"])
+    alike = f", {outcome.different} of them different" if outcome.different < count else ""
+    yield from labelled("tried", [f"{tried_words(outcome)}{alike}"])
     yield from labelled("limits", [limit_words(lab.fair)])
-    good = [f"{count - trial.unfair} of {count} variants"]
-    if trial.pencilled:
-        exact = trial.pencilled - len(trial.coarse)
+    good = [f"{count - outcome.unfair} of {count} variants"]
+    if outcome.pencilled:
+        exact = outcome.pencilled - len(outcome.coarse)
         good.append(
-            f"a pencil draws {exact} of the first {trial.pencilled} of these exactly enough"
+            f"a pencil draws {exact} of the first {outcome.pencilled} of these exactly enough"
         )
     yield from labelled("fair", good)
     who = "number" if lab.rule.counts else "id"
-    yield from labelled("unfair", list(broken_lines(trial.faults(), who)))
+    yield from labelled("unfair", list(broken_lines(outcome.faults(), who)))
     if isinstance(lab.rule, Ranges):
-        yield from labelled("again", [again_words(lab.rule, trial.spoiled_share)])
-    computed = [(name, fairness.computed(i)) for i, name in enumerate(trial.names)]
+        yield from labelled("again", [again_words(lab.rule, outcome.spoiled_share)])
+    computed = [(name, fairness.computed(i)) for i, name in enumerate(outcome.names)]
     yield from labelled("compute", list(computed_lines(computed, who)))
     drawn = fairness.closes & fairness.fits
     spread = spread_lines(
         fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
     )
     yield from labelled("spread", spread)
-    yield from labelled("scales", scale_lines(fairness, trial.names, who))
-    compared = [each.student.id for each in trial.compared]
-    yield from labelled("apart", apart_lines(trial.neighbours, compared, who))
-    yield from labelled("pencil", pencil_lines(trial.neighbours))
-    yield from labelled("marks", list(mark_lines(trial)))
+    yield from labelled("scales", scale_lines(fairness, outcome.names, who))
+    compared = [each.student.id for each in outcome.compared]
+    yield from labelled("apart", apart_lines(outcome.neighbours, compared, who))
+    yield from labelled("pencil", pencil_lines(outcome.neighbours))
+    yield from labelled("marks", list(mark_lines(outcome)))
 
 
 def again_words(rule: Ranges, unfair: float) -> str:
@@ -96,11 +96,11 @@ def draw_words(values: Range | ValueList) -> str:
     return f"{ends} by {exact_text(values.step)}"
 
 
-def tried_words(trial: LabTrial) -> str:
+def tried_words(outcome: LabTrial) -> str:
     """On whom a lab was tried."""
-    if trial.lab.rule.counts:
-        return f"numbers 1 to {trial.names[-1]}"
-    return f"{len(trial.names)} drawn variants"
+    if outcome.lab.rule.counts:
+        return f"numbers 1 to {outcome.names[-1]}"
+    return f"{len(outcome.names)} drawn variants"
 
 
 def limit_words(fair: Fair) -> str:
@@ -220,12 +220,12 @@ def spread_lines(
     return table(SPREAD, rows) if rows else ["nothing is drawn"]
 
 
-def mark_lines(trial: LabTrial) -> Iterator[str]:
+def mark_lines(outcome: LabTrial) -> Iterator[str]:
     """The points in all, what earns none, and what no sheet draws."""
-    points = trial.lab.rubric.points
+    points = outcome.lab.rubric.points
     total = exact_text(sum(points.values(), Fraction(0)))
     yield f"{total} points for {len(points)} fields"
-    if trial.unmarked:
-        yield f"asked, and earns none: {listed(trial.unmarked, 12)}"
-    if trial.unasked:
-        yield f"earns marks, and is drawn on no sheet: {listed(trial.unasked, 12)}"
+    if outcome.unmarked:
+        yield f"asked, and earns none: {listed(outcome.unmarked, 12)}"
+    if outcome.unasked:
+        yield f"earns marks, and is drawn on no sheet: {listed(outcome.unasked, 12)}"

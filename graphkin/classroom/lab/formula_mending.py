@@ -41,7 +41,7 @@ class Mending(Struct, frozen=True):
     percent: float
 
 
-def mended(lab: Lab, trial: LabTrial) -> Mending | None:
+def mended(lab: Lab, outcome: LabTrial) -> Mending | None:
     """The smallest change that is fair to all numbers that were tried; None where none was found.
 
     One number is changed by some percent at a time, rounded to three digits.
@@ -52,15 +52,15 @@ def mended(lab: Lab, trial: LabTrial) -> Mending | None:
         for change in CHANGES:
             for mending, changed in candidates(text, change, lab.rule.settings):
                 path.write_text(changed, encoding="utf-8")
-                if is_fair(replace(lab, scene=path), trial):
+                if is_fair(replace(lab, scene=path), outcome):
                     return mending
     return None
 
 
-def is_fair(lab: Lab, trial: LabTrial) -> bool:
-    """Whether a scene is fair to all of the variants of a trial."""
+def is_fair(lab: Lab, outcome: LabTrial) -> bool:
+    """Whether a scene is fair to all of the variants on which a lab was tried."""
     try:
-        return bool(judged(Mechanism(read_scene(lab.scene)), lab, trial.many).fair.all())
+        return bool(judged(Mechanism(read_scene(lab.scene)), lab, outcome.many).fair.all())
     except GraphkinError:
         return False
 

@@ -57,10 +57,10 @@ class FormulaFaults(Struct, frozen=True):
 
 def formula_faults(lab: Lab) -> FormulaFaults:
     """To which numbers a lab's formula is unfair, why, and the smallest change that mends that."""
-    trial = tried(lab)
+    outcome = tried(lab)
     unfair = {
-        number: "; ".join(map(str, trial.fairness.faults(i)))
-        for i, number in enumerate(trial.names)
-        if not trial.fairness.fair[i]
+        number: "; ".join(map(str, outcome.fairness.faults(i)))
+        for i, number in enumerate(outcome.names)
+        if not outcome.fairness.fair[i]
     }
-    return FormulaFaults(unfair, mended(lab, trial) if unfair else None)
+    return FormulaFaults(unfair, mended(lab, outcome) if unfair else None)

@@ -30,7 +30,7 @@ Loader = Callable[[int], Mechanism]
 
 class Scaling(Struct):
     """The scale factors of each variant, as drawing.scale.Scales an array for each; NaN where
-    nothing fits. ``rates`` is what the hand tries in trial plans, by the step.
+    nothing fits. ``rates`` is what the hand tries in auxiliary plans, by the step.
     """
 
     kL: Array  # noqa: N815
@@ -106,7 +106,7 @@ def by_arrays(mechanism: Mechanism) -> bool:
         len(scene.drivers) == 1
         and scene.drivers[0].kind == "turn"
         and not (ask.curves or ask.centrodes)
-        and not any(link.wheels or link.rolls for link in links)
+        and not any(link.has_wheels for link in links)
         and not any(step.closes for step in steps)
         and not mechanism.trial_rates
     )

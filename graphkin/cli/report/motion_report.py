@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
-from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.solution_record import Record, settings_words
 from graphkin.cli.report.unsure_words import digits_words, is_unsure, unsure_words
 from graphkin.construction.core.quantities import (
@@ -197,6 +196,8 @@ def flat_words(scene: Scene, trace: Trace) -> str:
     from graphkin.diagnosis.singularity_words import beside_dead_point
 
     number = min(trace.margins, key=lambda step: float(trace.margins[step]))
+    from graphkin.cli.report.crossing_words import crossing
+
     point, part = crossing(trace.program, number)
     sine = f"{float(trace.margins[number]):.2e}, less than {FAIR:g}"
     return (

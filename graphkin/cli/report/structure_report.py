@@ -2,30 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from graphkin.scene.findings import natural
-from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.model import FRAME, Driver, Scene, joined_words, link_words
 from graphkin.scene.quantity import SI
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
-from graphkin.structure.groups import (
-    CoupledTrain,
-    Crank,
-    Driven,
-    Dyad,
-    Geared,
-    Group,
-    Higher,
-    Spun,
-    Tie,
-    Train,
-)
-from graphkin.structure.joints import partner
+from graphkin.structure.groups import Group
 from graphkin.structure.mobility import count
-from graphkin.structure.pairs import Contact, Pair, Pin, Sliding, contacts, pairs, sharers
+from graphkin.structure.pairs import all_pairs, sharers
 from graphkin.text.plain_table import labelled, listed
 
-VERBS = {"turn": "turns", "slide": "slides", "roll": "rolls"}
 MOST_LOOPS = 24
 """Rings of four links that are told."""
 NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight")
@@ -39,8 +25,8 @@ def structure(scene: Scene) -> Iterator[str]:
     bare = scene.bare
     moving = listed(bare.links)
     yield from labelled("links", [f"{len(bare.links)} moving ({moving}), and the frame"])
-    joined = (*pairs(bare), *contacts(bare))
-    yield from labelled("pairs", [f"{len(joined)}:", *map(pair_words, joined)])
+    joined = all_pairs(bare)
+    yield from labelled("pairs", [f"{len(joined)}:", *(pair.words for pair in joined)])
     counted = count(scene)
     yield from labelled("count", [f"{counted.words}, mobility by the count", *count_notes(bare)])
     yield from labelled("loops", loop_lines(scene))
@@ -50,49 +36,26 @@ def structure(scene: Scene) -> Iterator[str]:
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
-    """Each link that the scene does not have, put in to keep a wheel where it rolls."""
-    for name, (wheel, rolling) in scene.keepers.items():
+    """Each link that the scene does not have, put in to keep a wheel in its place."""
+    for name, (wheel, path) in scene.keepers.items():
         link = scene.links[name]
         what = f"{link.points[0]}, a block on the parallel to the track through the centre"
-        if rolling.through is None:
+        if path.through is None:
             what = f"{'-'.join(link.points)}, the line of centres"
-        pair = f"the wheel of {link_words(wheel)} on {link_words(rolling.on)}"
+        pair = f"the wheel of {link_words(wheel)} on {link_words(path.on)}"
         yield f"link {name}: {what}; it keeps {pair} and takes nothing from the motion"
 
 
 # --- pairs and the count -------------------------------------------------------------------------
 
 
-def pair_words(pair: Pair | Contact) -> str:
-    """A pair with the links that it joins."""
-    if isinstance(pair, Pin):
-        return f"pin {pair.point} of {joined_words(pair.links)}"
-    if isinstance(pair, Contact):
-        return contact_words(pair)
-    return f"slide of block {pair.block} on {link_words(pair.links[1])}"
-
-
-def contact_words(contact: Contact) -> str:
-    """A rolling pair, with the freedoms that it takes where an arm spares it one."""
-    link, on = contact.links
-    track = "a track" if contact.track is None else f"wheel {contact.track.centre}"
-    words = f"wheel {contact.wheel.centre} of {link_words(link)} on {track} of {link_words(on)}"
-    if contact.rolling.belt is not None:
-        kind = "crossed" if contact.rolling.belt.crossed else "open"
-        words = f"{kind} belt to wheel {contact.wheel.centre} of link {link}"
-        words += f" from {track} of {link_words(on)}"
-    if contact.arm is None:
-        return words
-    return f"{words}, at a distance that {link_words(contact.arm)} keeps"
-
-
 def count_notes(scene: Scene) -> Iterator[str]:
-    """What is easily counted wrong: pins of several links, contacts of one freedom, springs."""
+    """What is easily counted wrong: pins of several links, pairs that take one freedom, springs."""
     for point, links in sharers(scene).items():
         if len(links) > 2:
             many = number_word(len(links) - 1)
             yield f"pin {point} of {joined_words(links)} counts as {many} pairs"
-    singles = [contact for contact in contacts(scene) if contact.taken == 1]
+    singles = [pair for pair in all_pairs(scene) if pair.taken == 1]
     if singles:
         one = "the wheel" if len(singles) == 1 else "each wheel"
         yield f"{one} whose distance is kept takes one freedom, every other pair two"
@@ -101,18 +64,6 @@ def count_notes(scene: Scene) -> Iterator[str]:
 def number_word(number: int) -> str:
     """A small number as a word."""
     return NUMBERS[number] if 0 <= number < len(NUMBERS) else str(number)
-
-
-def link_words(name: str) -> str:
-    """A link by its name, link 0 as the frame."""
-    return "the frame" if name == FRAME else f"link {name}"
-
-
-def joined_words(names: Sequence[str]) -> str:
-    """Several links by their names, the frame apart."""
-    if FRAME in names:
-        return listed(map(link_words, names))
-    return f"links {listed(names)}"
 
 
 # --- closed loops --------------------------------------------------------------------------------
@@ -216,64 +167,9 @@ def driver_words(scene: Scene, driver: Driver) -> str:
     ]
     at = f"at {found[0]}, speed {found[1]}"
     at += "" if driver.acceleration.is_zero() else f", acceleration {found[2]}"
-    return f"link {driver.link} {VERBS[driver.kind]} against {link_words(driver.against)}: {at}"
+    return f"link {driver.link} {driver.kind}s against {link_words(driver.against)}: {at}"
 
 
 def group_lines(groups: tuple[Group, ...]) -> list[str]:
     """The groups in the order of construction."""
-    return [f"{i}. {group_words(group)}" for i, group in enumerate(groups, 1)]
-
-
-def group_words(group: Group) -> str:
-    """A group by its kind, class and order, its links and what it hangs on."""
-    match group:
-        case Crank(link, driver, pivot):
-            other = driver.against if driver.link == link else driver.link
-            against = "" if other == FRAME else f" against link {other}"
-            return f"crank {link} about {pivot}{against} (class I)"
-        case Driven(link, _, pair):
-            return f"link {link} driven (class I): {pair_words(pair)}"
-        case Dyad(links, left, inner, right):
-            outer = listed(map(pair_name, (left, right)))
-            of = f"{group.title} (class II, order 2) of links {listed(links)}"
-            return f"{of}, inner {pair_name(inner)}, outer {outer}"
-        case Geared(link, pair, contact):
-            other = link_words(partner(contact, link))
-            return f"link {link} on {pair_name(pair)}, moved by its contact with {other}"
-        case Spun(link, _, holder, pivot, _, contact):
-            other = link_words(partner(contact, link))
-            follows = f"link {holder} on {pair_name(pivot)} follows"
-            return f"link {link} driven (class I): it rolls on {other}; {follows}"
-        case Train(arm, wheel, pivot, _, rolled):
-            others = listed(link_words(partner(contact, wheel)) for contact in rolled)
-            return f"arm {arm} on {pair_name(pivot)} with wheel {wheel}, which rolls on {others}"
-        case Tie(link, first, second):
-            held = listed(map(pair_name, (first, second)))
-            if isinstance(first, Sliding):
-                return f"link {link} led by {held}: both tell how it is turned, so that one is idle"
-            return f"link {link} between {held}, which stand already: it must be idle"
-        case CoupledTrain(trial, _, last):
-            names = listed(sorted(group.links, key=natural))
-            start = f"tried at link {trial.link} on {pair_name(trial.pair)}"
-            return f"{group.title} (links {names}): {start}, closed by the {pair_name(last)}"
-        case Higher():
-            return higher_words(group)
-    return f"{group.title}: {joined_words(group.links)}"
-
-
-def higher_words(group: Higher) -> str:
-    """A group of class III or more: its links, and how it is closed."""
-    links = listed(sorted(group.links, key=natural))
-    start = f"tried at link {group.trial.link} on {pair_name(group.trial.pair)}"
-    last = group.last
-    end = f"link {last.link}" if isinstance(last, Tie) else f"the driver of link {last.link}"
-    return f"{group.title} (links {links}): {start}, closed by {end}"
-
-
-def pair_name(pair: Pair | Contact) -> str:
-    """A pair in short: pin B, slide of 5 on the frame, contact of links 1 and 2."""
-    if isinstance(pair, Pin):
-        return f"pin {pair.point}"
-    if isinstance(pair, Contact):
-        return f"contact of {joined_words(pair.links)}"
-    return pair_words(pair)
+    return [f"{i}. {group.words}" for i, group in enumerate(groups, 1)]

@@ -1,11 +1,10 @@
-"""The acceleration plan: normal components by the right triangle, perpendiculars, crossings."""
+"""The acceleration plan: what is known laid off, perpendiculars and parallels, their crossings."""
 
 from __future__ import annotations
 
-from graphkin.construction.acceleration.tangential_direction import (
-    known_and_free,
-    tangential_direction,
-)
+from msgspec import Struct
+
+from graphkin.construction.acceleration.tangential_direction import RoundPivot, known_and_free
 from graphkin.construction.acceleration.turned_acceleration import accelerated, turned_image
 from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
@@ -13,17 +12,11 @@ from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
-from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
-from graphkin.construction.normal_component.klein import crank_of, klein_component
-from graphkin.construction.normal_component.normal_component import (
-    lay_off_normal,
-    normal_component,
-)
 from graphkin.construction.velocity.crossed_image import crossed_image
 from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.parallel_through import parallel_through
@@ -68,6 +61,8 @@ def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
 
 def slide_on(pen: Pen, shapes: LinkShapes, pair: Leading, link: str, rate: int) -> None:
     """Second image of the point of a link that is led along its line at a rate."""
+    from graphkin.construction.drivers.driven_slide import slide_image
+
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
     line = led_by(pair).direction(pen, shapes)
@@ -97,45 +92,63 @@ def cross(
     pen: Pen, shapes: LinkShapes, name: str, point: str, sides: list[tuple[Joint, str]]
 ) -> None:
     """The second image of a point from the lines on which two pairs leave it free."""
-    crank = crank_of(pen, sides)
-    normals = {
-        pair.point: klein_component(pen, shapes, crank, sides, name)
-        if crank
-        else normal_component(pen, pair.point, name)
-        for pair, _ in sides
-        if isinstance(pair, Pin)
-    }
-    slides = {
-        pair.links: turning_component(pen, pair, link, name, point)
+    bound = [
+        RoundPivot(pair.point, name) if isinstance(pair, Pin) else Led(pair, link, name, point)
         for pair, link in sides
-        if not isinstance(pair, Pin)
-    }
+    ]
+    vectors = [each.component_in_dyad(pen, shapes, sides) for each in bound]
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         lines: list[int] = []
         corners: list[int] = []
-        for pair, link in sides:
-            if isinstance(pair, Pin):
-                corner = lay_off_normal(pen, pair.point, name, normals[pair.point])
-                lines.append(tangential_direction(pen, pair.point, name, corner))
-            else:
-                corner = lay_off_component(pen, pair, link, name, point, slides[pair.links])
-                line = led_by(pair).direction(pen, shapes)
-                lines.append(parallel_through(pen, corner, line, pair.links[0]))
-            corners.append(corner)
+        for each, vector in zip(bound, vectors, strict=True):
+            corners.append(each.end(pen, vector))
+            lines.append(each.line(pen, shapes, corners[-1]))
         found = crossed_image(pen, *lines, name=second_image(name), of=name)
-        for (pair, link), corner in zip(sides, corners, strict=True):
-            if isinstance(pair, Pin):
-                component_arrow(pen, corner, found, "τ", name, pair.point)
-            elif "@" in name:
-                slide_arrow(pen, found, corner, link, point)
-            else:
-                slide_arrow(pen, corner, found, partner(pair, link), point)
+        for each, corner in zip(bound, corners, strict=True):
+            each.arrow(pen, corner, found)
     pen.want("acceleration", name, found)
     if "@" not in name:
         acceleration_arrow(pen, name)
-    for pair, _ in sides:
-        if not isinstance(pair, Pin):
-            led_by(pair).second_touch(pen)
+    for each in bound:
+        each.touch(pen)
+
+
+class Led(Struct, frozen=True):
+    """What a pair says of the acceleration of the point ``name`` that it leads against ``link``.
+
+    It lies at ``point``, which is another where that of a guide's link under a block's is sought.
+    """
+
+    pair: Leading
+    link: str
+    name: str
+    point: str
+
+    def component_in_dyad(
+        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]]
+    ) -> int | None:
+        """The component that its guide's turning gives it; None where that does not turn."""
+        return turning_component(pen, self.pair, self.link, self.name, self.point)
+
+    def end(self, pen: Pen, vector: int | None) -> int:
+        """Where the known part ends in the plan."""
+        return lay_off_component(pen, self.pair, self.link, self.name, self.point, vector)
+
+    def line(self, pen: Pen, shapes: LinkShapes, corner: int) -> int:
+        """The line of the rest, parallel to the guide."""
+        along = led_by(self.pair).direction(pen, shapes)
+        return parallel_through(pen, corner, along, self.pair.links[0])
+
+    def arrow(self, pen: Pen, corner: int, found: int) -> None:
+        """The arrow of the rest."""
+        if "@" in self.name:
+            slide_arrow(pen, found, corner, self.link, self.point)
+        else:
+            slide_arrow(pen, corner, found, partner(self.pair, self.link), self.point)
+
+    def touch(self, pen: Pen) -> None:
+        """The second image of the point where it touches."""
+        led_by(self.pair).second_touch(pen)
 
 
 def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:

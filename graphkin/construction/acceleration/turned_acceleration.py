@@ -15,8 +15,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at
-from graphkin.construction.core.vocabulary import action, difference, sum_of
-from graphkin.construction.rolling.wheel_actions import speed_rolled
+from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
 from graphkin.construction.velocity.laid_off_by_rate import (
     LaidOffAboutPivot,
     by_bar,
@@ -30,7 +29,7 @@ from graphkin.numbers.arithmetic import Point, Real
 
 @action("centripetal")
 def centripetal(start: Point, pivot: Point, pin: Point, omega: Real) -> Point:
-    """End of the normal component of a driven bar: omega squared times the bar, pin to pivot."""
+    """End of the centripetal component of a driven bar: omega squared times the bar."""
     return start + omega * omega * (pivot - pin)
 
 
@@ -43,7 +42,7 @@ def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> 
 class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     """ω²·l and ε·l laid off in the acceleration plan from the second image ``start`` of a pivot.
 
-    The normal component ends in ``end``, the tangential one from there in the pin's ``image``;
+    The centripetal component ends in ``end``, the tangential one from there in the pin's ``image``;
     where the ``link`` of both turns steadily there is none, and ``end`` is the pin's image.
     """
 
@@ -73,13 +72,13 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     # --- saying it -------------------------------------------------------------------------------
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The normal component before the tangential one."""
+        """The centripetal component before the tangential one."""
         if role == "image":
             return (self.end,)
         return (self.start,) if self.is_steady else ()
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
-        """Ends, bar, rate and drawn length of the normal or the tangential component."""
+        """Ends, bar, rate and drawn length of one of the two components."""
         steps = drawing.trace.program.steps
         names = {**self.symbols(), "s": symbol(steps[self.start].name)}
         if role == "end":
@@ -103,7 +102,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         }
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The normal component by number, before the tangential one."""
+        """The centripetal component by number, before the tangential one."""
         if role == "image" or self.is_steady:
             return ""
         key = "none" if has_no_length(drawing, self.end) else "computed"
@@ -190,11 +189,11 @@ def turned_image(
         component_arrow(pen, end, image, "τ", pin, pivot)
     pen.make(
         TurnedAcceleration(
-            p=pivot,
+            p=letter(pivot),
             q=letter(pin),
             index=about(pen, pin, pivot),
             whole=owned(pin),
-            base=pivot,
+            base=owned(pivot),
             link=link,
             start=start,
             omega=omega,
@@ -217,5 +216,5 @@ def accelerated(pen: Pen, rate: int) -> bool:
     if step.given is not None:
         given = {drive.acceleration for drive in pen.drives.values()}
         return rate in given and not pen.is_nought(rate)
-    passed_on = step.action in (sum_of, difference, speed_rolled)
+    passed_on = step.action in (sum_of, difference, speed_at_rim)
     return passed_on and any(accelerated(pen, arg) for arg in step.args)

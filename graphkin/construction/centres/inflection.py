@@ -217,7 +217,7 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
 def draw_circle(pen: Pen, base: Base) -> None:
     """The inflection pole W of a link that is asked, and the circle on I and W."""
     points = two_points(pen, base)
-    if base.link not in pen.scene.ask.inflection or points is None:
+    if points is None:
         return
     place, image, second = (
         pen.the(what, base.start) for what in ("position", "velocity", "acceleration")

@@ -42,14 +42,13 @@ MANY = 40
 """Links beyond which no way over other links is looked for: a sheet could not hold it."""
 
 
-def relative(pen: Pen) -> None:
+def draw_relative(pen: Pen) -> None:
     """The relative centres that are asked, with those over which a hand finds them."""
-    if pen.scene.ask.pairs:
-        finder = Finder(pen)
-        for pair in pen.scene.ask.pairs:
-            first, second = pair.split("-")
-            if finder.moves(first) and finder.moves(second):
-                pen.want("centre", pair, finder.centre((first, second)))
+    finder = Finder(pen)
+    for pair in pen.scene.ask.pairs:
+        first, second = pair.split("-")
+        if finder.moves(first) and finder.moves(second):
+            pen.want("centre", pair, finder.centre((first, second)))
 
 
 class Finder:
@@ -101,10 +100,7 @@ class Finder:
 
         Wheels that an open belt turns alike have none.
         """
-        scene = self.pen.scene
-        every = ((link.name, each) for link in scene.every_link for each in link.rolls)
-        pairs = ((name, each.on) for name, each in every if not scene.turn_alike(name, each))
-        return frozenset(ordered(self.links, *pair) for pair in pairs)
+        return frozenset(ordered(self.links, *pair) for pair in self.pen.scene.in_touch)
 
     @cached_property
     def ways(self) -> dict[Pair, tuple[str, str] | None]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.program import PlanAside
 
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 class AuxiliaryPlan(PlanAside):
     """A plan that is drawn only to find the right one."""
 
+    reason: ClassVar[str] = ""
+    """The key of why it is drawn; of one that repeats another, with ``_again``."""
+
     @property
     def repeats(self) -> bool:
         """Whether it repeats the lines of another one, and follows no equation of its own."""
@@ -24,6 +27,18 @@ class AuxiliaryPlan(PlanAside):
     def turned_by(self, rate: int) -> str:
         """The link whose rate it assumes at a step; nothing where it assumes none there."""
         return ""
+
+    def is_idle(self, drawing: Drawing, number: int) -> bool:
+        """Whether a line finds only points which fall on where it begins."""
+        return False
+
+    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, int, str]]:
+        """Its points line by line: the step of the point, that which ends a part, and its words."""
+        yield from ()
+
+    def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
+        """A part of it after what it is; in the ``first`` one, after what it assumes too."""
+        return how
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
         """The point on which one of its own falls with all that it is drawn from; else nothing."""

@@ -216,6 +216,8 @@ class Component(Construction, frozen=True, kw_only=True):
 class TriangleComponent(Component, frozen=True, kw_only=True):
     """A component that a triangle on the mechanism gives by hand."""
 
+    drawn_in: ClassVar[str] = "right triangle"
+
     @abstractmethod
     def sides(self, canvas: Canvas | Measured) -> Iterator[Any]:
         """The sides of its triangle that must be long enough to be drawn."""

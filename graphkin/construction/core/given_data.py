@@ -11,6 +11,7 @@ from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
 from graphkin.construction.core.line_words import axis_of
+from graphkin.construction.core.naming import angle_symbol, driver_index
 from graphkin.construction.core.parameter_words import (
     after_parameter,
     is_derived,
@@ -22,7 +23,6 @@ from graphkin.construction.core.relation import figure
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.model import (
-    FRAME,
     Angled,
     At,
     Cam,
@@ -215,12 +215,6 @@ def of_driver(
             )
 
 
-def driver_index(driver: Driver) -> str:
-    """Markup of a driver's index: its link, and the one it moves against where that moves."""
-    index = escape(driver.link)
-    return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
-
-
 def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -> tuple[str, str]:
     """A driver's speed or acceleration; of a crank the magnitude, and its sense in words."""
     value = float(quantity.si(scene.values))
@@ -230,13 +224,6 @@ def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -
         return after_parameter(scene, words, quantity), words("page.turning_anticlockwise")
     size = written(scene, words, quantity).removeprefix(MINUS)
     return size, words("page.turning_clockwise")
-
-
-def angle_symbol(scene: Scene, driver: Driver) -> str:
-    """Symbol of a driver's position, with its link's name where several drive or one moves."""
-    many = len(scene.drivers) > 1 or driver.against != FRAME
-    index = f"_{{{driver_index(driver)}}}" if many else ""
-    return ("*φ*" if driver.kind == "turn" else "*s*") + index
 
 
 def lengths(scene: Scene, words: Words) -> Iterator[Datum]:

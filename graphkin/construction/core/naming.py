@@ -12,7 +12,7 @@ from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.model import FRAME, Driver
+from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.text import Words
 
 NAUGHT = 1e-6
@@ -35,7 +35,7 @@ def way_of(drawing: Drawing, name: str) -> str:
     if name in scene.keepers:
         name = scene.keepers[name][0]
     if name == FRAME:
-        on = next(rolling.on for rolling in scene.frame.rolls)
+        on = next(track for name, track in scene.touching if name == FRAME)
         return drawing.words("page.track_of_bar", g=escape(on))
     link = scene.links.get(name)
     key = "page.guide_of" if link is None or link.slides else "page.track_of"
@@ -130,3 +130,16 @@ def sense(words: Words, value: Any) -> str:
     if value == 0:
         return ""
     return words("page.anticlockwise" if value > 0 else "page.clockwise")
+
+
+def driver_index(driver: Driver) -> str:
+    """Markup of a driver's index: its link, and the one it moves against where that moves."""
+    index = escape(driver.link)
+    return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
+
+
+def angle_symbol(scene: Scene, driver: Driver) -> str:
+    """Symbol of a driver's position, with its link's name where several drive or one moves."""
+    many = len(scene.drivers) > 1 or driver.against != FRAME
+    index = f"_{{{driver_index(driver)}}}" if many else ""
+    return ("*φ*" if driver.kind == "turn" else "*s*") + index

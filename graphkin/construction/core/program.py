@@ -138,6 +138,8 @@ class Step(Struct, frozen=True):
 
 PLACES = ("axis", "guide", "track", "rolled")
 """Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
+SPEEDS = "speeds"
+"""The target of a link's point on the line of speeds."""
 
 
 def is_in_scene(point: str) -> bool:

@@ -89,6 +89,18 @@ def similar_point(base: Point, end: Point, ratio: Point) -> Point:
     return base + (end - base) * ratio
 
 
+@action("set-way")
+def set_way(point: Point, tail: Point, tip: Point, seconds: Real) -> Point:
+    """A velocity of the plan set at a point of the mechanism, as its way in so many ``seconds``."""
+    return point + (tip - tail) * seconds
+
+
+@action("perpendicular-at")
+def perpendicular_at(corner: Point, other: Point) -> Line:
+    """At a point the perpendicular to the line that joins it with another."""
+    return Line(corner, 1j * (corner - other))
+
+
 # --- the plans -----------------------------------------------------------------------------------
 
 
@@ -120,6 +132,12 @@ def sum_of(a: Real, b: Real) -> Real:
 def difference(a: Real, b: Real) -> Real:
     """The rate of the link against which another turns at a given rate."""
     return a - b
+
+
+@action("speed-at-rim")
+def speed_at_rim(rate: Real, radius: Real) -> Real:
+    """The speed of a wheel's centre along the line that its rim keeps to, as it turns at a rate."""
+    return -rate * radius
 
 
 @action("lay-off")

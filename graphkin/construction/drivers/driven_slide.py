@@ -1,4 +1,4 @@
-"""What a driver, a trial or the turning of a wheel gives along a guide, laid off in a plan."""
+"""What a driver, what is tried or a wheel's turning gives along a guide, laid off in a plan."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import driver_index
-from graphkin.construction.core.naming import driver_of_rate, has_no_length, vector_of
+from graphkin.construction.core.naming import driver_index, driver_of_rate, has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
@@ -99,7 +98,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide; in a trial the motion along it."""
+        """What is given along the guide; where it is tried the motion along it."""
         if self.image in drawing.auxiliary:
             yield self.motion_of(drawing, self.point)
             return

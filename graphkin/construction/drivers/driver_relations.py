@@ -7,9 +7,14 @@ from collections.abc import Iterator
 
 from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import angle_symbol, driver_index
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.naming import driver_of_rate, length_scale, sense
+from graphkin.construction.core.naming import (
+    angle_symbol,
+    driver_index,
+    driver_of_rate,
+    length_scale,
+    sense,
+)
 from graphkin.construction.core.parameter_words import is_derived, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (

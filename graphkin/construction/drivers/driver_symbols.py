@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.given_data import angle_symbol, driver_index
+from graphkin.construction.core.naming import angle_symbol, driver_index
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import seat
 from graphkin.construction.guides.slide_symbols import within

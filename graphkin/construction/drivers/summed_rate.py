@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.naming import rate_symbol, sense
+from graphkin.construction.core.naming import driver_index, rate_symbol, sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import FINE, Relation, figure, within
 from graphkin.construction.core.vocabulary import difference, sum_of

@@ -7,7 +7,6 @@ from msgspec import Struct
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import axis, known_guide, local_line, path_of
-from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.scene.model import Driver
 from graphkin.structure.joints import partner
@@ -37,6 +36,8 @@ class LedBlock(Struct, frozen=True):
 
     def set_at(self, pen: Pen, shapes: LinkShapes, link: str, where: int) -> None:
         """The link with its led point at a coordinate of the guide; it turns with the guide."""
+        from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
+
         pair, point = self.pair, pen.bases[link].start
         sides = link, partner(pair, link)
         pen.leads[link] = sides[1]

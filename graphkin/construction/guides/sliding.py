@@ -6,11 +6,9 @@ That is the acceleration of the point under it, and where the guide turns the co
 from __future__ import annotations
 
 from graphkin.construction.core.arrows import slide_arrow
-from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import part_along
-from graphkin.construction.coriolis import CoriolisComponent, coriolis_of, end_of
 from graphkin.construction.guides.coincident_points import image_under, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -25,11 +23,13 @@ def turning_component(pen: Pen, pair: Joint, link: str, name: str, point: str) -
     velocity counts, else that of the point against what it slides on.
     """
     known = partner(pair, link)
+    if "@" not in name and not pen.turns(known):
+        return None
+    from graphkin.construction.coriolis import coriolis_of
+
     if "@" in name:
         tail, tip = pen.the("velocity", name), pen.the("velocity", point)
         return coriolis_of(pen, link, tail, tip, point, pair.links[0])
-    if not pen.turns(known):
-        return None
     tail, tip = image_under(pen, known, point), pen.the("velocity", point)
     return coriolis_of(pen, known, tail, tip, point, pair.links[0])
 
@@ -41,11 +41,13 @@ def lay_off_component(
 
     Where that is the one that is sought, it is laid off backwards from the sliding one.
     """
+    if vector is None:
+        return second_image_under(pen, partner(pair, link), point)
+    from graphkin.construction.coriolis import end_of
+
     if "@" in name:
-        assert vector is not None
         return end_of(pen, pen.the("acceleration", point), vector, back=True)
-    start = second_image_under(pen, partner(pair, link), point)
-    return start if vector is None else end_of(pen, start, vector)
+    return end_of(pen, second_image_under(pen, partner(pair, link), point), vector)
 
 
 def known_end(pen: Pen, pair: Joint, link: str, point: str) -> int:
@@ -61,17 +63,11 @@ def end_on_driven(
 
     The ``images`` of the velocity plan are those of that point and of the link's own point there.
     """
+    from graphkin.construction.coriolis import coriolis_of, end_of
+
     vector = coriolis_of(pen, link, *images, point, block, index=index)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         return end_of(pen, pen.the("acceleration", point), vector)
-
-
-def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
-    """The component of what slides that a step lays off; None for other steps."""
-    laid = step.of
-    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
-        return None
-    return laid, laid.component
 
 
 def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
@@ -81,9 +77,8 @@ def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
     start = second_image_under(pen, pair.links[1], first)
     guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
     if pen.turns(pair.links[1]):
-        tail = image_under(pen, pair.links[1], first)
-        tip = pen.the("velocity", first)
-        vector = coriolis_of(pen, pair.links[1], tail, tip, first, block)
+        vector = turning_component(pen, pair, block, first, first)
+        assert vector is not None
         pen.want("coriolis", block, vector)
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             start = lay_off_component(pen, pair, block, first, first, vector)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.given_data import angle_symbol
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
-from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.naming import angle_symbol, way_of
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.model import Driver

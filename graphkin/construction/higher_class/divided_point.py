@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.acceleration.tangential_direction import tangential_direction
+from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -18,10 +18,6 @@ from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.normal_component.normal_component import (
-    lay_off_normal,
-    normal_component,
-)
 from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.perpendicular_through import perpendicular_through
 from graphkin.drawing.symbol_markup import TAGS, symbol
@@ -70,6 +66,10 @@ class Divided(Construction, frozen=True, kw_only=True):
 
 class DividedRate(Divided, frozen=True, kw_only=True):
     """The rate of the tried link itself."""
+
+    def rate_reason(self, drawing: Drawing) -> str:
+        """It is divided as every line of the two trials is."""
+        return "why.trials"
 
     def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
         """It is divided as every line of the two trials is."""
@@ -227,9 +227,10 @@ def locus_of(
     if quantity == "velocity":
         with pen.on(*IN_PLAN[quantity]), pen.hands_way():
             return perpendicular_through(pen, other, of)
-    vector = normal_component(pen, other, of)
+    bar = RoundPivot(other, of)
+    vector = bar.component(pen)
     with pen.on(*IN_PLAN[quantity]), pen.hands_way():
-        return tangential_direction(pen, other, of, lay_off_normal(pen, other, of, vector))
+        return bar.line(pen, shapes, bar.end(pen, vector))
 
 
 def along_guide(

@@ -91,7 +91,7 @@ class Misclosure(Construction, frozen=True, kw_only=True):
 
 
 class BarMisclosure(Misclosure, frozen=True, kw_only=True):
-    """The gap along a bar between the images of its ends, ``wanted`` its normal component."""
+    """The gap along a bar between the images of its ends, ``wanted`` what is known along it."""
 
     p: int
     q: int
@@ -104,7 +104,7 @@ class BarMisclosure(Misclosure, frozen=True, kw_only=True):
         return symbol(drawing.trace.program.steps[self.tip].name)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """Perpendicular to the bar, from the end of a normal component."""
+        """Perpendicular to the bar, from the end of the component that is known."""
         steps = drawing.trace.program.steps
         p, q = steps[self.p].name, steps[self.q].name
         fields = {"bar": bar(p, q), "s": symbol(steps[self.foot].name), "p": symbol(p)}

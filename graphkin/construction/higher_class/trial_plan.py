@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from msgspec import Struct
 
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
+
+    reason: ClassVar[str] = "why.trial"
 
     tag: str
     link: str
@@ -233,7 +235,7 @@ def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
 
 
 def turned_again(drawing: Drawing, number: int) -> str:
-    """How a point of the second plan is found whose normal component is that of the first.
+    """How a point of the second plan is found whose centripetal component is that of the first.
 
     Nothing of any other point.
     """

@@ -12,13 +12,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.acceleration import acceleration as accelerations
+from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.bases import bases, contact_name, ending, under
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import driver_index
 from graphkin.construction.core.kind import Construction, construction, constructions
-from graphkin.construction.core.naming import drawn_between, scale_of, way_of
+from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.quantities import EPSILON, OMEGA
@@ -50,7 +50,6 @@ from graphkin.construction.higher_class.misclosure import (
 from graphkin.construction.higher_class.trial_arrows import components, relative_arrows
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.normal_component.normal_component import normal_component
 from graphkin.construction.rolling import pinned_wheels
 from graphkin.construction.velocity import velocity as velocities
 from graphkin.drawing.symbol_markup import TAGS as MARKED
@@ -436,7 +435,7 @@ def missed(
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
             wanted = pen.given("origin")
             if kind is ACCELERATION:
-                wanted = normal_component(pen, p, q)
+                wanted = RoundPivot(p, q).component(pen)
             with pen.on(kind.part, Plane.NUMBERS):
                 size = pen.draw(lacks, *ends, wanted)
             roles = dict(zip(("p", "q", "foot", "tip"), ends, strict=True))

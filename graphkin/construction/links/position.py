@@ -9,7 +9,6 @@ from graphkin.construction.guides.dyad_by_arc_and_guide import cut_line
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guide_line import cross_guides
 from graphkin.construction.guides.guides import axis, direction_on, path_of, turned_with
-from graphkin.construction.guides.swung_guide import swing_guide
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import meet_arcs
 from graphkin.construction.links.leading import led_by
@@ -73,6 +72,8 @@ def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
         case Pin(), Pin(), _:
             dyad_on(pen, shapes, group, first_arc(pen, shapes, group))
         case Pin(), Sliding(), Pin():
+            from graphkin.construction.guides.swung_guide import swing_guide
+
             swing_guide(pen, shapes, group)
         case _, Pin(point=pin), _:
             two_guides(pen, shapes, pin, (group.left, group.right), group.links)

@@ -44,9 +44,6 @@ from graphkin.text.errors import Problem, StructureError
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
-METHOD = "klein"
-"""What a scene writes as [sheet] method."""
-
 # --- its value, and the steps of the hand's way --------------------------------------------------
 
 
@@ -234,7 +231,7 @@ def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
     """
     pins = [pair.point for pair, _ in sides if isinstance(pair, Pin)]
     on = [pair.links[1] for pair, _ in sides if isinstance(pair, Sliding)]
-    if pen.scene.sheet.method != METHOD or len(pins) != 1 or on != [FRAME]:
+    if len(pins) != 1 or on != [FRAME]:
         return None
     for driver in pen.scene.drivers:
         steady = driver.kind == "turn" and driver.acceleration.number(pen.scene.values) == 0
@@ -276,10 +273,20 @@ def klein_component(
     return normal_component(pen, pivot, pin, kind, drawn)
 
 
+def component_in_dyad(
+    pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]], pivot: str, pin: str
+) -> int:
+    """The normal component of a pin about one of its dyad's pivots, as the scene wants it drawn."""
+    crank = crank_of(pen, sides)
+    if crank is None:
+        return normal_component(pen, pivot, pin)
+    return klein_component(pen, shapes, crank, sides, pin)
+
+
 def refuse_unused(pen: Pen) -> None:
-    """Raise StructureError where a scene wants Klein's construction and has no place for it."""
+    """Raise StructureError where a scene that wants Klein's construction has no place for it."""
     used = any(isinstance(step.of, KleinComponent) for step in pen.steps)
-    if pen.scene.sheet.method == METHOD and not used:
+    if not used:
         problem = Problem(
             "sheet.method",
             "no slider-crank for Klein's construction",

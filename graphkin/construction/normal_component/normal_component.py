@@ -8,7 +8,6 @@ what the perpendicular cuts off (lab, figure 4).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from string import digits
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
@@ -35,9 +34,11 @@ from graphkin.construction.core.vocabulary import (
     action,
     lay_off,
     meet,
+    perpendicular_at,
+    set_way,
 )
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Scene
 
@@ -57,18 +58,6 @@ def normal(pivot: Point, pin: Point, image_pivot: Point, image_pin: Point) -> Po
     length = abs(bar)
     speed = abs(image_pin - image_pivot)
     return bar * (speed * (speed / length) / length)
-
-
-@action("set-velocity")
-def set_velocity(pin: Point, image_pivot: Point, image_pin: Point, seconds: Real) -> Point:
-    """The relative velocity set at the pin of the bar, as its way in so many ``seconds``."""
-    return pin + (image_pin - image_pivot) * seconds
-
-
-@action("square-at")
-def square_at(corner: Point, pivot: Point) -> Line:
-    """At the tip of the velocity the perpendicular to the line that joins it with the pivot."""
-    return Line(corner, 1j * (corner - pivot))
 
 
 @action("bar-line")
@@ -109,8 +98,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     sign: ClassVar[str] = "ν"
     look: ClassVar[str] = "normal"
     effect: ClassVar[Effect] = Effect.NORMAL
-    drawn_in: ClassVar[str] = "right triangle"
-    limited: ClassVar[str] = drawn_in
+    limited: ClassVar[str] = TriangleComponent.drawn_in
     laid_off_key: ClassVar[str] = ""
     laid_off_reason: ClassVar[str] = "why.normal"
     reasons: ClassVar[Mapping[str, str]] = {"cut": "why.height", "end": "why.over"}
@@ -343,8 +331,8 @@ def right_triangle(
     pivot, pin = places
     own = bare(point)
     with pen.hands_way():
-        tip = pen.draw(set_velocity, pin, *images, seconds, name=f"{own}″_{index}")
-        edge = pen.draw(square_at, tip, pivot)
+        tip = pen.draw(set_way, pin, *images, seconds, name=f"{own}″_{index}")
+        edge = pen.draw(perpendicular_at, tip, pivot)
         line = pen.draw(bar_line, pivot, pin)
         cut = pen.draw(meet, edge, line, name=f"{own}‴_{index}")
         end = pen.draw(turn_over, cut, pin, name=f"{own}⁗_{index}")
@@ -355,7 +343,7 @@ def right_triangle(
 
 def bare(point: str) -> str:
     """The letter of a point without its index: B for B, B2 and B_left."""
-    return point.partition(",")[0].partition("_")[0].rstrip(digits)
+    return point.partition(",")[0].partition("_")[0].rstrip("0123456789")
 
 
 def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:

@@ -18,7 +18,7 @@ from graphkin.construction.core.bases import contact_name, under
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import plan_amount, scale_of
 from graphkin.construction.core.pen import Pen, image
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.sentence import Sentence, together
@@ -38,8 +38,6 @@ if TYPE_CHECKING:
 
 PLAN = "kutzbach"
 """What a scene writes as [sheet] plan."""
-SPEEDS = "speeds"
-"""The target of a link's point on the line of speeds."""
 BESIDE = 0.2
 """Room between the velocity plan and the axis, and between both plans, in parts of the axis."""
 

@@ -10,7 +10,6 @@ from graphkin.construction.guides.coincident_points import carried, omega_of
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.rolling import wheel_images
 from graphkin.construction.rolling.rolling_normal import rolled_image
-from graphkin.construction.rolling.rolling_on_wheel import rolled_on
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.structure.groups import Group, Higher
 from graphkin.structure.joints import partner
@@ -59,7 +58,7 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> Non
     rates, rim = (omega_of(pen, own), omega_of(pen, known)), under(name, own)
     if contact.track is not None:
         hubs = contact.wheel_of(own).centre, contact.wheel_of(known).centre
-        rolled_on(pen, start, rim, (name, *hubs), rates)
+        rolled_image(pen, start, rim, (name, *hubs), rates)
     elif own == contact.links[0]:
         rolled_image(pen, start, rim, (name, contact.wheel.centre), rates)
     else:

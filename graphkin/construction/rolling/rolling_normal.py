@@ -1,9 +1,9 @@
-"""The acceleration of a rolling point of contact against what it rolls on: ω²·r, to the centre."""
+"""The acceleration of a rolling point of contact against what it rolls on: along the radius."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.amounts import in_mm
 from graphkin.construction.core.canvas import Canvas
@@ -32,6 +32,20 @@ def rolling_normal(centre: Point, contact: Point, omega: Real, omega_track: Real
     """The acceleration of a wheel's point of contact against its straight track: to the centre."""
     relative = omega - omega_track
     return (centre - contact) * (relative * relative)
+
+
+@action("rolling-on-wheel")
+def rolling_on_wheel(
+    centre: Point, contact: Point, track: Point, omega: Real, omega_track: Real
+) -> Point:
+    """The acceleration of a wheel's point of contact against that of the wheel it rolls on.
+
+    ``track`` is the centre of the latter. It is that on a straight track, made larger or smaller in
+    the ratio of the distances of that centre from the contact and from the wheel's own: the
+    diameter of the inflection circle takes the place of the radius (Euler, Savary).
+    """
+    relative = omega - omega_track
+    return (centre - contact) * ((track - contact) / (track - centre)) * (relative * relative)
 
 
 class RollingNormal(Component, frozen=True, kw_only=True):
@@ -77,9 +91,17 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             return other
         return f"({own} − {other})" if drawing.trace.values[self.omega_track] else own
 
+    def bars(self) -> tuple[tuple[str, str], ...]:
+        """The bars by whose lengths it is computed."""
+        return ((self.p, self.q),)
+
+    def lengths(self, *lengths: str) -> str:
+        """What the square of its rate is multiplied by, of these bars."""
+        return "·".join(lengths)
+
     def formula(self, drawing: Drawing) -> str:
-        """ω²·r."""
-        return f"{self.rate(drawing)}^2·{bar(self.p, self.q)}"
+        """The square of its rate, times the radius or what takes its place."""
+        return f"{self.rate(drawing)}^2·{self.lengths(*(bar(*each) for each in self.bars()))}"
 
     def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
         """Nothing by itself: the image in which it ends tells of it."""
@@ -119,15 +141,15 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         """Square of the relative turning times the radius, and its drawn length."""
         values, size = drawing.trace.values, drawing.settled(self.size(drawing))
         rate = abs(float(values[self.omega]) - float(values[self.omega_track]))
-        length = figure(drawing, length_of(drawing, self.p, self.q))
+        lengths = self.lengths(*(figure(drawing, length_of(drawing, *bar)) for bar in self.bars()))
         return Relation(
             self.symbol,
             self.formula(drawing),
-            f"{squared(figure(drawing, rate))}·{length}",
+            f"{squared(figure(drawing, rate))}·{lengths}",
             answer(drawing, size),
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.q), q=symbol(self.p)),
-            over=((self.p, self.q),),
+            over=self.bars(),
         )
 
     # --- marking it ------------------------------------------------------------------------------
@@ -136,13 +158,48 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         """ω²·r of own values; none against a track that turns, for own rates have no sense."""
         if any(track.size for track in own.turnings(self.omega_track)):
             return
-        radius = own.length(self.foot, self.head)
+        radius, length = self.measured(own)
         for omega in own.turnings(self.omega):
-            yield Size((omega, omega), omega.size**2 * radius, radius)
+            yield Size((omega, omega), omega.size**2 * length, radius)
+
+    def measured(self, own: OwnSizes) -> tuple[float, float]:
+        """The bar that is measured for it, and the length that its square rate is multiplied by."""
+        radius = own.length(self.foot, self.head)
+        return radius, radius
 
     def power_of(self, args: tuple[int, ...]) -> int:
         """It follows by itself: it is computed from the steps of the rates."""
         return 0
+
+
+class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
+    """a_ν = ω²·r·R/(R ± r) of a point of contact against that of the wheel that it rolls on.
+
+    ``r`` names the centre of the other wheel, which stands at ``hub``.
+    """
+
+    r: str
+    hub: int
+
+    def bars(self) -> tuple[tuple[str, str], ...]:
+        """The bars between the contact and both centres."""
+        return (self.p, self.q), (self.r, self.p), (self.r, self.q)
+
+    def lengths(self, *lengths: str) -> str:
+        """r·R/(R ± r)."""
+        radius, far, apart = lengths
+        return f"{radius}·{far}/{apart}"
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """How it is laid off; why it lies along the line of centres, the first time."""
+        first = self is next(self.alike(drawing))
+        key = "step.lay-off-rolling-on" if first else "step.lay-off-named"
+        return self.told(drawing, key, formula=self.formula(drawing))
+
+    def measured(self, own: OwnSizes) -> tuple[float, float]:
+        """Its radius, and r·R/(R ± r)."""
+        radius = own.length(self.foot, self.head)
+        return radius, radius * own.length(self.hub, self.foot) / own.length(self.hub, self.head)
 
 
 # --- planning it ---------------------------------------------------------------------------------
@@ -152,38 +209,37 @@ def rolled_image(
     pen: Pen,
     start: int,
     rolls: str,
-    ends: tuple[str, str],
+    ends: tuple[str, ...],
     rates: tuple[int, int],
     *,
     on_bar: bool = False,
 ) -> int:
     """The second image of a point that ``rolls``, from that of the point which it touches.
 
-    Its acceleration against it leads from the first of the ``ends`` to the second; ``rates`` are
-    the steps of the turning of its link and of what it rolls on.
+    Its acceleration against it leads from the first of the ``ends`` to the second; a third is the
+    centre of the wheel that it rolls on. ``rates`` are the steps of the turning of its link and of
+    what it rolls on.
     """
-    foot, head = (pen.the("position", end) for end in ends)
-    p, q = map(letter, ends)
+    foot, head, *hub = (pen.the("position", end) for end in ends)
+    p, q, *r = map(letter, ends)
     index = letter(rolls) + (q if letter(rolls) == p else p)
     name = f"a_{index}^ν"
+    law = rolling_on_wheel if hub else rolling_normal
     with pen.on(Part.NORMAL, Plane.NUMBERS):
-        vector = pen.draw(rolling_normal, head, foot, *rates, name=name)
+        vector = pen.draw(law, head, foot, *hub, *rates, name=name)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         image = pen.draw(lay_off, start, vector, name=second_image(rolls))
         pen.vector(join, start, image, of=PlanVector(name, q, p, "ν"))
-    pen.make(
-        RollingNormal(
-            index=index,
-            p=p,
-            q=q,
-            head=head,
-            foot=foot,
-            omega=rates[0],
-            omega_track=rates[1],
-            vector=vector,
-            start=start,
-            image=image,
-            on_bar=on_bar,
-        )
-    )
+    omega, omega_track = rates
+    own: dict[str, Any] = {
+        "index": index,
+        "p": p,
+        "q": q,
+        "head": head,
+        "foot": foot,
+        "on_bar": on_bar,
+    }
+    own |= {"omega": omega, "omega_track": omega_track, "vector": vector}
+    own |= {"start": start, "image": image}
+    pen.make(RollingOnWheel(r=r[0], hub=hub[0], **own) if hub else RollingNormal(**own))
     return pen.want("acceleration", rolls, image)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from graphkin.construction.core.arrows import velocity_arrows
 from graphkin.construction.core.bases import contact_name, under
-from graphkin.construction.core.pen import Pen, against, image, letter
+from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import sum_of
@@ -18,11 +18,10 @@ from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.rolling import rolling, wheel_images
-from graphkin.construction.rolling.rolling_on_wheel import rolled_on
+from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.rolling.wheel_actions import arm_rolled, axis_turned
 from graphkin.construction.velocity import velocity as velocities
-from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.structure.groups import Geared, Spun
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin
@@ -92,21 +91,8 @@ def move(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
 def move_centre(pen: Pen, link: str, contact: Contact, centre: str) -> None:
     """The image of a wheel's centre from that of its point of contact."""
     name = contact_name(contact)
-    rim = under(name, link)
     start = wheel_images.touched(pen, contact, link, partner(contact, link))
-    places = pen.the("position", name), pen.the("position", centre)
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        found = turned_image(
-            pen,
-            link,
-            (letter(name), centre),
-            start,
-            places,
-            name=image(centre),
-            omega=omega_of(pen, link),
-            index=against(pen, centre, rim),
-        )
-    pen.want("velocity", centre, found)
+    pen.want("velocity", centre, wheel_images.turned_from_rim(pen, link, name, centre, start))
     velocity_arrows(pen, centre, None)
 
 
@@ -128,5 +114,5 @@ def accelerate_centre(pen: Pen, link: str, contact: Contact, centre: str) -> Non
     rates = omega_of(pen, link), omega_of(pen, other)
     rim = under(name, link)
     track = contact.wheel_of(other).centre
-    corner = rolled_on(pen, start, rim, (name, centre, track), rates)
-    wheel_images.turn_from_rim(pen, link, rim, centre, corner)
+    rolled_image(pen, start, rim, (name, centre, track), rates)
+    wheel_images.turn_from_rim(pen, link, rim, centre)

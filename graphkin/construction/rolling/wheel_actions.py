@@ -84,9 +84,3 @@ def arm_rolled(
 def axis_turned(turn: Real) -> Point:
     """Axis of a link at an angle in radians."""
     return turn_by(turn)
-
-
-@action("speed-rolled")
-def speed_rolled(rate: Real, radius: Real) -> Real:
-    """The speed at which a wheel's centre moves along its track when it turns at a rate."""
-    return -rate * radius

@@ -6,10 +6,7 @@ from collections.abc import Sequence
 
 from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.acceleration.turned_acceleration import (
-    TurnedAcceleration,
-    centripetal,
-    driven_tangential,
-    tangential_effect,
+    turned_image as accelerated_image,
 )
 from graphkin.construction.core.arrows import (
     acceleration_arrow,
@@ -18,19 +15,17 @@ from graphkin.construction.core.arrows import (
     velocity_arrows,
 )
 from graphkin.construction.core.bases import contact_name, under
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import (
     Pen,
     about,
     against,
     image,
     letter,
-    owned,
     second_image,
 )
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
-from graphkin.construction.core.vocabulary import in_proportion
+from graphkin.construction.core.vocabulary import in_proportion, speed_at_rim
 from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -38,7 +33,6 @@ from graphkin.construction.rolling.common_normal import common_normal
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
-from graphkin.construction.rolling.wheel_actions import speed_rolled
 from graphkin.construction.velocity.crossed_image import crossed_image
 from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.parallel_through import parallel_through
@@ -58,7 +52,7 @@ def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
     if driver.kind == "roll":
         return int(given)
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        return pen.draw(speed_rolled, given, radius_of(pen, contact))
+        return pen.draw(speed_at_rim, given, radius_of(pen, contact))
 
 
 @by_contact
@@ -90,19 +84,7 @@ def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
         case Sliding():
             point = pen.bases[link].start
             if pen.turns(link):
-                places = pen.the("position", name), pen.the("position", point)
-                index = against(pen, point, under(name, link))
-                with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                    start = turned_image(
-                        pen,
-                        link,
-                        (letter(name), point),
-                        start,
-                        places,
-                        name=image(point),
-                        omega=omega_of(pen, link),
-                        index=index,
-                    )
+                start = turned_from_rim(pen, link, name, point, start)
             else:
                 with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                     start = translated_image(pen, start, (letter(name), point), image(point))
@@ -250,42 +232,32 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
     start = carried(pen, wheel, name, "acceleration")
     rates, rim = (omega_of(pen, wheel), omega_of(pen, link)), under(name, link)
-    corner = rolled_image(pen, start, rim, (centre, name), rates, on_bar=True)
-    turn_from_rim(pen, link, rim, point, corner)
+    rolled_image(pen, start, rim, (centre, name), rates, on_bar=True)
+    turn_from_rim(pen, link, rim, point)
 
 
-def turn_from_rim(pen: Pen, link: str, rim: str, point: str, start: int) -> None:
+def turned_from_rim(pen: Pen, link: str, name: str, point: str, start: int) -> int:
+    """The image of a point of a link whose rate is known, from that of its point of contact."""
+    places = pen.the("position", name), pen.the("position", point)
+    index = against(pen, point, under(name, link))
+    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+        rate = omega_of(pen, link)
+        ends = letter(name), point
+        return turned_image(
+            pen, link, ends, start, places, name=image(point), omega=rate, index=index
+        )
+
+
+def turn_from_rim(pen: Pen, link: str, rim: str, point: str) -> None:
     """Second image of a point of a link whose rates are known, from that of its point of contact.
 
     There is no tangential component where a driver turns the link steadily.
     """
-    ends = pen.the("position", rim), pen.the("position", point)
-    turning, twist = omega_of(pen, link), omega_of(pen, link, EPSILON)
-    name, steady = second_image(point), pen.is_nought(twist)
+    omega_of(pen, link)
+    steady = pen.is_nought(omega_of(pen, link, EPSILON))
+    start, ends = pen.the("acceleration", rim), (rim, point)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        with pen.calls_for(Effect.NORMAL):
-            end = pen.draw(centripetal, start, *ends, turning, name=name if steady else "")
-        component_arrow(pen, start, end, "ν", point, rim)
-        found = end
-        if not steady:
-            with pen.calls_for(tangential_effect(pen, twist)):
-                found = pen.draw(driven_tangential, end, *ends, twist, name=name)
-            component_arrow(pen, end, found, "τ", point, rim)
-        pen.make(
-            TurnedAcceleration(
-                p=letter(rim),
-                q=point,
-                index=about(pen, point, rim),
-                whole=point,
-                base=owned(rim),
-                link=link,
-                start=start,
-                omega=turning,
-                epsilon=None if steady else twist,
-                end=end,
-                image=None if steady else found,
-            )
-        )
+        found = accelerated_image(pen, link, ends, start, name=second_image(point), steady=steady)
     pen.want("acceleration", point, found)
     acceleration_arrow(pen, point)
 

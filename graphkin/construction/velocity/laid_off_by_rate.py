@@ -20,7 +20,7 @@ class LaidOffByRate(Construction, frozen=True):
 
     @abstractmethod
     def tried_rate(self, role: str) -> int | None:
-        """The rate by which a trial lays off the vector that ends in a role; None for others."""
+        """The rate by which an auxiliary plan lays off a role's vector; None for others."""
 
     @abstractmethod
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
@@ -40,7 +40,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         return self.link in (driver.link, driver.against)
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
-        """What a known turning gives: rate times bar, or its square for the normal component."""
+        """What a known turning gives: rate times bar, or its square for what leads to the pivot."""
         value = abs(float(drawing.trace.values[rate]))
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
@@ -87,7 +87,7 @@ def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
 def falls(drawing: Drawing, number: int, start: str) -> str:
     """The key of the sentence of a point that falls on its vector's ``start``: its rate is nought.
 
-    No rate is told of a trial, which tries it.
+    No rate is told of an auxiliary plan, which tries it.
     """
     if not start:
         return "step.falls-end"
@@ -95,7 +95,7 @@ def falls(drawing: Drawing, number: int, start: str) -> str:
 
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
-    """The rate by which a step lays off a vector; one that a trial plan tries is its link's."""
+    """The rate by which a step lays off a vector; one that is tried is named by its link."""
     plan = auxiliary_plan(drawing, number)
     if plan is not None and link:
         own, lead = symbol(f"{letter}_{link}"), plan.turned_by(rate)

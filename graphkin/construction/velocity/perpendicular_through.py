@@ -32,7 +32,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
-    reasons: ClassVar[Mapping[str, str]] = {"line": "why.square"}
+    reasons: ClassVar[Mapping[str, str]] = {"line": "why.perpendicular"}
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ {p}{q}"}
 
     start: int
@@ -47,7 +47,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     def reason(self, drawing: Drawing, role: str) -> str:
         """That the bar keeps its length; of a pivot at rest, that its image is the pole."""
         at_rest = self.index == self.whole and not self.touch
-        return "why.square_at_rest" if at_rest else super().reason(drawing, role)
+        return "why.perpendicular_at_rest" if at_rest else super().reason(drawing, role)
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """What ends where it begins."""

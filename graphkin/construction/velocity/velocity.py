@@ -8,8 +8,6 @@ from graphkin.construction.core.pen import Pen, image, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import difference, join, part_along
-from graphkin.construction.drivers.driven_slide import slide_image
-from graphkin.construction.drivers.summed_rate import summed_rate
 from graphkin.construction.guides.coincident_points import image_under, omega_of, source_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.leading import led_by
@@ -49,6 +47,8 @@ def driven_rate(pen: Pen, group: Crank | Spun, quantity: str, given: int) -> int
     against = other_of(group.driver, group.link)
     if not pen.turns(against):
         return given if group.driver.link == group.link else turned_round(pen, given)
+    from graphkin.construction.drivers.summed_rate import summed_rate
+
     rate = omega_of(pen, against, quantity)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         return summed_rate(pen, group.driver, group.link, rate, given)
@@ -78,6 +78,8 @@ def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
 
 def slide_on(pen: Pen, shapes: LinkShapes, pair: Leading, link: str, speed: int) -> None:
     """Image of the point of a link that is led at a speed along its line."""
+    from graphkin.construction.drivers.driven_slide import slide_image
+
     point, known = pen.bases[link].start, partner(pair, link)
     way = 1 if pair.links[0] == link else -1
     led = led_by(pair)

@@ -89,7 +89,7 @@ async function attempt() {
   const now = texts();
   if (now === tried) return;
   fairness(say("studio.trying"));
-  const report = await asked("trial");
+  const report = await asked("variants");
   if (!report) return;
   tried = now;
   room.classList.remove("old");
