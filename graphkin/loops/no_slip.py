@@ -23,6 +23,10 @@ TOUCH = 1e-6
 """Gap between wheels that touch, as a share of their distance."""
 
 
+ROUND = 1e-9
+"""Radians by which rounding may put half a turn on its other side."""
+
+
 class NoSlip(Struct, frozen=True, eq=False):
     """No slip: the sum of weight·(angle - start) over links, and side·s of a track, is nought.
 
@@ -255,9 +259,13 @@ def packed_slips(
     counted: Mapping[int, tuple[int, Reals]],
     turned: Turnings,
     guides: Sequence[Guide],
+    near: Mapping[str, Real],
     numbers: Numbers,
 ) -> Slips:
-    """The conditions of no slip as arrays."""
+    """The conditions of no slip as arrays.
+
+    Links that never turn stand within half a turn of the angle that they are ``near``.
+    """
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
     for r, slip in enumerate(slips):
@@ -265,11 +273,33 @@ def packed_slips(
             j = next(j for j, guide in enumerate(guides) if guide is slip.track)
             rows[:, r, turned.count + j] += slip.side
         for link, weight in slip.weights.items():
-            start = numbers.reals(slip.starts[link])
+            start, angle = numbers.reals(slip.starts[link]), numbers.reals(turned.angle[link])
+            if link != FRAME and turned.of[link] == turned.of[FRAME]:
+                angle = within_half_a_turn(angle, numbers.reals(near[link]))
             rows[:, r, turned.of[link]] += weight
-            constant[:, r] += weight * (numbers.reals(turned.angle[link]) - start)
+            constant[:, r] += weight * (angle - start)
     links = tuple(slip.links for slip in slips)
     return Slips(rows[:, :, 1:], constant, links, counted)
+
+
+def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:
+    """The angle (radians) near which each link that wheels concern stands.
+
+    That of a motion comes first, then what the scene states of its turns, then what rolls first.
+    """
+    found = {link: numbers.si(angle) for link, angle in scene.near.items()}
+    order = [FRAME, *scene.links]
+    written = sorted(slips, key=lambda slip: order.index(slip.links[0]))
+    for angles in (*(slip.turned for slip in slips), *(slip.starts for slip in written)):
+        for link, angle in angles.items():
+            found.setdefault(link, angle)
+    return found
+
+
+def within_half_a_turn(angle: Reals, start: Reals) -> Reals:
+    """An angle with the whole turns (radians) that bring it within half a turn of another."""
+    beyond = np.ceil((angle - start - np.pi - ROUND) / (2 * np.pi))
+    return np.asarray(angle - 2 * np.pi * beyond)
 
 
 def counted_turnings(

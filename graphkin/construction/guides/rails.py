@@ -97,6 +97,6 @@ def swivelling(drawing: Drawing) -> list[complex]:
 
 
 def places_of(drawing: Drawing, link: str) -> list[complex]:
-    """Where the points of a link stand."""
-    points = drawing.scene.link(link).points
-    return [drawing.positions[p] for p in points if p in drawing.positions]
+    """Where the points of a link stand, but for the centres of its hollows."""
+    own, places = drawing.scene.link(link), drawing.positions
+    return [places[p] for p in own.points if p in places and not own.is_hollow_about(p)]
