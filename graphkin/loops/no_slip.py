@@ -32,13 +32,15 @@ class NoSlip(Struct, frozen=True, eq=False):
 
     ``weights`` in metres, ``starts`` in radians by link; ``track`` is the straight track, None
     between two wheels. ``links`` are the wheel's, the track's and the arm; ``turned`` gives the
-    angles (radians) near which the scene says that links stand, whole turns counted.
+    angles (radians) near which the scene says that links stand, whole turns counted, ``near`` those
+    at the start.
     """
 
     links: tuple[str, ...]
     weights: Mapping[str, Real]
     starts: Mapping[str, Real]
     turned: Mapping[str, Real]
+    near: Mapping[str, Real]
     track: Guide | None = None
     side: int = 0
 
@@ -226,18 +228,19 @@ def slips_of(
         track = guides[index]
         wheel, on = track.block, track.on
         starts = {wheel: at_start(rolling, wheel, numbers), on: 0.0}
-        turned = counted_at(rolling, numbers)
+        near = {link: at_start(rolling, link, numbers) for link in (wheel, on)}
+        turned, weights = counted_at(rolling, numbers), {wheel: size, on: -size}
         if wheel == FRAME:
-            turned.setdefault(on, at_start(rolling, on, numbers))
+            turned.setdefault(on, near[on])
         found.append(
-            NoSlip((wheel, on), {wheel: size, on: -size}, starts, turned, track, rolling.side)
+            NoSlip((wheel, on), weights, starts, turned, near, track, side=rolling.side)
         )
     for gear in gears:
         (wheel, on), (own, other) = gear.links, gear.radii
         weights = {wheel: own, on: gear.sense * other, gear.arm: -own - gear.sense * other}
         starts = {link: at_start(gear.rolling, link, numbers) for link in weights}
         turned = counted_at(gear.rolling, numbers)
-        found.append(NoSlip((wheel, on, gear.arm), weights, starts, turned))
+        found.append(NoSlip((wheel, on, gear.arm), weights, starts, turned, starts))
     return tuple(found)
 
 
@@ -290,7 +293,7 @@ def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> 
     found = {link: numbers.si(angle) for link, angle in scene.near.items()}
     order = [FRAME, *scene.links]
     written = sorted(slips, key=lambda slip: order.index(slip.links[0]))
-    for angles in (*(slip.turned for slip in slips), *(slip.starts for slip in written)):
+    for angles in (*(slip.turned for slip in slips), *(slip.near for slip in written)):
         for link, angle in angles.items():
             found.setdefault(link, angle)
     return found
@@ -329,8 +332,8 @@ def counted_turnings(
         if slip.track is not None:
             wheel, on = slip.links
             count(wheel, slip.starts[wheel], on)
-        for link in slip.weights:
-            count(link, slip.starts[link])
+        for link, angle in slip.near.items():
+            count(link, angle)
     for driver in scene.drivers:
         if driver.kind == "turn":
             count(driver.against, 0.0)
