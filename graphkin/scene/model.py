@@ -133,6 +133,7 @@ class Slide(Struct, frozen=True):
     The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its
     x axis, or ``along`` two of its points (zero of the coordinate at the first, positive towards
     the second). The block's first point keeps the distance ``offset`` to the left of the guide.
+    ``rollers`` of one size, which keep a link parallel to their track, stand for a guide.
     """
 
     on: str
@@ -141,6 +142,7 @@ class Slide(Struct, frozen=True):
     along: tuple[str, str] | None
     offset: Quantity
     pin: bool = False
+    rollers: tuple[str, ...] = ()
 
     def called(self, names: Mapping[str, str]) -> Slide:
         """The same with links by other names."""
