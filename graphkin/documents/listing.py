@@ -64,30 +64,54 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect]) -> list[Mark]:
             for left, _, right, _ in columns
         ]
         for leading in distances(most, least):
-            marks = filled(sets, columns, height, leading)
-            if marks:
+            marks, after = filled(sets, columns, height, leading)
+            if after == len(said):
                 return marks
     raise too_long(sum(map(len, sets[0])), "view the steps, a sentence on each page: --view steps")
 
 
+def on_sheets(drawing: Drawing, columns: Sequence[Rect]) -> Iterator[list[Mark]]:
+    """The sentences on as many sheets with the same columns as they need, in large lettering.
+
+    Raises PageError where a sentence is longer than a column.
+    """
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    height, leading, _ = LOOKS[0]
+    sets = [
+        [flowed(words, " ", right - left - INDENT, height) for words in said]
+        for left, _, right, _ in columns
+    ]
+    begun = 0
+    while begun < len(said):
+        marks, after = filled(sets, columns, height, leading, begun)
+        if after == begun:
+            raise too_long(len(sets[0][begun]), "ask for less on one sheet")
+        yield marks
+        begun = after
+
+
 def filled(
-    sets: Sequence[list[list[str]]], columns: Sequence[Rect], height: float, leading: float
-) -> list[Mark]:
-    """Columns with the lines of sentences, broken for each; nothing where they are too many."""
+    sets: Sequence[list[list[str]]],
+    columns: Sequence[Rect],
+    height: float,
+    leading: float,
+    begun: int = 0,
+) -> tuple[list[Mark], int]:
+    """Columns with the lines of sentences from one on, broken for each, and which has no room."""
     marks: list[Mark] = []
     place, y = 0, columns[0][1]
-    for number in range(len(sets[0])):
+    for number in range(begun, len(sets[0])):
         while y + (len(sets[place][number]) - 1) * leading > columns[place][3]:
             place += 1
             if place == len(columns):
-                return []
+                return marks, number
             y = columns[place][1]
         x = columns[place][0]
         marks.append(Text(x + 5, y, f"{number + 1}.", "caption", height, "end"))
         for line in sets[place][number]:
             marks.append(Text(x + INDENT, y, line, "caption", height))
             y += leading
-    return marks
+    return marks, len(sets[0])
 
 
 def too_long(lines: int, hint: str) -> PageError:

@@ -131,10 +131,15 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
 
 def joints(loops: Equations) -> tuple[Joint, ...]:
     """Every two links that share a point, a guide or a straight track."""
-    bodies = loops.bodies
+    bodies, order = loops.bodies, [*loops.bodies]
+    owners = defaultdict[str, list[int]](list)
+    for number, body in enumerate(bodies.values()):
+        for point in body:
+            owners[point].append(number)
+    beside = sorted({pair for each in owners.values() for pair in combinations(each, 2)})
     pins = [
         Joint((p, q), pin=point)
-        for p, q in combinations(bodies, 2)
+        for p, q in ((order[i], order[k]) for i, k in beside)
         for point in bodies[p]
         if point in bodies[q]
     ]
