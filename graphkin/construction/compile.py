@@ -78,14 +78,17 @@ def stand(scene: Scene, groups: tuple[Group, ...]) -> Standing:
     """The groups with their bases; every missing branch and construction is listed at once."""
     problems: list[Problem] = []
     standing: Standing = []
+    told: set[str] = set()
     for group in groups:
         try:
             standing.append((group, bases(scene, group)))
             refuse_unstated(scene, group)
         except StructureError as error:
             others = stray(scene, groups, group)
+            told.update(others)
             problems += [in_place_of(scene, each, others) for each in error.problems]
-    problems += [] if problems else unused_branches(scene, groups)
+    if not any(isinstance(group, Unresolved) for group in groups):
+        problems += unused_branches(scene, groups, told)
     if problems:
         raise StructureError(problems)
     return standing

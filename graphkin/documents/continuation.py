@@ -1,4 +1,4 @@
-"""The sheet on which goes on what has no room beside the drawings: data, sentences, tables."""
+"""The sheets on which goes on what has no room beside the drawings: data, sentences, tables."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Set
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.result_tables import tables
-from graphkin.documents.listing import in_columns
+from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.sheet import (
     Moved,
     construction_head,
@@ -19,6 +19,7 @@ from graphkin.drawing.areas import A3_TITLE_BLOCK, AREA, BELOW, MARKED, Rect
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import Mark, Page, Text
 from graphkin.drawing.richtext import flowed
+from graphkin.text.errors import PageError
 
 LEADING = 4.6
 """Distance of the lines of data in mm."""
@@ -30,8 +31,31 @@ MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
 
 
-def continuation(drawing: Drawing, view: str, number: str, moved: Set[Moved], said: int = 0) -> Page:
-    """The sheet that goes on, behind so many sentences. Raises PageError where it is full."""
+def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[list[Mark]]:
+    """What is on the sheets that go on: one, or where it has no room there as many as it takes.
+
+    So many sentences as are said before are left out there.
+    Raises PageError where data or tables have no room on a sheet without the sentences.
+    """
+    if not moved:
+        return []
+    try:
+        return [one_sheet(drawing, view, moved, said)]
+    except PageError:
+        if Moved.CONSTRUCTION not in moved:
+            raise
+    others = moved - {Moved.CONSTRUCTION}
+    sheets = [one_sheet(drawing, view, others, said)] if others else []
+    head, x, y = title_line(drawing, drawing.words("page.continued"))
+    top, low = y + GAP, BELOW[3] - 3.5
+    left: Rect = (x + INSIDE, top + HEAD, MIDDLE, low)
+    right: Rect = (MIDDLE + 6, top + HEAD, AREA[2], A3_TITLE_BLOCK[1] - 4)
+    head = [*head, construction_head(drawing, x, top)]
+    return [*sheets, *([*head, *marks] for marks in on_sheets(drawing, [left, right], said))]
+
+
+def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list[Mark]:
+    """What is on a sheet that goes on alone. Raises PageError where not even it holds the rest."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if Moved.DATA in moved:
         pieces = given(drawing, solved=view != "task")
@@ -49,7 +73,7 @@ def continuation(drawing: Drawing, view: str, number: str, moved: Set[Moved], sa
     if Moved.TABLES in moved:
         alone = Moved.CONSTRUCTION not in moved
         marks += tables(drawing, (x, *right[1:]) if alone else right, empty=view == "task")
-    return as_page(drawing, view, number, marks)
+    return marks
 
 
 def as_page(drawing: Drawing, view: str, number: str, marks: list[Mark]) -> Page:

@@ -89,22 +89,41 @@ def written(
     return marks
 
 
-def in_columns(drawing: Drawing, columns: Sequence[Rect], said: int) -> list[Mark]:
+def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Mark]:
     """The sentences of a continuation sheet, from one column to the next, none of them parted.
 
-    So many as are said before are left out. Raises PageError where there are too many.
+    So many as are begun before are left out. Raises PageError where there are too many.
     """
-    rest = [words_of(sentence.markup) for sentence in sentences(drawing)][said:]
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     for height, most, least in LOOKS:
         sets = [
-            [flowed(words, " ", right - left - INDENT, height) for words in rest]
+            [flowed(words, " ", right - left - INDENT, height) for words in said]
             for left, _, right, _ in columns
         ]
         for leading in distances(most, least):
-            marks = filled(sets, columns, height, leading, said)
-            if marks:
+            marks, after = filled(sets, columns, height, leading, begun)
+            if after == len(said):
                 return marks
     raise too_long(sum(map(len, sets[0])), "view the steps, a sentence on each page: --view steps")
+
+
+def on_sheets(drawing: Drawing, columns: Sequence[Rect], begun: int) -> Iterator[list[Mark]]:
+    """The sentences behind those that are begun, on as many sheets with the same columns as they need, in large lettering.
+
+    Raises PageError where a sentence is longer than a column.
+    """
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    height, leading, _ = LOOKS[0]
+    sets = [
+        [flowed(words, " ", right - left - INDENT, height) for words in said]
+        for left, _, right, _ in columns
+    ]
+    while begun < len(said):
+        marks, after = filled(sets, columns, height, leading, begun)
+        if after == begun:
+            raise too_long(len(sets[0][begun]), "ask for less on one sheet")
+        yield marks
+        begun = after
 
 
 def filled(
@@ -112,23 +131,23 @@ def filled(
     columns: Sequence[Rect],
     height: float,
     leading: float,
-    said: int,
-) -> list[Mark]:
-    """Columns with the lines of sentences, broken for each; nothing where they are too many."""
+    begun: int,
+) -> tuple[list[Mark], int]:
+    """Columns with the lines of sentences from one on, broken for each, and which has no room."""
     marks: list[Mark] = []
     place, y = 0, columns[0][1]
-    for number in range(len(sets[0])):
+    for number in range(begun, len(sets[0])):
         while y + (len(sets[place][number]) - 1) * leading > columns[place][3]:
             place += 1
             if place == len(columns):
-                return []
+                return marks, number
             y = columns[place][1]
         x = columns[place][0]
-        marks.append(Text(x + 5, y, f"{said + number + 1}.", "caption", height, "end"))
+        marks.append(Text(x + 5, y, f"{number + 1}.", "caption", height, "end"))
         for line in sets[place][number]:
             marks.append(Text(x + INDENT, y, line, "caption", height))
             y += leading
-    return marks
+    return marks, len(sets[0])
 
 
 def too_long(lines: int, hint: str) -> PageError:

@@ -61,22 +61,22 @@ def hand_out(
 def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
     """The sheets of a mechanism's drawings in a view, numbered through.
 
-    What has no room on a key or a task goes on to a continuation sheet.
+    What has no room on a key or a task goes on to continuation sheets.
     """
     if view in CALCULATED:
-        from graphkin.documents.continuation import continuation
+        from graphkin.documents.continuation import as_page, rest
         from graphkin.documents.sheet import sheet, writing
 
         every = [(drawing, writing(drawing, view)) for drawing in drawings]
-        total = sum(1 + bool(written.moved) for _, written in every)
+        more = [rest(drawing, view, written.moved, written.said) for drawing, written in every]
+        total = sum(1 + len(sheets) for sheets in more)
         found, number = [], 0
-        for drawing, written in every:
+        for (drawing, written), sheets in zip(every, more, strict=True):
             number += 1
             pages = [sheet(drawing, view, f"{number}/{total}", written=written)]
-            if written.moved:
+            for marks in sheets:
                 number += 1
-                rest = written.moved, written.said
-                pages.append(continuation(drawing, view, f"{number}/{total}", *rest))
+                pages.append(as_page(drawing, view, f"{number}/{total}", marks))
             found.append(SheetDocument(drawing.kind, tuple(pages)))
         return found
     total = len(drawings)
@@ -89,12 +89,12 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
 def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
     """The pages of one drawing, step by step, or as an overlay."""
     if view == "steps":
-        from graphkin.documents.continuation import continuation
+        from graphkin.documents.continuation import as_page, rest
         from graphkin.documents.sheet import heading
         from graphkin.documents.step_pages import growing
 
         moved = frozenset(heading(drawing)[1])
-        more = [continuation(drawing, view, number, moved)] if moved else []
+        more = [as_page(drawing, view, number, marks) for marks in rest(drawing, view, moved)]
         return (*growing(drawing, number), *more)
     from graphkin.documents.overlay import overlay
 

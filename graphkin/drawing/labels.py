@@ -29,6 +29,8 @@ LEADING = 4.6
 """Distance of lines of notes in mm, so that indices above and below do not meet."""
 KEY = 4
 """Priority of a key number."""
+MANY = 30
+"""How many letters and numbers a field must have for some of them to be noted at its foot."""
 NEAR = 0.6
 """How near to a note a label may stand, in mm."""
 HELPERS = ("construction", OWN_LINES)
@@ -248,8 +250,8 @@ def by_need(
     """Place letters of points and numbers first, then names of vectors, helping letters last.
 
     First the labels as they were wished, then as they stand, with what their key numbers mean.
-    The foot of the field is returned with the places. Raises PageError where a letter or a number
-    of a link finds no place even so.
+    The foot of the field is returned with the places. Where a letter or a number of a link finds
+    no place even so, it is noted there if there are ``MANY``; else PageError is raised.
     """
     shortened = board.labels
     try:
@@ -257,28 +259,46 @@ def by_need(
         return in_turn(board, board.notes)
     except PageError:
         board.labels = shortened
+    try:
         return in_turn(board, [*board.notes, *meanings])
+    except PageError:
+        if sum(must_be_named(label) for label in wished) < MANY:
+            raise
+        board.labels = shortened
+        return in_turn(board, [*board.notes, *meanings], wished)
 
 
-def in_turn(board: FieldContent, notes: Sequence[str]) -> tuple[list[Mark], list[Spot]]:
+def must_be_named(label: Label) -> bool:
+    """Whether a label is the letter of a point or the number of a link."""
+    return not label.spare and label.cls not in HELPERS
+
+
+def in_turn(
+    board: FieldContent, notes: Sequence[str], noted: Sequence[Label] = ()
+) -> tuple[list[Mark], list[Spot]]:
     """Place what must be named before what may be left out.
 
     What finds no place is taken off the board; vectors that stay without a name are noted at the
-    foot. Raises PageError where a letter or a number finds none.
+    foot. So are letters and numbers, as they are ``noted``; without these PageError is raised where
+    one finds none.
     """
     labels = board.labels
     vectors = [i for i, label in enumerate(labels) if label.spare]
     helpers = [i for i, label in enumerate(labels) if label.cls in HELPERS]
-    first = [i for i in range(len(labels)) if i not in {*vectors, *helpers}]
+    first = [i for i, label in enumerate(labels) if must_be_named(label)]
     left_out: list[int] = []
     while True:
-        names = ", ".join(dict.fromkeys(labels[i].markup for i in left_out))
-        foot = board.footed([*notes, *([f"{board.unnamed} {names}"] if names else [])])
+        names = ", ".join(dict.fromkeys((noted or labels)[i].markup for i in left_out))
+        unused = tuple(f"{labels[i].markup} " for i in left_out)
+        said = [note for note in notes if not noted or not note.startswith(unused)]
+        foot = board.footed([*said, *([f"{board.unnamed} {names}"] if names else [])])
         found: dict[int, Spot] = {}
-        for which in (first, [i for i in vectors if i not in left_out], helpers):
+        wanted = [[i for i in which if i not in left_out] for which in (first, vectors)]
+        for which in (*wanted, helpers):
             found |= placed_after(board, foot, found, which)
-        refuse_crowds([labels[i] for i in first], [found[i] for i in first])
-        crowded = [i for i in vectors if i in found and not found[i].free]
+        if not noted:
+            refuse_crowds([labels[i] for i in first], [found[i] for i in first])
+        crowded = [i for which in wanted for i in which if not found[i].free]
         if not crowded:
             break
         left_out = sorted([*left_out, *crowded])

@@ -131,10 +131,15 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
 
 def joints(loops: Equations) -> tuple[Joint, ...]:
     """Every two links that share a point, a guide or a straight track."""
-    bodies = loops.bodies
+    bodies, order = loops.bodies, [*loops.bodies]
+    owners = defaultdict[str, list[int]](list)
+    for number, body in enumerate(bodies.values()):
+        for point in body:
+            owners[point].append(number)
+    beside = sorted({pair for each in owners.values() for pair in combinations(each, 2)})
     pins = [
         Joint((p, q), pin=point)
-        for p, q in combinations(bodies, 2)
+        for p, q in ((order[i], order[k]) for i, k in beside)
         for point in bodies[p]
         if point in bodies[q]
     ]
@@ -269,7 +274,11 @@ def among(links: set[str], every: tuple[Joint, ...], met: set[str]) -> tuple[Joi
 
 
 def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool:
-    """Whether the equations up to a group determine it, by their rank in some open position."""
+    """Whether the equations up to a group determine it, by their rank in some open position.
+
+    What leads one point twice along one link stands together there, as it does when closed: a block
+    that keeps a wheel from its track would else seem to hold the track's link, too.
+    """
     exact = taken == 3 * len(group.links)
     if exact and ((group.is_dyad and len(group.slides) < 3) or is_sure(scene, group)):
         return True
@@ -279,6 +288,7 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
         return False
     moving = moved_by(part, group)
     thrown = np.random.default_rng(7).uniform(-1, 1, (1, part.unknown_count)) * part.columns
+    thrown = led_together(part, thrown)
     with np.errstate(all="ignore"):
         jacobian = part.jacobian(part.chains.at(thrown)) * part.columns[:, None, :]
     jacobian = (jacobian / part.rows[:, :, None])[0][:, moving]
@@ -286,6 +296,22 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
         return False
     values = np.linalg.svd(jacobian, compute_uv=False)
     return bool(values.min(initial=np.inf) > FULL * values.max(initial=0))
+
+
+def led_together(part: Equations, unknowns: Reals) -> Reals:
+    """Unknowns (1, K + m) where guides of one link that lead one point have it in one place."""
+    found = unknowns.copy()
+    led: dict[tuple[str, str], list[int]] = {}
+    for j, guide in enumerate(part.guides):
+        led.setdefault((guide.on, guide.point), []).append(j)
+    for first, *others in (each for (_, point), each in led.items() if point):
+        guide = part.guides[first]
+        foot = guide.through + (found[0, part.turning_count + first] + 1j * guide.offset) * guide.along
+        for j in others:
+            other = part.guides[j]
+            way = (foot - other.through) * np.conj(other.along)
+            found[0, part.turning_count + j] = np.ravel(way.real)[0]
+    return found
 
 
 def is_sure(scene: Scene, group: Group) -> bool:

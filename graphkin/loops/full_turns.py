@@ -12,10 +12,9 @@ import numpy as np
 
 from graphkin.loops.closing_groups import Mask, moved_by, stages
 from graphkin.loops.equations import Equations
+from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Reals
 
-ROUND = 1e-9
-"""Radians by which rounding may put half a turn on its other side."""
 LOOSE = 1e-9
 """Share of a unit direction below which linear equations settle an unknown."""
 
@@ -106,15 +105,13 @@ def settles(rows: Reals) -> Mask:
 
 def counted(loops: Equations, values: Reals, k: int) -> Reals:
     """The angle of unknown turning k counted from its start, within half a turn: shape (N,)."""
-    turn = 2 * np.pi
     angle = values[:, k]
     if k + 1 not in loops.slips.counted:
         return angle
     against, start = loops.slips.counted[k + 1]
     if against:
         start = start + values[:, against - 1]
-    beyond = np.ceil((angle - start - np.pi - ROUND) / turn)
-    return np.asarray(angle - turn * beyond)
+    return within_half_a_turn(angle, start)
 
 
 def counted_freely(loops: Equations, values: Reals, moving: Mask) -> Reals:

@@ -23,18 +23,24 @@ TOUCH = 1e-6
 """Gap between wheels that touch, as a share of their distance."""
 
 
+ROUND = 1e-9
+"""Radians by which rounding may put half a turn on its other side."""
+
+
 class NoSlip(Struct, frozen=True, eq=False):
     """No slip: the sum of weight·(angle - start) over links, and side·s of a track, is nought.
 
     ``weights`` in metres, ``starts`` in radians by link; ``track`` is the straight track, None
     between two wheels. ``links`` are the wheel's, the track's and the arm; ``turned`` gives the
-    angles (radians) near which the scene says that links stand, whole turns counted.
+    angles (radians) near which the scene says that links stand, whole turns counted, ``near`` those
+    at the start.
     """
 
     links: tuple[str, ...]
     weights: Mapping[str, Real]
     starts: Mapping[str, Real]
     turned: Mapping[str, Real]
+    near: Mapping[str, Real]
     track: Guide | None = None
     side: int = 0
 
@@ -222,18 +228,19 @@ def slips_of(
         track = guides[index]
         wheel, on = track.block, track.on
         starts = {wheel: at_start(rolling, wheel, numbers), on: 0.0}
-        turned = counted_at(rolling, numbers)
+        near = {link: at_start(rolling, link, numbers) for link in (wheel, on)}
+        turned, weights = counted_at(rolling, numbers), {wheel: size, on: -size}
         if wheel == FRAME:
-            turned.setdefault(on, at_start(rolling, on, numbers))
+            turned.setdefault(on, near[on])
         found.append(
-            NoSlip((wheel, on), {wheel: size, on: -size}, starts, turned, track, rolling.side)
+            NoSlip((wheel, on), weights, starts, turned, near, track, side=rolling.side)
         )
     for gear in gears:
         (wheel, on), (own, other) = gear.links, gear.radii
         weights = {wheel: own, on: gear.sense * other, gear.arm: -own - gear.sense * other}
         starts = {link: at_start(gear.rolling, link, numbers) for link in weights}
         turned = counted_at(gear.rolling, numbers)
-        found.append(NoSlip((wheel, on, gear.arm), weights, starts, turned))
+        found.append(NoSlip((wheel, on, gear.arm), weights, starts, turned, starts))
     return tuple(found)
 
 
@@ -255,9 +262,13 @@ def packed_slips(
     counted: Mapping[int, tuple[int, Reals]],
     turned: Turnings,
     guides: Sequence[Guide],
+    near: Mapping[str, Real],
     numbers: Numbers,
 ) -> Slips:
-    """The conditions of no slip as arrays."""
+    """The conditions of no slip as arrays.
+
+    Links that never turn stand within half a turn of the angle that they are ``near``.
+    """
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
     for r, slip in enumerate(slips):
@@ -265,11 +276,33 @@ def packed_slips(
             j = next(j for j, guide in enumerate(guides) if guide is slip.track)
             rows[:, r, turned.count + j] += slip.side
         for link, weight in slip.weights.items():
-            start = numbers.reals(slip.starts[link])
+            start, angle = numbers.reals(slip.starts[link]), numbers.reals(turned.angle[link])
+            if link != FRAME and turned.of[link] == turned.of[FRAME]:
+                angle = within_half_a_turn(angle, numbers.reals(near[link]))
             rows[:, r, turned.of[link]] += weight
-            constant[:, r] += weight * (numbers.reals(turned.angle[link]) - start)
+            constant[:, r] += weight * (angle - start)
     links = tuple(slip.links for slip in slips)
     return Slips(rows[:, :, 1:], constant, links, counted)
+
+
+def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:
+    """The angle (radians) near which each link that wheels concern stands.
+
+    That of a motion comes first, then what the scene states of its turns, then what rolls first.
+    """
+    found = {link: numbers.si(angle) for link, angle in scene.near.items()}
+    order = [FRAME, *scene.links]
+    written = sorted(slips, key=lambda slip: order.index(slip.links[0]))
+    for angles in (*(slip.turned for slip in slips), *(slip.near for slip in written)):
+        for link, angle in angles.items():
+            found.setdefault(link, angle)
+    return found
+
+
+def within_half_a_turn(angle: Reals, start: Reals) -> Reals:
+    """An angle with the whole turns (radians) that bring it within half a turn of another."""
+    beyond = np.ceil((angle - start - np.pi - ROUND) / (2 * np.pi))
+    return np.asarray(angle - 2 * np.pi * beyond)
 
 
 def counted_turnings(
@@ -299,8 +332,8 @@ def counted_turnings(
         if slip.track is not None:
             wheel, on = slip.links
             count(wheel, slip.starts[wheel], on)
-        for link in slip.weights:
-            count(link, slip.starts[link])
+        for link, angle in slip.near.items():
+            count(link, angle)
     for driver in scene.drivers:
         if driver.kind == "turn":
             count(driver.against, 0.0)

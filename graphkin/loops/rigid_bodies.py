@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import reduce
-from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -230,7 +229,10 @@ def written_line(
 def longest(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
     """The longest distance of two points of one link, or radius (m): (N,); 1 if all are zero."""
     links = (scene.frame, *scene.links.values())
-    lengths = [abs(p - q) for body in bodies.values() for p, q in combinations(body.values(), 2)]
+    lengths = list[Any]()
+    for body in bodies.values():
+        places = np.array([numbers.complexes(place) for place in body.values()])
+        lengths += [abs(places[i + 1 :] - places[i]).max(axis=0) for i in range(len(places) - 1)]
     lengths += [radius(wheel, numbers) for link in links for wheel in link.wheels]
     most = numbers.reals(reduce(np.maximum, lengths, 0.0))
     return np.where(most == 0, 1.0, most)

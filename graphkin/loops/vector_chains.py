@@ -113,6 +113,14 @@ class Tree:
         self.origins: dict[str, Chain] = {FRAME: Chain()}
         self.spent: set[tuple[str, str]] = set()
         self.passed: set[int] = set()
+        self.owners: dict[str, list[str]] = {}
+        self.led: dict[str, list[int]] = {}
+        for link, body in bodies.items():
+            for point in body:
+                self.owners.setdefault(point, []).append(link)
+        for index, guide in enumerate(guides):
+            for link in dict.fromkeys((guide.on, guide.block)):
+                self.led.setdefault(link, []).append(index)
         waiting = [FRAME]
         while waiting:
             waiting += self._reach_from(waiting.pop(0))
@@ -121,12 +129,14 @@ class Tree:
         """Hang on a link every body that shares a pin or a guide with it and is not yet reached."""
         reached = []
         for point in self.bodies[link]:
-            for other, body in self.bodies.items():
-                if other not in self.origins and point in body:
-                    self.origins[other] = self.step(self.at(link, point), other, -body[point])
+            for other in self.owners[point]:
+                if other not in self.origins:
+                    arm = -self.bodies[other][point]
+                    self.origins[other] = self.step(self.at(link, point), other, arm)
                     self.spent |= {(point, link), (point, other)}
                     reached.append(other)
-        for index, guide in enumerate(self.guides):
+        for index in self.led.get(link, ()):
+            guide = self.guides[index]
             if guide.on == link and guide.block not in self.origins:
                 stand = self.on_guide(index).along(index, 1)
                 self.origins[guide.block] = self.step(stand, guide.block, -self.head(index))

@@ -110,15 +110,23 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
 
     @cached_property
     def profiles(self) -> Mapping[str, CamProfile]:
-        """The cams that the swept driver turns by itself, by their followers, at every position."""
-        if self.sweep.what != "turn" or not self.scene.cams:
-            return {}
-        from graphkin.construction.core.cam_profiles import profiles_along
+        """The cams by their followers, at every position, whatever turns them."""
+        found: dict[str, CamProfile] = {}
+        if self.scene.cams:
+            from graphkin.construction.core.cam_profiles import profiles_along
 
+            for link in dict.fromkeys(cam.on for cam in self.scene.cams.values()):
+                found |= profiles_along(self.scene, link, self.turned(link))
+        return found
+
+    def turned(self, link: str) -> Reals:
+        """The angle of a link's x axis at every position (N,), radians."""
         driver = self.scene.drivers[(self.sweep.number or 1) - 1]
-        if driver.against != FRAME or driver.of is not None:
-            return {}
-        return profiles_along(self.scene, driver.link, np.radians(self.at))
+        if self.sweep.what == "turn" and driver.link == link:
+            if driver.against == FRAME and driver.of is None:
+                return np.radians(self.at)
+        target = "axis", link
+        return np.angle(columns_at(self.sweep, self.path, self.at, [target]).columns[target])
 
     def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
         """The same cycle at other places u, those that have no motion left out.

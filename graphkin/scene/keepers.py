@@ -15,7 +15,17 @@ from msgspec.structs import replace
 from graphkin.scene.expression import Pair as Sum
 from graphkin.scene.findings import numbered, shown
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Apart, At, Driver, Link, Rolling, Slide, Wheel
+from graphkin.scene.model import (
+    FRAME,
+    Apart,
+    At,
+    Driver,
+    Link,
+    Rolling,
+    Slide,
+    Wheel,
+    of_one_size,
+)
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.scene.read_cams import next_name
 
@@ -27,7 +37,7 @@ def with_keepers(
 
     A name that a scene gives one, ``rolls = { …, link = "arm" }``, asks for it.
     """
-    written = {FRAME: frame, **links}
+    written = laid_on_rollers({FRAME: frame, **links}, measures)
     held = {name: joints_of(written, name, drivers) for name in written}
     every = dict(written)
     for name, link in written.items():
@@ -40,6 +50,84 @@ def with_keepers(
             rolls[index] = counted_alike(rolling, keeper.name)
             every[name] = replace(every[name], rolls=tuple(rolls))
     return every.pop(FRAME), every
+
+
+def laid_on_rollers(written: Mapping[str, Link], measures: Measures) -> dict[str, Link]:
+    """The links, those that lie on rollers of one size sliding along the track of these."""
+    found = dict(written)
+    for name, link in written.items():
+        loose = name != FRAME and not joints_of(written, name, ())
+        guide = roller_guide(written, link, measures) if loose else None
+        if guide is not None:
+            found[name] = replace(link, slides=(guide,))
+    return found
+
+
+def roller_guide(
+    written: Mapping[str, Link], plank: Link, measures: Measures
+) -> Slide | None:
+    """The guide along which rollers of one size keep a plank, twice their radius from their track.
+
+    None where they do not: each rolls on one line of the plank and on one of another link.
+    """
+    pairs = [
+        (link, upper, lower)
+        for link in written.values()
+        for upper in link.rolls
+        for lower in link.rolls
+        if upper.on == plank.name != lower.on and len(link.wheels) == 1
+    ]
+    rollers = tuple(dict.fromkeys(link.name for link, _, _ in pairs))
+    if len(pairs) != len(rollers) or len(rollers) < 2:
+        return None
+    (first, upper, lower), *others = pairs
+    size, height = first.wheels[0].radius, height_on(plank, upper)
+    if size is None or height is None or lower.angle is None or lower.through is None:
+        return None
+    for link, above, below in others:
+        alike = of_one_size(first.wheels[0], link.wheels[0])
+        if not (alike and same_line(plank, upper, above, measures)):
+            return None
+        if not same_line(written[lower.on], lower, below, measures):
+            return None
+    if upper.side != -lower.side:
+        return None
+    apart = combined("+", size, size)
+    apart = apart if lower.side > 0 else apart.negative()
+    return Slide(
+        lower.on, lower.through, lower.angle, None, combined("-", apart, height), rollers=rollers
+    )
+
+
+def height_on(plank: Link, track: Rolling) -> Quantity | None:
+    """How far a track along a link's x axis lies to the left of the link's first point."""
+    first = place_on(plank, plank.points[0]) if plank.points else None
+    there = place_on(plank, track.through)
+    if first is None or there is None or track.angle is None or not track.angle.is_zero():
+        return None
+    return combined("-", there, first)
+
+
+def place_on(link: Link, point: str | tuple[Quantity, Quantity] | None) -> Quantity | None:
+    """How far a point of a link, or a place on it, is written to lie left of its x axis."""
+    if isinstance(point, tuple):
+        return point[1]
+    return next((p.y for p in link.placings if isinstance(p, At) and p.point == point), None)
+
+
+def same_line(link: Link, one: Rolling, other: Rolling, measures: Measures) -> bool:
+    """Whether two tracks of a link are one line with one side, as it is written."""
+    if one.on != other.on or one.side != other.side or None in (one.angle, other.angle):
+        return False
+    assert one.angle is not None and other.angle is not None
+    if one.angle.number(measures.values) != other.angle.number(measures.values):
+        return False
+    if one.through == other.through:
+        return True
+    heights = height_on(link, one), height_on(link, other)
+    if heights[0] is None or heights[1] is None:
+        return False
+    return bool(heights[0].number(measures.values) == heights[1].number(measures.values))
 
 
 def keeper_of(

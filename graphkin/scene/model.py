@@ -134,6 +134,7 @@ class Slide(Struct, frozen=True):
     The guide passes ``through`` a point of that link (a name, or coordinates) at an angle to its
     x axis, or ``along`` two of its points (zero of the coordinate at the first, positive towards
     the second). The block's first point keeps the distance ``offset`` to the left of the guide.
+    ``rollers`` of one size, which keep a link parallel to their track, stand for a guide.
     """
 
     on: str
@@ -142,6 +143,7 @@ class Slide(Struct, frozen=True):
     along: tuple[str, str] | None
     offset: Quantity
     pin: bool = False
+    rollers: tuple[str, ...] = ()
 
     def called(self, names: Mapping[str, str]) -> Slide:
         """The same with links by other names."""
@@ -218,11 +220,15 @@ GuideOrTrack = Slide | Rolling
 class Profile(Struct, frozen=True):
     """The edge by which a link touches another: an arc about a point of the link, only drawn.
 
-    It passes ``through`` the place where a point stands now, which another link may own.
+    It passes ``through`` the place where a point stands now, which another link may own, and is
+    drawn over an ``arc`` about it, as far as there is room where none is told. The link of a
+    ``hollow`` lies beyond it, and is not drawn to its centre.
     """
 
     about: str
     through: str
+    arc: Quantity | None = None
+    hollow: bool = False
 
 
 class CamPiece(Struct, frozen=True):
@@ -331,6 +337,10 @@ class Link(Struct, frozen=True):
     def paths(self) -> tuple[GuideOrTrack, ...]:
         """What it slides and rolls on."""
         return (*self.slides, *self.rolls)
+
+    def is_hollow_about(self, point: str) -> bool:
+        """Whether a point of the link is the centre of a hollow in it."""
+        return any(each.hollow and each.about == point for each in self.profiles)
 
     def called(self, names: Mapping[str, str]) -> Link:
         """The same by another name, with those of the links that it slides and rolls on."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from graphkin.scene.findings import Findings, Table, numbered
 from graphkin.scene.known_names import known_point, named, place_of
+from graphkin.scene.measures import Measures
 from graphkin.scene.model import At, Link, Profile, Scene
 from graphkin.scene.phrases import point_name
 from graphkin.scene.read_joints import tables
@@ -12,19 +13,21 @@ OTHERWISE = "a profile is an arc: it needs a radius"
 """The hint where the centre of a profile lies on it."""
 
 
-def read_profiles(table: Table) -> tuple[Profile, ...]:
+def read_profiles(table: Table, measures: Measures) -> tuple[Profile, ...]:
     """The profiles of a link."""
-    return tuple(read_profile(each) for each in tables(table, "profiles"))
+    return tuple(read_profile(each, measures) for each in tables(table, "profiles"))
 
 
-def read_profile(table: Table) -> Profile:
-    """One profile, ``{ about, through }``; a point that cannot be read is empty."""
+def read_profile(table: Table, measures: Measures) -> Profile:
+    """One profile, ``{ about, through, arc, hollow }``; a point that cannot be read is empty."""
     about, through = (
         point_name(table.at(key), table.take(key), table.findings) or ""
         for key in ("about", "through")
     )
+    arc = measures.angle(table.at("arc"), table.take("arc")) if "arc" in table else None
+    hollow = table.flag("hollow")
     table.finish()
-    return Profile(about, through)
+    return Profile(about, through, arc, hollow)
 
 
 def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:

@@ -227,7 +227,7 @@ def as_table(raw: object) -> dict[str, Any]:
 def read_link(name: str, table: Table, measures: Measures, module: Quantity | None) -> Link:
     """One link: its points and their placings, its guides, wheels, tracks and profiles."""
     points, placings = read_shape(table, measures)
-    wheels, profiles = read_wheels(table, measures, module), read_profiles(table)
+    wheels, profiles = read_wheels(table, measures, module), read_profiles(table, measures)
     if name == FRAME:
         for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:

@@ -93,7 +93,10 @@ def two_radii(table: Table, measures: Measures, *, inside: bool) -> tuple[str, s
             expected = "the profile's radius, then the larger one of the hollow"
             hint = "touches is written on the link that lies in the hollow"
             if own == hollow:
-                hint = "both have one centre: write it as a pin"
+                hint = (
+                    "both have one centre: write a pin, and both arcs as profiles, the hollow's "
+                    "with hollow = true"
+                )
             measures.findings.add(place, found, expected, hint)
             return None
     return str(raw[0]), str(raw[1])

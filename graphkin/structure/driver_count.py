@@ -195,7 +195,7 @@ def driven_twice(scene: Scene, driver: Driver, loose: Sequence[str]) -> Problem:
 
 def drivable(scene: Scene) -> list[str]:
     """Links that are pinned to the frame and that no driver turns."""
-    driven = {driver.link for driver in scene.drivers}
+    driven, scene = {driver.link for driver in scene.drivers}, scene.bare
     pinned = [
         link
         for point, links in sharers(scene).items()

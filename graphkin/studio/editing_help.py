@@ -22,7 +22,7 @@ slides = {}
 rolls = {}
 belt = {}
 touches = {}
-profiles = {}
+profiles = { about = "A" }
 cam = { law = [{}] }
 [links.2]
 O-B = 1

@@ -2,6 +2,7 @@
 
 A crank-rocker whose rocker drives the next by a parallel rod, and so on. The exponent is the slope
 of the logarithms over the larger chains: 1 is as many times the work for as many times the links.
+Seconds are those of the processor; with OPENBLAS_NUM_THREADS=1 no second core counts among them.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -56,9 +58,10 @@ def scene(dyads: int) -> str:
 
 
 def timed(work: Callable[[], Any]) -> float:
-    """Shortest of some calls in seconds, fewer of slow ones."""
-    first = timeit.timeit(work, number=1)
-    return min([first, *timeit.repeat(work, number=1, repeat=max(3, min(20, int(1 / first))))])
+    """Shortest of some calls in seconds of the processor, fewer of slow ones."""
+    first = timeit.timeit(work, number=1, timer=process_time)
+    count = max(3, min(20, int(1 / max(first, 1e-6))))
+    return min([first, *timeit.repeat(work, number=1, repeat=count, timer=process_time)])
 
 
 def costs(dyads: int) -> dict[str, float]:

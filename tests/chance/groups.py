@@ -335,7 +335,11 @@ def rim_pin(m: Maker) -> None:
     straight(m, wheel, centre[0], on, m.direction(), m.length())
 
 
-def gear(m: Maker) -> None:
+HOWS = ("outside", "outside", "ring", "within", "open", "crossed")
+"""How two wheels touch, or how a belt goes round them."""
+
+
+def gear(m: Maker, hows: tuple[str, ...] = HOWS) -> None:
     """A sun about a pin of a body, driven or part of the body, and a planet on a driven arm.
 
     They touch, or a belt joins them.
@@ -343,7 +347,7 @@ def gear(m: Maker) -> None:
     on = m.any_body()
     sun_at = m.anchor(on)
     radii = m.length(), m.length()
-    how = m.rng.choice(("outside", "outside", "ring", "within", "open", "crossed"))
+    how = m.rng.choice(hows)
     belt = how if how in ("open", "crossed") else ""
     if how not in ("outside", "crossed"):
         small, large = sorted(radii)
@@ -406,6 +410,11 @@ def meshed(
         if name != FRAME
     }
     m.standing.gears.append(Gear(wheel, on, arm, centres, radii, belt, start, turned))
+
+
+def belted(m: Maker) -> None:
+    """Two wheels on an arm with a belt round them."""
+    gear(m, ("open", "crossed"))
 
 
 def rack(m: Maker) -> None:
@@ -477,6 +486,40 @@ def planet(m: Maker) -> None:
         m.standing.gears.append(
             Gear(last, wheel, arm, (pin[0], centre[0]), (own, radius), "", start, own_turned)
         )
+
+
+def series(m: Maker) -> None:
+    """A sun and a ring about one pin, both driven, and two planets in a row on a free arm."""
+    on = m.any_body()
+    centre = m.anchor(on)
+    small, first, second = m.length(), m.length(), m.length()
+    spots = [centre[1] + (small + first) * m.direction()]
+    spots.append(spots[0] + (first + second) * m.across(spots[0] - centre[1]))
+    large = abs(spots[1] - centre[1]) + second
+    suns = [wheel_body(m, centre) for _ in range(2)]
+    for wheel, radius in zip(suns, (small, -large), strict=True):
+        m.turn(wheel, m.rng.choice([on, FRAME]))
+        m.standing.bodies[wheel].wheels.append((centre[0], radius))
+    pins = [(m.name(), spot) for spot in spots]
+    arm = m.body(dict([centre, *pins]))
+    planets = [wheel_body(m, pin) for pin in pins]
+    turned = {arm: m.rng.uniform(-2, 2), suns[0]: m.rng.uniform(-2, 2)}
+
+    def mesh(wheel: str, on: str, radii: tuple[float, float], ends: tuple[str, str]) -> None:
+        names = wheel, on, arm
+        start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
+        own = {name: turned[name] for name in names}
+        m.standing.gears.append(Gear(wheel, on, arm, ends, radii, "", start, own))
+
+    for planet, pin, radius in zip(planets, pins, (first, second), strict=True):
+        m.standing.bodies[planet].wheels.append((pin[0], radius))
+    seen = turned[suns[0]] - turned[arm]
+    turned[planets[0]] = turned[arm] - small / first * seen
+    turned[planets[1]] = turned[arm] + small / second * seen
+    turned[suns[1]] = turned[arm] + small / large * seen
+    mesh(planets[0], suns[0], (first, small), (pins[0][0], centre[0]))
+    mesh(planets[1], planets[0], (second, first), (pins[1][0], pins[0][0]))
+    mesh(planets[1], suns[1], (second, -large), (pins[1][0], centre[0]))
 
 
 def kept_bar(m: Maker) -> None:
@@ -572,10 +615,12 @@ GROUPS = {
     "planet": planet,
     "kept bar": kept_bar,
     "cam": cam,
+    "belt": belted,
+    "series": series,
 }
 STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
 TRIES = 60
-ADDED = {"kept bar": (13, 5), "cam": (11, 7)}
+ADDED = {"kept bar": (13, 5), "cam": (11, 7), "belt": (9, 7), "series": (13, 9)}
 """Groups at the end of every so many seeds, those that leave such a rest.
 
 Thus a new kind of group changes no other seed: tests name seeds for what is special in them.

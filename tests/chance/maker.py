@@ -12,7 +12,7 @@ from random import Random
 import numpy as np
 
 from tests.chance.constraints import Moved, equations
-from tests.chance.records import FRAME, Body, Drive, Slide, Standing, Straight
+from tests.chance.records import FRAME, ROUND, Body, Drive, Slide, Standing, Straight
 
 STIFF = 0.03
 """Least share by which a group must resist every way of moving it, or it is made anew."""
@@ -218,7 +218,27 @@ class Maker:
                     straight = abs(line.imag) < 1e-12 * abs(line)
                     line = complex(line.real, 0.0) if straight else line
                 return self.angle(drive.against) + drive.position - phase(line)
+        if (known := self.slid_with_driven(body)) is not None:
+            lean = phase(bodies[body].axis * bodies[known].axis.conjugate())
+            return self.angle(known) + (lean + math.tau if lean < ROUND - math.pi else lean)
         return bodies[body].angle
+
+    def slid_with_driven(self, body: str) -> str | None:
+        """The next body along slides towards one that a driver turns: they turn as one."""
+        driven = {d.body for d in self.standing.drives if d.kind == "turn"} - self.rolling()
+        slides = [(slide.block, slide.on) for slide in self.standing.slides.values()]
+        towards, waiting = {body: body}, [body]
+        while waiting:
+            here = waiting.pop(0)
+            if here in driven:
+                return towards[here]
+            beside = [on for block, on in slides if block == here]
+            beside += [block for block, on in slides if on == here]
+            for each in beside:
+                if each not in (FRAME, *towards):
+                    towards[each] = each if here == body else towards[here]
+                    waiting.append(each)
+        return None
 
     def rolling(self) -> set[str]:
         """The wheels on straight tracks."""

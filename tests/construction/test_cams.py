@@ -363,6 +363,23 @@ def test_the_table_of_a_cycle_has_the_pressure_angle_and_the_radius_of_curvature
         assert float(row["radius_2 [m]"]) == pytest.approx(rho, rel=1e-9)
 
 
+def test_the_table_has_the_pressure_angle_of_a_cam_that_a_gear_turns():
+    """The gear goes half as fast and back: the same angles as of the cam turned there by hand."""
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    frame = "[frame]\nO = [0, 0]\n"
+    drive = '[links.drive]\nG = [0, 0]\nwheel = { centre = "G", radius = 30 }\n'
+    gear = 'wheel = { centre = "O", radius = 60 }\nrolls = { on = "drive" }\n'
+    text = text.replace(frame, f"{frame}G = [90, 0]\n{drive}")
+    text = text.replace("[links.1] ", f"[links.1]\n{gear}# ")
+    geared = Mechanism(read_text(text.replace("turn = 1", 'turn = "drive"'), "geared"))
+    rows = csv.DictReader(io.StringIO(cycle_table(cycle(geared, steps=24))))
+    direct = load(SCENES / "cam-roller.toml").scene
+    for row in rows:
+        profile = CamProfile(direct, "2", given=np.radians([-float(row["phi [deg]"]) / 2]))
+        assert float(row["pressure_2 [deg]"]) == pytest.approx(profile.pressure[0], abs=1e-9)
+        assert float(row["radius_2 [m]"]) == pytest.approx(profile.radius[0], rel=1e-9)
+
+
 def turned_tables(text, table):
     """The scene of a cam with its law by another table."""
     begin, end = text.index("law = ["), text.index("[[drivers]]")

@@ -17,7 +17,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher, Spun
 from graphkin.structure.mobility import count
-from graphkin.text.errors import SceneError, StructureError
+from graphkin.text.errors import GraphkinError, SceneError, StructureError
 from tests.chosen import FOLDER
 
 SCENES = (
@@ -317,10 +317,49 @@ def test_a_name_is_asked_for_only_where_there_is_something_to_name():
         read_text(kept.replace('"k"', '"1"'), "kept")
 
 
+@pytest.mark.parametrize(("side", "other", "height"), [("left", "right", 1), ("right", "left", -1)])
+def test_rollers_of_one_size_keep_a_plank_parallel(side, other, height):
+    """Twice the radius from the floor, at twice the speed of the centres: v = -2ωr, a = -2εr."""
+    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
+    assert "slides" not in text
+    text = text.replace("P = [0, 0]", "P = [0, 7]").replace("[480, 0]", "[480, -3]")
+    text = text.replace('through = "P"', "through = [0, -3]").replace('side = "right"', "SIDE")
+    text = text.replace("{ on = 0, ", f'{{ on = 0, side = "{side}", ')
+    text = text.replace("SIDE", f'side = "{other}"')
+    driven = text.replace("slide = 3\nposition = 70", "roll = 2\nposition = 35")
+    for drive, times in ((text, 1), (driven, 2)):
+        plank = made(drive)
+        motion = plank.solve()
+        assert plank.witness(motion).agrees
+        assert motion.points["P"].position.imag == pytest.approx(0.1 * height + 0.010)
+        assert motion.points["P"].velocity == pytest.approx(0.2 * times)
+        assert motion.points["P"].acceleration == pytest.approx(0.05 * times)
+        for roller in "12":
+            assert motion.links[roller].omega == pytest.approx(-2 * times * height)
+            assert motion.links[roller].epsilon == pytest.approx(-0.5 * times * height)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"D", radius = "r"', '"D", radius = 40'),
+        ("[480, 0]", "[480, 1]"),
+        ('through = "R", angle = 0 }', 'through = "R", angle = 1 }'),
+        ('[480, 0], angle = 0, side = "right"', "[480, 0], angle = 0"),
+    ],
+)
+def test_rollers_that_are_not_alike_lead_no_plank(old, new):
+    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
+    assert made(text).scene.links["3"].slides[0].rollers == ("1", "2")
+    assert old in text
+    with pytest.raises(GraphkinError):
+        made(text.replace(old, new)).solve()
+
+
 def test_wheels_of_two_sizes_under_a_plank_are_refused_by_name():
     """No wheel leads a plank that wheels alone hold: as dyads the parallel tracks are singular."""
     text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
-    text = text.replace('slides = { on = 0, through = [0, "2*r"], angle = 0 }', "")
+    text = text.replace('"D", radius = "r"', '"D", radius = 40')
     text = text.replace(
         'slide = 3\nposition = 70\nspeed = "v"', 'roll = 1\nposition = 70\nspeed = "v"'
     )
@@ -331,7 +370,8 @@ def test_wheels_of_two_sizes_under_a_plank_are_refused_by_name():
 def test_wheels_between_tracks_at_an_angle_are_refused_by_name():
     """Each track alone says how they roll: only a plank that slides midway lets them do both."""
     text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
-    text = text.replace('through = [0, "2*r"], angle = 0', 'through = [0, "2*r"], angle = 5')
+    guide = 'slides = { on = 0, through = [0, "2*r"], angle = 5 }'
+    text = text.replace("P = [0, 0]\n", f"P = [0, 0]\n{guide}\n")
     with pytest.raises(
         StructureError, match="wheels 1, 2 between two tracks that are not parallel"
     ):

@@ -108,3 +108,20 @@ def test_a_profile_of_the_frame_is_drawn_and_one_without_a_radius_refused():
     with pytest.raises(PageError, match="P and A stand at one place; expected an arc") as told:
         list(drawn(mechanism_of(MEETING.format(angle=0))))
     assert told.value.problems[0].place == "frame.profiles"
+
+
+def test_a_disc_lies_in_a_hollow_whose_link_is_not_drawn_to_the_centre():
+    """A Geneva drive that dwells: two arcs of one circle, and a plate that ends at its hollow."""
+    mechanism = load(FOLDER / "geneva-dwell.toml")
+    drawing, *_ = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))
+    layout = lay_out(drawing)
+    marks = left_board(drawing, layout, "key").marks
+    disc, hollow = sorted((m for m in marks if m.cls == "profile"), key=lambda mark: mark.name)
+    centre = layout.mechanism(drawing.positions["O1"])
+    assert apart((disc.cx, disc.cy), centre) < 1e-9
+    assert apart((hollow.cx, hollow.cy), centre) < 1e-9
+    assert isclose(disc.r, hollow.r)
+    assert (isclose(disc.end - disc.start, 270), isclose(hollow.end - hollow.start, 80)) == (1, 1)
+    plate = next(mark for mark in marks if mark.cls == "plate" and mark.name == "2")
+    assert min(apart(corner, centre) for corner in plate.points) > hollow.r - 1e-9
+    assert sum(m.cls == "hinge" and m.name == "O1" for m in marks) == 0

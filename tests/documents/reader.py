@@ -229,6 +229,8 @@ class Reader:
         points = re.findall(NAME, self.links.get(index, "").split(" ")[-1])
         plan = self.velocity or self.place
         for p, q in pairwise(points):
+            if not {self.image(p), self.image(q)} <= plan.keys():
+                continue
             turned = cross(self.at(q) - self.at(p), self.moved(q, plan) - self.moved(p, plan))
             if abs(turned) > APART:
                 return 1 if turned > 0 else -1
@@ -292,7 +294,7 @@ class Reader:
         match = re.match(
             rf"the line (?:of link \w+ )?through (?:({NAME})|\(({NUMBER})[;,] ({NUMBER})\) "
             r"(mm|cm|m)) "
-            rf"at ({NUMBER}°) to (?:the x axis|({NAME})({NAME}))",
+            rf"at ({NUMBER}°) to (?:the x axis(?: of link (\w+))?|({NAME})({NAME}))",
             words,
         )
         if match is None:
@@ -304,7 +306,11 @@ class Reader:
             where = self.origin + there / self.scale
         along = cmath.rect(1, self.angle(match[5]))
         if match[6]:
-            along *= self.at(match[7]) - self.at(match[6])
+            if match[6] not in self.lies:
+                raise DefectError(f"the axes of link {match[6]} do not stand")
+            along *= self.lies[match[6]]
+        if match[7]:
+            along *= self.at(match[8]) - self.at(match[7])
         return Line.of(where, along)
 
     def shifted_line(self, line: Line, words: str) -> Line:
@@ -460,6 +466,25 @@ class Reader:
             along *= -1 if beyond else 1
         self.ray = Line.of(self.at(p), along)
 
+    @says("set link ⟨k:number⟩ at its angle about ⟨p⟩: (?P<names>[^;]*)")
+    def set_link(self, k: str, p: str, names: str) -> None:
+        """A plate whose own axes the data give: its x axis at the driver's angle."""
+        self.lies[k] = turned = cmath.rect(1, self.angle("φ"))
+        own = self.own_points(k)
+        for name in names.split(", "):
+            self.put(name, self.at(p) + turned * (own[name] - own[p]))
+
+    def own_points(self, k: str) -> dict[str, complex]:
+        """The points of a link in its own axes, as the data give them, in mm of paper."""
+        item = next((i for i in self.items if i.endswith(f"in the axes of link {k}")), None)
+        if item is None:
+            raise DefectError(f"the points of link {k} are not given")
+        unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
+        return {
+            one: complex(number(x), number(y)) * unit / self.scale
+            for one, x, y in re.findall(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\)", item)
+        }
+
     @says("on it lay off ⟨p⟩⟨q⟩: ⟨name⟩")
     def mark_off(self, p: str, q: str, name: str) -> None:
         if self.ray is None:
@@ -547,7 +572,9 @@ class Reader:
     @says("(?:through ⟨p⟩ )?draw guide ⟨k:number⟩")
     def draw_guide(self, k: str, p: str | None) -> None:
         item = self.told_of(rf"(?:pin )?{sliding(self.sliding_point(k), k)} slides")
-        if p is None and "along the line of link" in item:
+        told = re.search(rf"of link (\w+) through ({NAME}) at .* to the x axis of link", item)
+        stands = told and told[1] in self.lies and self.stands(told[2])
+        if p is None and "along the line of link" in item and not stands:
             raise DefectError(f"guide {k} moves: no point is told through which to draw it")
         self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
 
@@ -617,17 +644,12 @@ class Reader:
 
     @says("link ⟨k:number⟩ stands as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
     def as_at_start(self, k: str, p: str, names: str) -> None:
-        item = next(i for i in self.items if i.endswith(f"in the axes of link {k}"))
         rolls = self.told_of(rf"wheel {k} rolls")
         start = re.search(rf"when the x axis of link {k} is at ({NUMBER}°)", rolls)
         if start is None:
             raise DefectError(f"the axes of link {k} have no start")
         turned = cmath.rect(1, self.angle(start[1]))
-        unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
-        own = {
-            one: turned * complex(number(x), number(y)) * unit / self.scale
-            for one, x, y in re.findall(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\)", item)
-        }
+        own = {one: turned * where for one, where in self.own_points(k).items()}
         for name in names.split(", "):
             self.put(name, self.at(p) + own[name] - own[p])
 

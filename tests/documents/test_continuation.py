@@ -1,5 +1,6 @@
 """Continuation sheets: nothing is lost, nothing is told twice, and sheets are numbered through."""
 
+import re
 from functools import cache
 
 import pytest
@@ -15,6 +16,7 @@ from graphkin.text import words
 from graphkin.writers.files import rendered
 from tests.bench.chain import scene
 from tests.documents.sheet_tools import collisions, outside
+from tests.scene_files import scene_text
 
 
 def train(wheels: int) -> str:
@@ -86,3 +88,28 @@ def test_the_first_sheet_keeps_its_name():
     files = rendered("large-acceleration-key", "acceleration", pages, ("svg", "pdf"))
     stem = "large-acceleration-key"
     assert list(files) == [f"{stem}.svg", f"{stem}-2.svg", f"{stem}.pdf"]
+
+
+def test_a_walker_of_37_links_of_which_all_is_sought_goes_on_over_several_sheets():
+    """Its sentences stand once each, in order; a name has a place or is noted at the foot."""
+    mechanism = Mechanism(read_text(scene_text("documents/walker"), "walker"))
+    assert len(mechanism.scene.links) == 37
+    spoken = words("en")
+    drawing, *_ = drawings_of(mechanism, proved(mechanism, mechanism.solve()), spoken)
+    velocity = hand_out(mechanism, "key", "en")[0]
+    assert len(velocity.pages) > 2
+    numbers = [
+        int(mark.markup[:-1])
+        for page in velocity.pages
+        for mark in page.marks
+        if isinstance(mark, Text) and re.fullmatch(r"\d+\.", mark.markup)
+    ]
+    assert numbers == [*range(1, len(list(sentences(drawing))) + 1)]
+    told = said(velocity.pages[1:])
+    assert all("".join(plain(each.markup).split()) in told for each in sentences(drawing))
+    first = [mark for mark in velocity.pages[0].marks if isinstance(mark, Text)]
+    notes = " ".join(plain(mark.markup) for mark in first if mark.name == "note")
+    assert "no room for the names of: " in notes
+    lettered = {plain(mark.markup) for mark in first if mark.name != "note"}
+    for name in [*mechanism.scene.links, *mechanism.scene.points]:
+        assert name in lettered or re.search(rf"\b{name}\b", notes), name

@@ -51,6 +51,15 @@ def test_a_link_has_one_profile_or_several_through_points_of_any_link():
     assert scene.links["n1_2"].profiles == ()
 
 
+def test_an_arc_has_an_angle_and_a_hollow_is_said_so():
+    told = ONE.replace(" }", ", arc = 80, hollow = true }")
+    (found,) = scene_with(first=f"profiles = {told}").links["1"].profiles
+    assert found.hollow
+    assert found.arc.number({}) == 80
+    with pytest.raises(SceneError, match=r"links\.1\.profiles\.arc: a list of 0"):
+        scene_with(first="profiles = " + ONE.replace(" }", ", arc = [] }"))
+
+
 CASES = [
     ('{ about = "K2", through = "M" }', "links.1.profiles.about", "K2 is no point of link 1", "K1"),
     ('{ about = "K1", through = "N" }', "links.1.profiles.through", "N is no point of", "K2"),

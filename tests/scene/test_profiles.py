@@ -114,7 +114,7 @@ def test_the_witness_agrees():
         ),
         (
             'touches = { on = 2, centres = "K1-K2", radii = [2, 2], inside = true }',
-            "one centre: write it as a pin",
+            "one centre: write a pin, and both arcs",
         ),
     ],
 )

@@ -42,6 +42,19 @@ def test_the_geneva_wheel_turns_by_its_closed_form(angle):
     assert found.epsilon == pytest.approx(bent, rel=1e-11, abs=1e-11)
 
 
+@pytest.mark.parametrize("angle", range(50, 311, 130))
+def test_the_geneva_wheel_dwells_while_the_disc_is_in_its_hollow(angle):
+    """Norton: pin and disc turn freely, the wheel stands, and both arcs lie on one circle."""
+    found = at("geneva-dwell", angle)
+    motion, scene = found.solve(), found.scene
+    assert motion.links["2"].omega == motion.links["2"].epsilon == 0
+    assert within(abs(motion.points["P"].velocity), 0.05 * 60 * RPM, 1e-12)
+    ends = [profile for link in scene.links.values() for profile in link.profiles]
+    radii = [abs(motion.points[each.through].position) for each in ends]
+    assert radii == pytest.approx([0.035, 0.035])
+    assert found.witness(motion).agrees
+
+
 @pytest.mark.parametrize("angle", range(-50, 51, 20))
 def test_peaucellier_s_inversor_draws_a_straight_line(angle):
     """OP·OQ = OA² - AP², so that Q keeps the distance (OA² - AP²)/(2·OC) from O."""

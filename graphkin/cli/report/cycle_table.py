@@ -105,7 +105,7 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
 
 
 def of_cams(cycle: Cycle) -> Iterator[Column]:
-    """The pressure angle and the radius of curvature of every cam that the driver turns."""
+    """The pressure angle and the radius of curvature of every cam."""
     for follower, profile in cycle.profiles.items():
         yield f"pressure_{follower} [deg]", profile.pressure
         yield f"radius_{follower} [m]", profile.radius

@@ -36,7 +36,15 @@ def structure(scene: Scene) -> Iterator[str]:
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
-    """Each link that the scene does not have, put in to keep a wheel in its place."""
+    """Each link that the scene does not have, put in to keep a wheel where it rolls.
+
+    And each guide that it does not have, put in for rollers of one size.
+    """
+    for name, link in scene.links.items():
+        for slide in (each for each in link.slides if each.rollers):
+            rollers = joined_words(slide.rollers)
+            kept = f"{rollers}, wheels of one size, keep it parallel to {link_words(slide.on)}"
+            yield f"slide of {link_words(name)} on {link_words(slide.on)}: {kept}"
     for name, (wheel, path) in scene.keepers.items():
         link = scene.links[name]
         what = f"{link.points[0]}, a block on the parallel to the track through the centre"

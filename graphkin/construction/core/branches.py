@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from msgspec.structs import replace
 
@@ -57,8 +57,10 @@ def has_two_ways(dyad: Dyad) -> bool:
     return dyad.type in ("RRP", "RPR", "RRW")
 
 
-def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
-    """A problem for each branch that no group has a choice for."""
+def unused_branches(
+    scene: Scene, groups: tuple[Group, ...], told: Collection[str] = ()
+) -> list[Problem]:
+    """A problem for each branch that no group has a choice for, but for those ``told`` of."""
     allowed = choosing(groups)
     return [
         Problem(
@@ -68,7 +70,7 @@ def unused_branches(scene: Scene, groups: tuple[Group, ...]) -> list[Problem]:
             f"take it out{only_way(scene, groups, name)}",
         )
         for name in scene.branches
-        if name not in allowed
+        if name not in allowed and name not in told
     ]
 
 

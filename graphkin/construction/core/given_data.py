@@ -91,6 +91,7 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
         ),
         *wheels(scene, words),
         *tracks(drawing),
+        *arcs(scene, words),
         *cams(drawing),
         *closures(drawing),
         *of_scales(drawing),
@@ -111,6 +112,18 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
         *plates(drawing),
         *map(Datum, sentences),
     ]
+
+
+def arcs(scene: Scene, words: Words) -> Iterator[str]:
+    """The links that turn in the hollow of another along an arc about one centre."""
+    for link in scene.every_link:
+        for hollow in (each for each in link.profiles if each.hollow):
+            for other in scene.every_link:
+                for arc in (each for each in other.profiles if each.about == hollow.about):
+                    if other is not link and not arc.hollow:
+                        ends = {"p": symbol(arc.through), "q": symbol(hollow.through)}
+                        links = {"g": escape(other.name), "k": escape(link.name)}
+                        yield words("page.arcs", centre=symbol(arc.about), **links, **ends)
 
 
 def cams(drawing: Drawing) -> Iterator[str]:

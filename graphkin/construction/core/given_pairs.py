@@ -220,11 +220,17 @@ def whole_turns(drawing: Drawing) -> Iterator[str]:
 
 
 def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
-    """Words for where a wheel touches a straight track at the start, and how it then stands."""
+    """Words for where a wheel touches a straight track at the start, and how it then stands.
+
+    On a moving track the angle is that to the track's link.
+    """
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
     turned = drawing.scene.link(rolling.on) if link.name == FRAME else link
     angles = stands(drawing, turned, rolling)
+    if FRAME not in (link.name, rolling.on):
+        to = axis_of(drawing, drawing.scene.link(rolling.on))
+        angles = words("page.stands_to", stands=angles, axis=to)
     return words("page.start", through=through, angles=angles)
 
 

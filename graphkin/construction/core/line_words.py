@@ -83,16 +83,25 @@ def has_axis(drawing: Drawing, link: Link) -> bool:
 
 
 def axis_of(drawing: Drawing, link: Link) -> str:
-    """The *x* axis of a link by what is drawn: its bar, its guide, or as the axis of the link."""
+    """The *x* axis of a link by what is drawn: its bar, its guide, or as the axis of the link.
+
+    What keeps a wheel on a track is not drawn: its axis is the track.
+    """
+    scene = drawing.scene
+    if link.name in scene.unseen and link.slides:
+        _, rolling = scene.keepers[link.name]
+        if rolling.angle is not None and rolling.angle.is_zero():
+            return axis_of(drawing, scene.link(rolling.on))
+        return drawing.words("page.axis_track", k=escape(rolling.on))
     own = drawing.words("page.axis_link", k=escape(link.name))
     if len(link.points) > 1:
         coordinates = sum(isinstance(placing, At) for placing in link.placings)
         return own if coordinates > 1 else bar(*link.points[:2])
     if link.slides and link.slides[0].along:
         return bar(*link.slides[0].along)
-    blocks = [other for other in drawing.scene.links.values() if is_along(other, link)]
+    blocks = [other for other in scene.links.values() if is_along(other, link)]
     for block in (link, *blocks):
-        if block.slides:
+        if block.slides and block.name not in scene.unseen:
             return drawing.words("page.axis_guide", g=escape(block.name))
     return own
 

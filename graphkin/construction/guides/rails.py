@@ -61,10 +61,10 @@ def is_swivel(drawing: Drawing, slide: Slide) -> bool:
 
 
 def rails_of(drawing: Drawing) -> list[Rail]:
-    """The guides of all links, those on one line of one link together."""
+    """The guides of all links, those on one line of one link together; none where rollers lead."""
     found: list[Rail] = []
     near = ALIKE * drawing.standing.size
-    for way in drawing.standing.guideways:
+    for way in (each for each in drawing.standing.guideways if not each.slide.rollers):
         swivel = is_swivel(drawing, way.slide)
         owner = way.block if swivel else way.slide.on
         start = way.at if swivel or owner == FRAME else way.zero
@@ -97,6 +97,6 @@ def swivelling(drawing: Drawing) -> list[complex]:
 
 
 def places_of(drawing: Drawing, link: str) -> list[complex]:
-    """Where the points of a link stand."""
-    points = drawing.scene.link(link).points
-    return [drawing.positions[p] for p in points if p in drawing.positions]
+    """Where the points of a link stand, but for the centres of its hollows."""
+    own, places = drawing.scene.link(link), drawing.positions
+    return [places[p] for p in own.points if p in places and not own.is_hollow_about(p)]

@@ -52,7 +52,8 @@ def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> No
     for _, marks in frame_guides(drawing, field):
         board.marks += marks
     for guideway in drawing.standing.guideways:
-        if guideway.slide.on == FRAME and not guideway.slide.pin:
+        slide = guideway.slide
+        if slide.on == FRAME and not slide.pin and not slide.rollers:
             here, way = field(seat(drawing, guideway)), field.way(guideway.along)
             board.marks.append(block(here, way, guideway.block, "slider"))
 
@@ -166,7 +167,7 @@ def joint(field: Field, rail: Rail, point: complex, ends: list[float]) -> Iterat
 def draw_blocks(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The blocks that move along moving links, each with the arm to its point if it needs one."""
     for way in drawing.standing.guideways:
-        if way.slide.on == FRAME or way.slide.pin:
+        if way.slide.on == FRAME or way.slide.pin or way.slide.rollers:
             continue
         swivel = is_swivel(drawing, way.slide)
         owner = way.slide.on if swivel else way.block

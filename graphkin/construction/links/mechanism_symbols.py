@@ -78,9 +78,12 @@ def moving_points(drawing: Drawing) -> set[str]:
 
 
 def sharers(drawing: Drawing, point: str) -> int:
-    """How many links own a point, the frame among them."""
+    """How many links own a point, the frame among them; not those of a hollow about it."""
     scene = drawing.scene
-    return sum(point in link.points for link in (scene.frame, *scene.links.values()))
+    return sum(
+        point in link.points and not link.is_hollow_about(point)
+        for link in (scene.frame, *scene.links.values())
+    )
 
 
 def draw_guide_line(board: FieldContent, drawing: Drawing, field: Field, block: Link) -> None:

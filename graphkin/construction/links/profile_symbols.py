@@ -34,7 +34,7 @@ class Edge(NamedTuple):
 
 def draw_edges(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The profiles of all links."""
-    board.marks += (edge_arc(field, edge) for edge in edges_of(drawing))
+    board.marks += (edge_arc(drawing, field, edge) for edge in edges_of(drawing))
 
 
 def edges_of(drawing: Drawing) -> Iterator[Edge]:
@@ -58,10 +58,13 @@ def without_radius(edge: Edge) -> Problem:
     return Problem(f"{place_of(edge.link)}.profiles", found, "an arc with a radius", hint)
 
 
-def edge_arc(field: Field, edge: Edge) -> Arc:
-    """The arc of a profile about its contact."""
+def edge_arc(drawing: Drawing, field: Field, edge: Edge) -> Arc:
+    """The arc of a profile about its contact, as long as it is told to be."""
     radius = abs(edge.contact - edge.centre) * field.mm
     middle = phase(edge.contact - edge.centre) * (180 / pi)
-    half = smaller(degrees(HALF) / radius, WIDEST)
+    if edge.profile.arc is None:
+        half = smaller(degrees(HALF) / radius, WIDEST)
+    else:
+        half = degrees(float(edge.profile.arc.si(drawing.scene.values))) / 2
     ends = middle - half, middle + half
     return Arc(*field(edge.centre), radius, *ends, "profile", edge.link)

@@ -43,7 +43,7 @@ from graphkin.construction.rolling.wheel_actions import (
     turned_to,
     way_rolled,
 )
-from graphkin.scene.model import FRAME, Driver, Wheel
+from graphkin.scene.model import FRAME, Driver, Link, Scene, Wheel
 from graphkin.scene.quantity import exact
 from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
@@ -283,16 +283,20 @@ def turned_by(
 def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
     """The angle of a link's x axis in radians.
 
-    Whole turns are counted for driven links and rolling wheels; for others it is that within half
-    a turn of the angle that they count near.
+    Whole turns are counted for driven links, for what slides along them and for rolling wheels; for
+    others it is that within half a turn of the angle that they count near.
     """
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if link == FRAME:
             return pen.given("nought")
         if pen.has("turned", link):
             return pen.the("turned", link)
-        if driver := next((d for d in pen.scene.drivers if turns_link(d, link)), None):
+        if driver := gives_angle(pen.scene, link):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
+        if (known := turned_with_driven(pen.scene, link)) is not None:
+            axes = axis(pen, shapes, link), axis(pen, shapes, known)
+            found = pen.draw(counted_near, *axes, angle_of(pen, shapes, known))
+            return pen.want("turned", link, found)
         near = pen.near.get(link, exact(0, "deg"))
         ends = pen.given("direction", near, of=link), pen.given("number", near, of=link)
         found = pen.draw(counted_near, axis(pen, shapes, link), *ends)
@@ -309,7 +313,7 @@ def refuse_idle_turns(pen: Pen) -> None:
         if link in counted:
             continue
         found = f"no wheel depends on how often link {link} went round"
-        if any(turns_link(driver, link) for driver in pen.scene.drivers):
+        if gives_angle(pen.scene, link) or turned_with_driven(pen.scene, link) is not None:
             found = f"a driver gives the angle of link {link}, whole turns included"
         elif pen.has("turned", link):
             found = f"link {link} rolls, which counts its whole turns"
@@ -319,9 +323,30 @@ def refuse_idle_turns(pen: Pen) -> None:
         raise StructureError(problems)
 
 
-def turns_link(driver: Driver, link: str) -> bool:
-    """Whether a driver gives the angle of a link."""
-    return driver.kind == "turn" and driver.link == link
+def gives_angle(scene: Scene, link: str) -> Driver | None:
+    """The driver that gives the angle of a link, if one does."""
+    return next((d for d in scene.drivers if d.kind == "turn" and d.link == link), None)
+
+
+def turned_with_driven(scene: Scene, link: str) -> str | None:
+    """The next link towards a driven one along slides, with which a link turns as one."""
+    towards, waiting = {link: link}, [link]
+    while waiting:
+        here = waiting.pop(0)
+        if here != link and gives_angle(scene, here):
+            return towards[here]
+        beside = slid_on(scene.link(here))
+        beside += [name for name, each in scene.links.items() if here in slid_on(each)]
+        for each in beside:
+            if each not in (FRAME, *towards):
+                towards[each] = each if here == link else towards[here]
+                waiting.append(each)
+    return None
+
+
+def slid_on(link: Link) -> list[str]:
+    """The links on which a block slides."""
+    return [slide.on for slide in link.slides]
 
 
 def driven_turn(pen: Pen, shapes: LinkShapes, driver: Driver) -> int:

@@ -20,7 +20,8 @@ def links_concerned(scene: Scene, loops: Equations, solution: Solution) -> froze
     where some link belongs to no group, for it may be idle and still hold the others.
     """
     spoken, moving = set(links_named(solution)), set(loops.links) - {FRAME}
-    owners = [owners_of(loops, point) for point in points_named(solution)]
+    links_of = owners_of(loops)
+    owners = [links_of.get(point, []) for point in points_named(solution)]
     if spoken.union(*(each for each in owners if len(each) == 1)) >= moving:
         return None
     order = stages(scene, loops)
@@ -60,9 +61,13 @@ def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:
     return any(getattr(motion, name) is not None for name in motion.__struct_fields__)
 
 
-def owners_of(loops: Equations, point: str) -> list[str]:
-    """The links that have a point."""
-    return [link for link, body in loops.bodies.items() if point in body]
+def owners_of(loops: Equations) -> dict[str, list[str]]:
+    """The links that have each point."""
+    found: dict[str, list[str]] = {}
+    for link, body in loops.bodies.items():
+        for point in body:
+            found.setdefault(point, []).append(link)
+    return found
 
 
 def has_acceleration(solution: Solution) -> bool:

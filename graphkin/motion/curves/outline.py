@@ -147,7 +147,11 @@ def block_along(stand: Outline, name: str) -> complex | None:
 
 def body(ax: Axes, stand: Outline, link: Link) -> None:
     """A bar through two points or points in line, a plate through more."""
-    places = [stand.places[point] for point in link.points if point in stand.places]
+    places = [
+        stand.places[point]
+        for point in link.points
+        if point in stand.places and not link.is_hollow_about(point)
+    ]
     if len(places) < 2:
         return
     corners = hull(places)
@@ -204,6 +208,8 @@ def profiles(ax: Axes, stand: Outline, link: Link, size: float) -> None:
         if centre is None or contact is None or centre == contact:
             continue
         half = min(PROFILE * size / abs(contact - centre), WIDEST)
+        if profile.arc is not None:
+            half = float(profile.arc.si(stand.scene.values)) / 2
         rim = centre + (contact - centre) * np.exp(1j * np.linspace(-half, half, 61))
         ax.plot(rim.real, rim.imag, color=FAINT, linewidth=1.8, zorder=3)
 
