@@ -32,6 +32,7 @@ APART = {
     "hoist-differential": "strands as racks",
     "inflection-cardan": "inflection circles",
     "klein-engine": "Klein’s construction",
+    "link-motion": "loci and trials",
     "platform-3rpr": "loci and trials",
     "platform-six": "loci and trials",
     "rapid-return": "loci and trials",
