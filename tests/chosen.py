@@ -27,6 +27,7 @@ CHOSEN = (
         "gears-kutzbach",
         "gears-pair",
         "gears-rack",
+        "gears-three-planets",
         "inflection-cardan",
         "instant-centres",
         "jumper",

@@ -25,6 +25,9 @@ LINES = ((2.5, 4.2, 2, False), (2.5, 3.75, 3, True), (1.8, 3.2, 3, False), (1.8,
 """How data without a table may look: height of letters and distance of lines in mm, lines at most,
 and whether these are so near that signs may touch."""
 
+LOWEST = AREA[1] - 7.4
+"""The foot of the lowest line in mm: below it stand the captions, of two lines where they must."""
+
 
 def data_heading(drawing: Drawing, view: str, x: float, y: float) -> list[Mark]:
     """The data from a point on, whose y is the foot of the first line.
@@ -75,13 +78,17 @@ def ruled(valued: Sequence[Datum], widths: Sequence[float], x: float, top: float
 
 
 def in_lines(drawing: Drawing, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
-    """All data in two lines, or in three, of smaller lettering only where signs would touch."""
+    """All data in two lines, or in three, of smaller lettering only where signs would touch.
+
+    They stay clear of the fields' captions, also where a title of two lines moves them down.
+    """
     first, *pieces = (datum.said for datum in found)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
     width = AREA[2] - x - 3
     for height, leading, room, near in LINES:
         lines = flowed(pieces, "; ", width, height)
-        if len(lines) <= room and not (near and not are_clear(lines, height, leading)):
+        low = y + (len(lines) - 1) * leading
+        if low <= LOWEST and len(lines) <= room and not (near and not are_clear(lines, height, leading)):
             return [
                 Text(x, y + i * leading, line, "caption", height, name=NAME)
                 for i, line in enumerate(lines)

@@ -108,9 +108,9 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
 
 
 def on_sheets(drawing: Drawing, columns: Sequence[Rect], begun: int) -> Iterator[list[Mark]]:
-    """The sentences behind those that are begun, on as many sheets with the same columns as they need, in large lettering.
+    """The sentences but those begun before, on as many sheets with the same columns as they need.
 
-    Raises PageError where a sentence is longer than a column.
+    They are in large lettering. Raises PageError where a sentence is longer than a column.
     """
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     height, leading, _ = LOOKS[0]

@@ -21,8 +21,35 @@ def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple
         found = f"{len(sketch.points)} points"
         measures.findings.add(table.place, found, f"at most {MOST_POINTS} on one link")
         return tuple(sketch.points), ()
+    lay_end_to_end(sketch)
     begin_with_axis(sketch)
     return tuple(sketch.points), Placer(sketch, measures).place()
+
+
+def lay_end_to_end(sketch: LinkKeys) -> None:
+    """Read X ``on A-B``, written by the lengths A-X and X-B alone, as B beyond X on A-X.
+
+    The axis of the link begins with one of the three, so that it runs along them.
+    """
+    if sketch.spots or sketch.polars:
+        return
+    for middle, words in [*sketch.words.items()]:
+        if not isinstance(words, OnWords) or words.beyond:
+            continue
+        if not {words.first, words.second} <= {*sketch.points}:
+            continue
+        ends = sorted((words.first, words.second), key=sketch.points.index)
+        near, far = ends
+        parts = [sketch.between(end, middle) for end in ends]
+        if None in parts or sketch.between(near, far) is not None or far in sketch.words:
+            continue
+        if sketch.points[0] not in (near, middle):
+            continue
+        del sketch.words[middle]
+        sketch.words[far] = OnWords(near, middle, middle)
+        second = near if sketch.points[0] == middle else middle
+        sketch.points.remove(second)
+        sketch.points.insert(1, second)
 
 
 def begin_with_axis(sketch: LinkKeys) -> None:

@@ -23,6 +23,11 @@ TIPS = ("roller", "knife", "flat")
 DWELL = "dwell"
 MOST_PIECES = 24
 CAM = "the link of the cam"
+OTHER_CAMS = (
+    "any other cam is written for an instant: a straight flank as a guide on it, an arc with "
+    "touches, by its centre of curvature"
+)
+"""What to write where the cam slides or stands still, or where the follower's guide moves."""
 
 
 def with_cams(
@@ -198,7 +203,7 @@ def check_guide(follower: str, links: Mapping[str, Link], table: Table) -> None:
     if len(own.slides) != 1 or own.slides[0].on != FRAME or not own.points:
         found = f"link {follower} does not slide on a guide of the frame"
         expected = "a follower with slides = { on = 0, … }, its first point the roller's centre"
-        table.findings.add(table.place, found, expected)
+        table.findings.add(table.place, found, expected, "" if not own.slides else OTHER_CAMS)
 
 
 def pivot_of(
@@ -210,12 +215,13 @@ def pivot_of(
         return ""
     if on not in links or on == follower:
         expected = listed(name for name in links if name != follower)
-        findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}")
+        hint = OTHER_CAMS if on == FRAME else ""
+        findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}", hint)
         return ""
     pivots = [point for point in links[on].points if point in frame.points]
     if len(pivots) != 1:
         found = f"link {on} has {len(pivots)} points of the frame"
-        findings.add(table.at("on"), found, "a cam on one pin of the frame")
+        findings.add(table.at("on"), found, "a cam on one pin of the frame", OTHER_CAMS)
         return ""
     return pivots[0]
 

@@ -11,7 +11,17 @@ from msgspec.structs import replace
 from graphkin.scene.known_names import named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.groups import Crank, Driven, Group, Higher, Spun, Stretched, Tie, Unresolved
+from graphkin.structure.groups import (
+    CoupledTrain,
+    Crank,
+    Driven,
+    Group,
+    Higher,
+    Spun,
+    Stretched,
+    Tie,
+    Unresolved,
+)
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Pin, all_pairs, sharers
@@ -122,7 +132,8 @@ def same_pins(scene: Scene) -> str:
 def spare_drivers(scene: Scene) -> list[Driver]:
     """The drivers without each of which all links still follow, one dyad after the other.
 
-    Groups of higher class close by a link that may be idle, so that they prove nothing.
+    Groups of higher class close by a link that may be idle, and coupled trains by a contact that
+    may be, such as that of a second planet, so that they prove nothing.
     """
     return [driver for driver in scene.drivers if follows(without(scene, driver))]
 
@@ -143,7 +154,8 @@ def without(scene: Scene, driver: Driver) -> Scene:
 
 def follows(scene: Scene) -> bool:
     """Whether every link follows from the drivers by dyads and wheels."""
-    return not any(isinstance(group, Higher | Unresolved) for group in decompose(scene))
+    proofless = CoupledTrain | Higher | Unresolved
+    return not any(isinstance(group, proofless) for group in decompose(scene))
 
 
 def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Problem:

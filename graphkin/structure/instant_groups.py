@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from graphkin.scene.model import Driver
-from graphkin.structure.groups import Dyad, Group, Higher
+from graphkin.structure.groups import Dyad, Group, Higher, Tie
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
     next_driven,
@@ -17,23 +17,33 @@ from graphkin.structure.next_group import (
     next_tie,
     settle,
 )
-from graphkin.structure.pairs import Contact, ContactName, Pin
+from graphkin.structure.pairs import Contact, ContactName, Joint, Pin
 
 
 def pinned_wheels(joints: Joints, group: Higher, known: Collection[str]) -> tuple[Contact, ...]:
     """The contacts of a group's wheels, or bars, with what is known and they roll on.
 
-    What keeps them there, if a link does, belongs to the group.
+    What keeps them there, if a link does, belongs to the group. A contact from which no place of it
+    follows is left out: it is idle, or the mechanism is held fast, which the rank tells.
     """
+    placing = [group.trial.pair, *outer_pairs(group)]
     return tuple(
         pair
         for link in group.links
         for pair in joints.others[link]
         if isinstance(pair, Contact)
         and pair.rolling.belt is None
+        and pair in placing
         and partner(pair, link) in known
         and (pair.arm in group.links or (pair.track is None and pair.links[0] == link))
     )
+
+
+def outer_pairs(group: Higher) -> list[Joint]:
+    """The pairs by which the parts of a group hang on what is known before them."""
+    parts = (*group.chain, group.last) if isinstance(group.last, Tie) else group.chain
+    contacts = [pair for part in parts for pair in getattr(part, "contacts", ())]
+    return [*contacts, *(pair for part in parts for pair in getattr(part, "outer", ()))]
 
 
 def rim_of(contact: Contact, known: Collection[str]) -> Pin:

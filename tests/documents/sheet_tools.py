@@ -178,6 +178,7 @@ def fields_of(drawing: Drawing, page: Page) -> dict[str, tuple[Mark, ...]]:
     heads = []
     for field in ("mechanism", drawing.kind):
         caption = drawing.words.sentences[f"page.{field}_heading"].partition("{")[0]
+        caption = caption.partition("  (")[0]  # where what stands in brackets has a line of its own
         captions = (
             i
             for i, mark in enumerate(page.marks)

@@ -386,3 +386,28 @@ def test_the_excavator_moves_the_same_by_either_set_of_angles(name: str) -> None
     speeds = [rates(lambda t, turn=turn: degrees(turn(t)), ("0.5", 1, 0))[1] for _, turn in BOOM]
     for link, speed in zip(("boom", "stick", "bucket"), speeds, strict=True):
         assert same(omega(motion(name), link), speed)
+
+
+@pytest.mark.parametrize("q", [40, 50, 70])
+def test_hart_draws_a_straight_line(q: int) -> None:
+    """OP·OR is constant, so that R goes square to OQ; its height is OR times the sine of OP."""
+    found = motion("hart", angle=q)
+    p, r = place(found, "P"), place(found, "R")
+    assert same(abs(p) * abs(r), 0.4 * 0.6 * (0.2**2 - 0.12**2))
+    assert same(velocity(found, "R").real, 0, abs(velocity(found, "R")))
+
+    def point(q: mpmath.mpf) -> mpmath.mpc:
+        p = 60 + 60 * unit(q)
+        return -mpmath.mpf(6144) * p / abs(p) ** 2
+
+    follows(found, "R", point, (degrees(q), 2, 0))
+
+
+@pytest.mark.parametrize("q", [0, 40, 145, 300])
+def test_the_die_of_a_link_motion_keeps_to_its_slot(q: int) -> None:
+    """The slot's middle is an arc of 620 mm about Z: the die has no velocity across it."""
+    found = motion("link-motion", angle=q)
+    across = place(found, "V") - place(found, "Z")
+    assert same(abs(across), 0.62)
+    slip = velocity(found, "V") - carried(found, 4, "Z", place(found, "V"))
+    assert abs((slip.conjugate() * across).real) < 1e-12

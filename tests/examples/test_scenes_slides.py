@@ -385,6 +385,29 @@ def test_the_centre_of_cardans_cross_at_45_degrees() -> None:
     assert same(own, 0.05 - 0.05j)
 
 
+# --- a shaper ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("q", [0, 50, 200, 330])
+def test_the_ram_of_a_shaper(q: int) -> None:
+    def ram(q: mpmath.mpf) -> mpmath.mpc:
+        pin = 120 * unit(q) + 300j
+        end = -300j + 550 * pin / abs(pin)
+        return end.real - mpmath.sqrt(200**2 - (end.imag - 260) ** 2) + 260j
+
+    follows(motion("shaper", angle=q), "C", ram, (degrees(q), 2 * mpmath.pi, 0))
+
+
+def test_a_shaper_cuts_longer_than_it_returns() -> None:
+    """The lever rests where it is square to the crank: time ratio (180° + 2γ)/(180° - 2γ)."""
+    dead = math.degrees(math.asin(120 / 300))
+    for angle in (-dead, 180 + dead):
+        text = ("angle = { value = 50", f"angle = {{ value = {angle!r}"), (", step = 5 }", " }")
+        text += (("min = 0", "min = -90"),)
+        assert abs(omega(proved(varied("shaper", *text)), 3)) < 1e-12
+    assert (180 + 2 * dead) / (180 - 2 * dead) == pytest.approx(1.71, abs=5e-3)
+
+
 # --- a cam and the mechanism in its place --------------------------------------------------------
 
 

@@ -10,12 +10,14 @@ import pytest
 
 from tests.examples.scenes import (
     acceleration,
+    angle,
     carried,
     centre,
     crossing,
     degrees,
     epsilon,
     follows,
+    meeting,
     motion,
     omega,
     place,
@@ -160,3 +162,69 @@ def test_profiles_slide_by_the_distance_from_the_pitch_point(q: int) -> None:
     assert same(slip, 1j * (two - one) * (place(found, "M") - pitch))
     along = place(found, "K2") - place(found, "K1")
     assert abs((slip.conjugate() * along).real) < 1e-9 * abs(slip) * abs(along)
+
+
+@pytest.mark.parametrize("q", [0, 30, 205])
+def test_three_planets_turn_as_one(q: int) -> None:
+    """Willis: with a fixed ring of 60 teeth and a sun of 20 the arm turns a quarter as fast."""
+    found, sun = motion("gears-three-planets", angle=q), 120 * TURN
+    assert same(omega(found, 2), sun / 4)
+    for planet in (3, 4, 5):
+        assert same(omega(found, planet), sun / 4 * (1 - 60 / 20))
+
+    def rim(q: mpmath.mpf) -> mpmath.mpc:
+        return 80 * unit(q / 4 + degrees(120)) + 40 * unit(-q / 2)
+
+    follows(found, "B", rim, (degrees(q), 4 * mpmath.pi, 0))
+
+
+@pytest.mark.parametrize("q", [0, 75, 300])
+def test_ferguson_turns_one_wheel_backward_and_one_forward(q: int) -> None:
+    """ω = ω_arm (1 - 100/z) for z = 99 and 101, whatever the idler of 20 teeth."""
+    found = motion("gears-ferguson", angle=q)
+    assert same(omega(found, 2), 10 * (1 + 100 / 20))
+    assert same(omega(found, 3), -10 / 99)
+    assert same(omega(found, 4), 10 / 101)
+
+
+@pytest.mark.parametrize("q", [-30, 20, 30])
+def test_a_sun_turns_by_twice_the_arm_less_the_rod(q: int) -> None:
+    """Willis about the arm, for wheels of one size: ω4 - ω1 = -(ω2 - ω1), and so for ε."""
+    found = motion("gears-sun-and-planet", angle=q)
+    assert same(omega(found, 4), 2 * omega(found, 1) - omega(found, 2))
+    assert same(epsilon(found, 4), 2 * epsilon(found, 1) - epsilon(found, 2))
+
+    def centre_of_planet(q: mpmath.mpf) -> mpmath.mpc:
+        beam_end = mpmath.mpc(-500, 900) + 700 * unit(q)
+        return meeting(beam_end, 900, mpmath.mpc(0), 400, -1)
+
+    follows(found, "C", centre_of_planet, (degrees(q), mpmath.mpf("-0.8"), 0))
+
+
+def test_a_geared_five_bar_has_the_angles_that_norton_prints() -> None:
+    """Norton, Design of Machinery, table P4-4, row a: 173.6° and -177.7°."""
+    found = motion("geared-five-bar")
+    assert math.degrees(angle(found, "A", "B")) == pytest.approx(173.6, abs=0.05)
+    assert math.degrees(angle(found, "C", "B")) == pytest.approx(-177.7, abs=0.05)
+
+
+@pytest.mark.parametrize("q", [0, 60, 200])
+def test_a_geared_five_bar_follows_both_cranks(q: int) -> None:
+    def coupler_pin(q: mpmath.mpf) -> mpmath.mpc:
+        return meeting(10 * unit(q), 70, 60 + 40 * unit(2 * q + degrees(30)), 90, 1)
+
+    follows(motion("geared-five-bar", angle=q), "B", coupler_pin, (degrees(q), 10, 0))
+
+
+@pytest.mark.parametrize("way", [0, 50, 430])
+def test_a_coupling_rod_moves_along_its_engine(way: int) -> None:
+    """All its points have the velocity of the crank pins; the piston's way is a slider-crank's."""
+    found = motion("locomotive", way=way)
+    assert same(velocity(found, "A"), velocity(found, "B"))
+    assert abs(omega(found, 4)) < 1e-12 and same(omega(found, 1), omega(found, 3))
+
+    def piston(s: mpmath.mpf) -> mpmath.mpc:
+        x, y = 30 * mpmath.cos(s / 80), -30 * mpmath.sin(s / 80)
+        return s + 80j + x - mpmath.sqrt(250**2 - y * y)
+
+    follows(found, "P", piston, (way, 1000, 0))

@@ -53,6 +53,29 @@ def test_points_on_a_line(crank: Reader, keys: str, start: str, sense: int) -> N
     assert (placing.start, placing.sense) == (start, sense)
 
 
+@pytest.mark.parametrize(
+    "keys",
+    [
+        'O-A = 30\nA-B = 20\nA = "on O-B"',
+        'A = "on B-O"\nA-O = 30\nB-A = 20',
+        'A = "on O-B"\nA-B = 20\nA-O = 30',
+        'A-B = 20\nO-A = 30\nA = "on O-B"',
+    ],
+)
+def test_both_parts_of_a_line_make_it_without_its_length(crank: Reader, keys: str) -> None:
+    """OA = 30 and AB = 20 with A between them are OB = 50, from whichever end it begins."""
+    origin, middle, far = crank(keys).placings
+    assert isinstance(origin, At) and isinstance(middle, Apart) and isinstance(far, OnLine)
+    assert (origin.x.number({}), middle.start) == (0, origin.point)
+    assert (far.start, far.sense) == ("A", 1)
+    assert {origin.point, middle.point, far.point} == {"O", "A", "B"}
+
+
+def test_parts_and_the_whole_line_are_one_measure_too_many(broken_crank: Breaker) -> None:
+    (problem,) = broken_crank('O-A = 30\nA-B = 20\nO-B = 50\nA = "on O-B"')
+    assert "one measure too many" in str(problem)
+
+
 def test_an_angle_places_either_of_its_ends(crank: Reader) -> None:
     last = crank("O-A = 30\nA-B = 20\nO-A-B = 60").placings[-1]
     first = crank("O-A = 30\nA-B = 20\nB-A-O = 300").placings[-1]

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.construction.core.solution import Solution
+from graphkin.loops.freedom import true_mobility
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import driver_problem, refuse_drivers, refuse_wrong_drivers
-from graphkin.structure.groups import Unresolved
+from graphkin.structure.groups import Higher, Unresolved
+from graphkin.structure.mobility import count
 from graphkin.text.errors import StructureError
+from tests.examples.scenes import mechanism, motion
 from tests.mechanisms import scene_of
 from tests.scene_files import scene_text
 from tests.structure.test_groups import DRIVEN, FIVE_BAR, FOUR_BAR, PARALLEL, SLIDER_CRANK
@@ -106,3 +112,26 @@ def test_drivers_without_which_the_groups_are_complete_are_too_many():
 def test_links_for_which_no_group_is_found_are_no_fault_of_the_drivers():
     """One driver for one freedom, whatever the groups may be."""
     refuse_drivers(scene_of(SLIDER_CRANK + DRIVEN), (Unresolved(("2", "3")),))
+
+
+def test_a_second_planet_does_not_make_a_driver_superfluous():
+    """Three planets share a load: the count is -1, two contacts are idle, the arm still turns."""
+    found = mechanism("gears-three-planets")
+    assert count(found.scene).mobility == -1
+    refuse_drivers(found.scene, found.groups)
+    assert mobility(found, motion("gears-three-planets")) == 1
+
+
+def test_wheels_that_hold_two_pinned_levers_fast_are_left_to_the_rank():
+    """Two levers whose arcs roll on one another about centres beside their pins cannot move."""
+    jammed = Mechanism(read_text(scene_text("structure/levers-that-jam"), "jam"))
+    group = jammed.groups[-1]
+    assert isinstance(group, Higher)
+    assert group.wheels == group.at_instant == ()
+    assert mobility(jammed, jammed.solve()) == 0
+
+
+def mobility(found: Mechanism, solution: Solution) -> int:
+    """The rank of the constraints where a mechanism stands."""
+    places = {name: point.position for name, point in solution.points.items()}
+    return true_mobility(found.scene, places)

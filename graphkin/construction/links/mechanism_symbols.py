@@ -133,11 +133,21 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Wheels and plates, below everything else."""
+    """Wheels and plates, below everything else; arms below the wheels between which they lie."""
+    plates = [x for x in drawing.scene.links.values() if corners_of(drawing, x) is not None]
+    arms = [link for link in plates if bears_wheels(drawing, link)]
+    for link in arms:
+        draw_body(board, drawing, field, link)
     draw_wheels(board, drawing, field)
-    for link in drawing.scene.links.values():
-        if corners_of(drawing, link) is not None:
+    for link in plates:
+        if link not in arms:
             draw_body(board, drawing, field, link)
+
+
+def bears_wheels(drawing: Drawing, link: Link) -> bool:
+    """Whether wheels of two other links or more have their centres on a link."""
+    wheels = {disc.link for disc in drawing.standing.discs if disc.wheel.centre in link.points}
+    return len(wheels - {link.name}) > 1
 
 
 def draw_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
