@@ -125,11 +125,11 @@ class InstantCentre(TwoPointCentre, frozen=True, kw_only=True):
         known = self.fields(drawing)
         for way in self.ways if parallel else ():
             yield way.line, way.clause(drawing, "line")
-        for part, (name, ends) in zip(("first", "second"), parallel.items(), strict=False):
-            said = drawing.words(f"step.{self.key}-tips-{part}", **known, v=symbol(f"v_{name}"))
-            yield arrows[ends], said
+        keys = "step.instant-centre-tips-first", "step.instant-centre-tips-second"
+        for key, (name, ends) in zip(keys, parallel.items(), strict=False):
+            yield arrows[ends], drawing.words(key, **known, v=symbol(f"v_{name}"))
         if parallel:
-            yield self.found, drawing.words(f"step.{self.key}-tips-apart", **known)
+            yield self.found, drawing.words("step.instant-centre-tips-apart", **known)
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Also the point at rest."""
