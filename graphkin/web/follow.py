@@ -78,10 +78,13 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return not self.on_mechanism
         return not isinstance(value, Ratio)
 
-    def has_sides(self, k: int, record: Record) -> bool:
+    def sides(self, k: int, record: Record) -> int:
         """Whether a label can as well stand on the other side of what it names: that of a vector or
-        a line, or a letter at a point, unless a leader or a circle goes with it."""
-        return not self.led(k) and (record[0] == "b" or self.is_upright(record))
+        a line, or a letter at a point; 2 where a leader leads to it, 0 for one in a circle."""
+        led = {self.marks[j].cls.split()[0] for j in self.led(k)}
+        if "number" in led or not (record[0] == "b" or self.is_upright(record)):
+            return 0
+        return 2 if led else 1
 
     def going_before(self, k: int, bound: Mapping[int, int]) -> list[int]:
         """The records of the leader and the circle that go with a label; ``bound`` has those of the

@@ -172,8 +172,8 @@ def followed(
     circle that go with a label, by its record. A field has the place of its first record, its room,
     the box of what stands still in it, of each mark that must be in sight the place of its record
     and how far it reaches across and down, and the same of its labels, large ones first, then as
-    their steps are drawn, with 1 where one may stand on the other side of what it names; and the
-    places of the records of what stands off a point.
+    their steps are drawn, with 1 where one may stand on the other side of what it names, 2 where a
+    leader leads to it; and the places of the records of what stands off a point.
     """
     angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -191,7 +191,7 @@ def followed(
             if following.keeps_off(k, record):
                 off.append(len(records))
             if record[0] in "tb" and isinstance(marks[k], Text):
-                own = [len(records), *half(marks[k]), int(following.has_sides(k, record))]
+                own = [len(records), *half(marks[k]), following.sides(k, record)]
                 step = marks[k].step
                 labels.append((-marks[k].height, -1 if step is None else step, own))
                 if with_it := following.going_before(k, bound):

@@ -26,7 +26,8 @@ function letter(one, labels, gone, found) {
   }
   const far = LEAP * Math.max(1, gone) * (Number(one.svg.style.getPropertyValue("--dot")) || 0.3);
   const now = performance.now();
-  for (const { i, id, half, records, spots, led } of labels) {
+  const fresh = ({ id }) => byId(id).matches(".now"); // what the step in sight draws is named before all else
+  for (const { i, id, half, records, spots, led } of [...labels].sort((p, q) => fresh(q) - fresh(p))) {
     const mark = byId(id), was = standing.get(id) ?? { side: 0, seen: false, since: -Infinity, spot: null };
     standing.set(id, was);
     if (!spots.length || mark.matches(".later,.void")) {
