@@ -62,7 +62,7 @@ function clearest({ svg }, middles, box, is_free) {
 /** The radius of the circle about the number of a link; none about other letters. */
 function ring_of(text) {
   const ring = text.parentElement.previousElementSibling;
-  return ring?.matches(".number") ? ring.r.baseVal.value : 0;
+  return ring?.matches("circle.number") ? ring.r.baseVal.value : 0;
 }
 
 const off_middles = new WeakMap();
