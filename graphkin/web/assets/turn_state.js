@@ -111,6 +111,7 @@ function show_turn() {
   tell_count(next, [...rest]);
   byId("turn-sheet").hidden = sheets.length < 2;
   for (const name of ["hint", "draw-it"]) byId(name).disabled = next === undefined;
+  if (motion) put(); // labels make room for those that are new
   look();
   light_up();
   show_inputs();
