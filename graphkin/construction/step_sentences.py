@@ -26,6 +26,9 @@ def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
     step = drawing.trace.program.steps[number]
     kind = construction(step)
     assert kind is not None
+    if parts := [*kind.sentence_parts(drawing, step.role)]:
+        yield from parts
+        return
     apart = kind.point_apart(drawing, step.role)
     if not apart:
         yield number, point_sentence(drawing, step)

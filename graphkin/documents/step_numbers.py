@@ -49,8 +49,10 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
         step = program.steps[number]
         if not step.args:
             found[number] = BEFORE
+        elif number in early:
+            found.setdefault(number, found.get(early[number], setting))
         elif is_set_on(step):
-            found[number] = found.get(early.get(number, BEFORE), setting)
+            found[number] = setting
         elif number not in found:
             ends = (*step.args, *of_component(drawing, step))
             found[number] = max((found.get(end, BEFORE) for end in ends), default=BEFORE)

@@ -78,21 +78,24 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return not self.on_mechanism
         return not isinstance(value, Ratio)
 
-    def has_sides(self, k: int, record: Record) -> bool:
+    def sides(self, k: int, record: Record) -> int:
         """Whether a label can as well stand on the other side of what it names: that of a vector or
-        a line, or a letter at a point, unless a leader or a circle goes with it."""
-        before = {mark.cls.split()[0] for mark in self.marks[max(k - 2, 0) : k]}
-        return not before & {"leader", "number"} and (record[0] == "b" or self.is_upright(record))
+        a line, or a letter at a point; 2 where a leader leads to it, 0 for one in a circle."""
+        led = {self.marks[j].cls.split()[0] for j in self.led(k)}
+        if "number" in led or not (record[0] == "b" or self.is_upright(record)):
+            return 0
+        return 2 if led else 1
 
     def going_before(self, k: int, bound: Mapping[int, int]) -> list[int]:
-        """The records of the leader and the circle that come right before a label; ``bound`` has
-        those of the marks so far."""
-        found = []
-        for before in (k - 1, k - 2):
-            if before < 0 or self.marks[before].cls.split()[0] not in LABELS[1:]:
-                break
-            found += [bound[before]] if before in bound else []
-        return found
+        """The records of the leader and the circle that go with a label; ``bound`` has those of the
+        marks so far."""
+        return [bound[before] for before in self.led(k) if before in bound]
+
+    def led(self, k: int) -> list[int]:
+        """The leader and the circle that come right before a label."""
+        beside = (k - 1, k - 2)
+        is_led = [j >= 0 and self.marks[j].cls.split()[0] in LABELS[1:] for j in beside]
+        return [*beside[: is_led.index(False)]] if False in is_led else [*beside]
 
     def keeps_off(self, k: int, record: Record) -> bool:
         """Whether a letter, or the leader or circle that goes with it, stands off a point."""

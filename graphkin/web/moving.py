@@ -169,11 +169,11 @@ def followed(
 
     ``records`` takes those of its marks, each with the id of its mark, ``more`` the marks that a
     page makes itself: by id after which one, element and class, ``led`` those of the leader and the
-    circle that go with a label, by its record. A field has the place of its first
-    record, its room, the box of what stands still in it, of each mark that must be in sight the
-    place of its record and how far it reaches across and down, and the same of its labels, as their
-    steps are drawn, with 1 where one may stand on the other side of what it names; and the places
-    of the records of what stands off a point.
+    circle that go with a label, by its record. A field has the place of its first record, its room,
+    the box of what stands still in it, of each mark that must be in sight the place of its record
+    and how far it reaches across and down, and the same of its labels, large ones first, then as
+    their steps are drawn, with 1 where one may stand on the other side of what it names, 2 where a
+    leader leads to it; and the places of the records of what stands off a point.
     """
     angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -182,7 +182,7 @@ def followed(
         binder = FieldBinder(places, field, rects)
         following = MarkBindings(binder, sheet.layout, marks, angles)
         still, seen, off, began = set(marks), [], [], len(records)
-        labels: list[tuple[int, list[float]]] = []
+        labels: list[tuple[float, int, list[float]]] = []
         bound: dict[int, int] = {}
         for k, record in following.records():
             still.discard(marks[k])
@@ -191,8 +191,9 @@ def followed(
             if following.keeps_off(k, record):
                 off.append(len(records))
             if record[0] in "tb" and isinstance(marks[k], Text):
-                own = [len(records), *half(marks[k]), int(following.has_sides(k, record))]
-                labels.append((-1 if (step := marks[k].step) is None else step, own))
+                own = [len(records), *half(marks[k]), following.sides(k, record)]
+                step = marks[k].step
+                labels.append((-marks[k].height, -1 if step is None else step, own))
                 if with_it := following.going_before(k, bound):
                     led[len(records)] = with_it
             bound[k] = len(records)
@@ -202,7 +203,7 @@ def followed(
             more[f"{before}h"] = (before, element, cls)
             records.append([f"{before}h", *record])
         found.append({"first": began, "room": binder.room, "still": box_of(still), "seen": seen})
-        found[-1] |= {"off": off, "labels": [own for _, own in sorted(labels)]}
+        found[-1] |= {"off": off, "labels": [own for *_, own in sorted(labels)]}
         first += len(marks)
     return found
 

@@ -8,6 +8,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.construction.registry import ON_PALETTE
+from graphkin.construction.rolling.kutzbach import PLAN
 from graphkin.drawing.field import Field
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text import Words
@@ -20,7 +21,6 @@ NAMED_BY_INPUTS = ("perpendicular", "parallel", "compass", "join", "transfer")
 SAID = (
     "turn.say.saved",
     "turn.say.arc",
-    "turn.say.begin",
     "turn.say.again",
     "turn.say.choose",
     "turn.say.count",
@@ -95,8 +95,18 @@ def record(
         "words": {
             key.rpartition(".")[2]: words.sentences[key]
             for key in (*SAID, *(key for action in used for key in reasons(action, words)))
-        },
+        }
+        | beginning(sheets),
     }
+
+
+def beginning(sheets: Sequence[ScreenSheet]) -> dict[str, str]:
+    """What is said first, with the plan of a scene that the page draws."""
+    words = sheets[0].drawing.words
+    begin = words("turn.say.begin")
+    if sheets[0].drawing.scene.sheet.plan == PLAN:
+        begin += f" {words('turn.say.kutzbach')}"
+    return {"begin": begin}
 
 
 def reasons(action: str, words: Words) -> Iterator[str]:

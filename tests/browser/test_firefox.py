@@ -116,6 +116,83 @@ def test_a_turn_begins_and_helps_itself(firefox, pump):  # noqa: F811
     assert barred(firefox) == []
 
 
+OTHERS = dict(zip(("slotted-lever", "gears-ring", "stephenson-3"), SIZES, strict=True))
+"""Other pages, each with the size of its window."""
+WALK = """const done = arguments[arguments.length - 1], found = [];
+const next = document.getElementById('next'), view = '.sheet:not([hidden]) .view > svg';
+while (!next.disabled) {
+  next.click();
+  const texts = document.querySelectorAll(`${view} .lettering > text`);
+  const seen = [...texts].filter(text => !text.matches('.later,.void,[visibility],.hushed'));
+  const sizes = seen.flatMap(text => {
+    const { a, b, c, d } = text.getScreenCTM(), scale = Math.sqrt(a * d - b * c);
+    const runs = [text, ...text.querySelectorAll('tspan')].filter(run => run.textContent.trim());
+    return runs.map(run => parseFloat(getComputedStyle(run).fontSize) * scale);
+  });
+  const said = document.getElementById('sentence').textContent;
+  const wide = document.documentElement.scrollWidth > innerWidth;
+  const drawn = document.querySelector(`${view} .now`) ?? document.querySelector('.turn');
+  found.push([said.length > 0, Math.min(...sizes) >= 9, wide, drawn !== null]);
+}
+done(found);"""
+"""At each step: whether something is said, letters can be read, the page is too wide, and whether
+anything is drawn."""
+TURN = """const drawn = document.getElementById('draw-it'), left = [];
+document.getElementById('turn').click();
+while (!drawn.disabled) {
+  drawn.click();
+  left.push(document.getElementById('turn-say').textContent);
+}
+return left;"""
+"""A whole turn, each step drawn by the page: what it says of each."""
+
+
+@pytest.fixture(scope="module")
+def others(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The pages of other scenes."""
+    folder = tmp_path_factory.mktemp("others")
+    for name in OTHERS:
+        mechanism = load(name) if name == "slotted-lever" else mechanism_named(name)
+        (folder / f"{name}.html").write_text(step_page(mechanism, "en"), encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("look", LOOKS)
+def test_other_pages_go_through_every_step(firefox, others, name, look):  # noqa: F811
+    size = OTHERS[name]
+    firefox.open(others / f"{name}.html", "", size, look)
+    steps = firefox.run("return document.querySelectorAll('#steps li').length")
+    walked = firefox.later(WALK)
+    assert len(walked) == steps
+    assert all(said and read and not wide for said, read, wide, _ in walked)
+    assert sum(drawn for *_, drawn in walked) > 0.8 * steps
+    firefox.run("return Promise.allSettled(document.getAnimations().map(each => each.finished))")
+    assert barred(firefox) == []
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_a_whole_turn_on_other_pages(firefox, others, name):  # noqa: F811
+    for number, size in enumerate(SIZES):
+        firefox.open(others / f"{name}.html", "#step=1", size, [*LOOKS][number])
+        left = firefox.run(TURN)
+        rows = firefox.run("return document.querySelectorAll('#score li').length")
+        assert rows == len(left) > 10
+        assert left[-1].endswith("All is drawn.") or "all drawn." in left[-1]
+        assert firefox.run("return document.querySelectorAll('#results .unknown').length") == 0
+        assert firefox.run("return document.documentElement.scrollWidth <= innerWidth")
+        assert barred(firefox) == []
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_pin_of_the_driver_is_dragged_on_other_pages(firefox, others, name):  # noqa: F811
+    firefox.open(others / f"{name}.html", "#step=6", (1440, 900), "still")
+    before = firefox.run(DRIVER)
+    x, y = firefox.run(PLACE, GRIP)
+    firefox.drag((x, y), (x + 40, y - 40))
+    assert abs(firefox.run(DRIVER) - before) > 3
+
+
 def test_each_of_two_drivers_has_its_handle(firefox, tmp_path):  # noqa: F811
     path = tmp_path / "five-bar.html"
     path.write_text(step_page(mechanism_named("five-bar"), "en"), encoding="utf-8")

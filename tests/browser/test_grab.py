@@ -12,6 +12,7 @@ from graphkin.web.step_page import step_page
 from tests.bench.stillness import counted, page_of
 from tests.browser.opening import Opened, barred
 from tests.chosen import EVERY
+from tests.documents.sheet_tools import mechanism_named
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce", "stopped": True}
 SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (1024, 768): 0.45, (820, 1180): 0.45}
@@ -31,6 +32,9 @@ HUSHED = """async () => {
   return getComputedStyle(text).opacity;
 }"""
 """How much is seen of a label that is hushed, once all rests and it has faded."""
+LED = """[...document.querySelectorAll('#sheet-0 .grip.driven')]
+  .map(one => one.getAttribute('aria-valuetext'))"""
+"""Where the drivers stand."""
 CROWDED = """Object.fromEntries([...document.querySelectorAll('#dock button')]
   .filter(one => one.checkVisibility())
   .map(one => [one.id || one.textContent, one.getBoundingClientRect()])
@@ -177,6 +181,20 @@ def test_the_drawings_have_room_and_no_button_covers_another(
         left, top, right, bottom = keys[name]
         beside = right <= stops["x"] or left >= stops["x"] + stops["width"]
         assert beside or bottom <= stops["y"] or top >= stops["y"] + stops["height"]
+
+
+def test_each_driver_of_an_excavator_is_dragged_by_its_own_pin(opened: Opened, tmp_path: Path):
+    path = tmp_path / "excavator.html"
+    path.write_text(step_page(mechanism_named("excavator-relative"), "en"), encoding="utf-8")
+    page = opened(path, "#step=5", **DESKTOP)
+    for place, name in enumerate("ABC"):
+        before = page.evaluate(LED)
+        dragged(page, name, -40, -30)
+        after = page.evaluate(LED)
+        assert [one == other for one, other in zip(before, after, strict=True)] == [
+            k != place for k in range(3)
+        ]
+        page.clock.run_for(1000)
 
 
 LEAPT = {"gears-ring": 2058, "pump": 973, "stephenson-3": 1167}

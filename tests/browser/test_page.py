@@ -355,6 +355,13 @@ LEAST = """() => Math.min(...[...document.querySelectorAll(
     const runs = [text, ...text.querySelectorAll('tspan')].filter(run => run.textContent.trim());
     return runs.map(run => parseFloat(getComputedStyle(run).fontSize) * scale);
   }))"""
+PINS = """() => [...document.querySelectorAll(
+    '.sheet:not([hidden]) .view:first-of-type > svg circle.pin')]
+  .map(({ dataset: { name } }) => name)
+  .filter(name => ![...document.querySelectorAll(
+    `.sheet:not([hidden]) .lettering > text[data-name='${name}']`)]
+    .some(text => !text.matches('.later,.void,[visibility],.hushed')))"""
+"""The pins of the mechanism whose letters are not seen."""
 COLOURS = """() => ['#new-key', '#from-key', '#reason .line', '#reason .line',
     '#steps [aria-current]', '#steps a'].map(name => getComputedStyle(document.querySelector(name)))
   .map((style, i) => style[['backgroundColor', 'borderLeftColor', 'outlineStyle'][i >> 1]])"""
@@ -377,6 +384,21 @@ def test_every_size_and_look_has_room_letters_to_be_read_and_nothing_against_it(
             assert page.evaluate(LEAST) >= 9
             if (place + number) % 3 == 0:  # Firefox asks axe of each
                 assert not barred(page), (size, look)
+
+
+@pytest.mark.parametrize("name", ["pump", "stephenson-3"])
+def test_letters_can_be_read_on_a_phone_and_those_of_pins_are_there(
+    opened: Opened, tmp_path: Path, name: str
+):
+    path = tmp_path / f"{name}.html"
+    path.write_text(step_page(mechanism_of(name), "en"), encoding="utf-8")
+    page = opened(path, "", **PHONE)
+    last = page.evaluate(STEPS)
+    for step in (last // 3, last // 2, last):
+        page.evaluate(f"location.hash = '#step={step}'")
+        page.wait_for_function(f"document.getElementById('step').value === '{step}'")
+        assert page.evaluate(LEAST) >= 9
+    assert page.evaluate(PINS) == []
 
 
 def test_forced_colours_keep_the_key_of_colours_and_the_row_in_sight(opened: Opened, pages: Path):

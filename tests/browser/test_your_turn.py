@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from graphkin.mechanism import load
-from graphkin.text import words
+from graphkin.text import LANGUAGES, words
 from graphkin.web.palette_moves import your_turn
 from graphkin.web.protocol import telling
 from graphkin.web.screen_sheets import screen_sheets
@@ -55,6 +55,31 @@ LIT = "[...document.querySelectorAll('.halo > *')].map(mark => mark.outerHTML).j
 """All that is lit on the drawings, and the lines and points that a turn lays over them."""
 KNOWN = """() => [...document.querySelectorAll('#results tr[data-found]:not(.unknown)')]
   .map(row => row.dataset.row)"""
+COVERED = """() => {
+  const [svg] = [...document.querySelectorAll('.sheet:not([hidden]) .view > svg')].slice(-1);
+  const seen = mark => !mark.matches('.later,.void,[visibility],.hushed,.leader');
+  const box = mark => mark.getBoundingClientRect(), matrix = svg.getScreenCTM();
+  const ends = line => ['1', '2'].map(end =>
+    new DOMPoint(...['x', 'y'].map(axis => line.getAttribute(axis + end))).matrixTransform(matrix));
+  const within = ({ x, y }, b, slack) => x > b.left + slack && x < b.right - slack &&
+    y > b.top + 4 * slack && y < b.bottom - 4 * slack; // letters do not fill the height of a line
+  const on = (line, b) => {
+    const [p, q] = ends(line), places = Array.from({ length: 801 }, (_, i) => i / 800);
+    return places.some(t => within({ x: p.x + t * (q.x - p.x), y: p.y + t * (q.y - p.y) }, b, 1));
+  };
+  const meets = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom - 8 &&
+    b.top < a.bottom - 8;
+  const lines = [...svg.querySelectorAll('line')].filter(seen);
+  const texts = [...svg.querySelectorAll('text')].filter(seen);
+  return [...svg.querySelectorAll('text.open')].map(own => [own.textContent,
+    lines.filter(line => on(line, box(own))).length,
+    texts.filter(text => text !== own && meets(box(text), box(own))).length]);
+}"""
+"""Of each name of an open line how many lines and names it lies on."""
+WIDER = """() => ['#stops', '#values', '#palette', '#turn-keys', '#dock', 'html']
+  .map(name => document.querySelector(name))
+  .filter(part => part.scrollWidth > part.clientWidth + 1).map(part => part.id)"""
+"""The parts of a page that scroll sideways."""
 LATER = "document.querySelectorAll('.sheet:not([hidden]) .later').length"
 
 
@@ -388,6 +413,53 @@ def test_the_palette_stays_where_it_is(opened: Opened, pages: Path, shape: str):
         page.evaluate("document.querySelector('#draw-it').click()")
         tops.add(page.locator("#palette").bounding_box()["y"])
     assert len(tops) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "lines"),
+    [
+        ("pump", 5, ["⊥ AB", "⊥ O2B"]),
+        ("pump", 29, ["⊥ AB", "⊥ O2B"]),
+        ("slotted-lever", 21, ["⊥ O2A", "∥ guide 2"]),
+        ("gears-ring", 10, ["⊥ OS", "⊥ T2S"]),
+        ("stephenson-3-crank", 34, ["⊥ AB", "⊥ O2B"]),
+    ],
+)
+def test_the_names_of_open_lines_lie_on_nothing(
+    opened: Opened, pages: Path, name: str, step: int, lines: list[str]
+):
+    page = begun(opened, pages, name, step)
+    names = page.locator(".sheet:not([hidden]) text.open")
+    while names.count() < len(lines):
+        page.locator("#draw-it").click()
+    assert page.evaluate(COVERED) == [[one, 0, 0] for one in lines]
+
+
+@pytest.mark.parametrize("size", [(390, 844), (360, 640), (844, 390)], ids=str)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_nothing_scrolls_sideways_on_a_phone(
+    opened: Opened, tmp_path: Path, language: str, size: tuple[int, int]
+):
+    """Where there is no room for buttons the parts of the work stand in a list."""
+    path = tmp_path / "pump.html"
+    path.write_text(step_page(load("pump"), language), encoding="utf-8")
+    page = opened(path, "#step=42", viewport=dict(zip(("width", "height"), size, strict=True)))
+    assert page.evaluate(WIDER) == []
+    page.locator("#stops select").select_option(index=2)
+    assert page.evaluate("Number(document.getElementById('step').value)") == 5
+    page.locator("#turn").click()
+    page.locator("#draw-it").click()
+    assert page.evaluate(WIDER) == []
+    page.evaluate("document.querySelector('[data-action=cut]').click()")
+    assert page.evaluate(WIDER) == []
+
+
+def test_a_plan_that_the_page_draws_is_said_to_be_given(opened: Opened, tmp_path: Path):
+    path = tmp_path / "kutzbach.html"
+    path.write_text(step_page(mechanism_named("gears-kutzbach"), "en"), encoding="utf-8")
+    page = opened(path, "#step=4", **DESKTOP)
+    page.locator("#turn").click()
+    assert EN("turn.say.kutzbach") in page.locator("#turn-say").inner_text()
 
 
 def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):

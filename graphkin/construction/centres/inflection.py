@@ -205,6 +205,12 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
             return "inflection-meet"
         return f"{self.key}-pin" if self.pinned else self.key
 
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """The pole and the circle after both perpendiculars."""
+        if role != "found" or self.sentence_key(drawing) != "inflection-meet":
+            return ""
+        return drawing.words("step.inflection-meet-apart", **self.fields(drawing))
+
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """The instantaneous centre, and the turning of the link."""
         names = {"i": symbol(self.centre_letter), "omega": symbol(f"ω_{self.link}")}

@@ -5,7 +5,7 @@ Of two parallel velocities the line through the tips meets the bar of their poin
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.centres.centre import (
@@ -115,6 +115,22 @@ class InstantCentre(TwoPointCentre, frozen=True, kw_only=True):
         ends = zip(self.places, self.images, strict=True)
         return dict(zip((self.point, self.other), ends, strict=True))
 
+    def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
+        """Both perpendiculars, which fall on one line where the velocities are parallel; each of
+        these that is set on, then the line through their tips.
+        """
+        parallel, arrows = self.parallel(drawing), arrows_set_on(drawing)
+        if role != "found" or not all(ends in arrows for ends in parallel.values()):
+            return
+        known = self.fields(drawing)
+        for way in self.ways if parallel else ():
+            yield way.line, way.clause(drawing, "line")
+        keys = "step.instant-centre-tips-first", "step.instant-centre-tips-second"
+        for key, (name, ends) in zip(keys, parallel.items(), strict=False):
+            yield arrows[ends], drawing.words(key, **known, v=symbol(f"v_{name}"))
+        if parallel:
+            yield self.found, drawing.words("step.instant-centre-tips-apart", **known)
+
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Also the point at rest."""
         return super().fields(drawing) | {"rest": symbol(self.resting(drawing))}
@@ -128,11 +144,16 @@ def set_before(drawing: Drawing) -> Mapping[int, int]:
         if isinstance(centre := construction(step), InstantCentre) and centre.found == number
         for pair in centre.parallel(drawing).values()
     }
+    arrows = arrows_set_on(drawing)
+    return {arrows[pair]: number for pair, number in ends.items() if pair in arrows}
+
+
+def arrows_set_on(drawing: Drawing) -> dict[tuple[int, int], int]:
+    """The steps of velocities set on the mechanism, by those of the place and the image."""
     return {
-        number: ends[step.args[0], step.args[2]]
+        (step.args[0], step.args[2]): number
         for number, step, _ in drawing.mechanism_steps()
         if is_set_on(step) and step.part is Part.VELOCITY
-        if (step.args[0], step.args[2]) in ends
     }
 
 

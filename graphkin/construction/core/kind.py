@@ -130,6 +130,12 @@ class Construction(Roles, frozen=True):
         """
         return ""
 
+    def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
+        """What is said of a role's step part by part, each with the step that it ends with; nothing
+        where it is said at once, or by its lines and ``point_apart``.
+        """
+        yield from ()
+
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The vector equations of a plan that the step of a role follows, if they are its own."""
         yield from ()

@@ -85,9 +85,13 @@ class Misclosure(Construction, frozen=True, kw_only=True):
         canvas.stretch("locus of a trial", OWN_LINES, start, along, low, high)
         canvas.leg("gap", CHAIN_LINES, tip, end)
 
-    def is_drawn(self, drawing: Drawing) -> bool:
-        """Whether it is measured on a sheet."""
+    def is_measured(self, drawing: Drawing) -> bool:
+        """Whether it is drawn, and measured on a sheet."""
         return self.settled not in drawing.trace.values
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Why it is measured."""
+        return "why.gaps" if self.is_measured(drawing) else ""
 
 
 class BarMisclosure(Misclosure, frozen=True, kw_only=True):
@@ -115,7 +119,7 @@ class BarMisclosure(Misclosure, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The gap, where no crossing settles it."""
-        if self.is_drawn(canvas.drawing):
+        if self.is_measured(canvas.drawing):
             ends = (self.p, self.q, self.foot, self.tip, self.wanted)
             p, q, foot, tip, wanted = map(canvas.value, ends)
             across = (q - p) / abs(q - p)
@@ -146,7 +150,7 @@ class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The gap, where no crossing settles it."""
-        if self.is_drawn(canvas.drawing):
+        if self.is_measured(canvas.drawing):
             guide, start, tip = map(canvas.value, (self.guide, self.start, self.tip))
             self.draw_gap(canvas, start, start, tip, 1j * guide.along / abs(guide.along))
 
@@ -174,7 +178,7 @@ class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The gap, where no crossing settles it."""
-        if self.is_drawn(canvas.drawing):
+        if self.is_measured(canvas.drawing):
             normal, start, tip = map(canvas.value, (self.normal, self.start, self.tip))
             self.draw_gap(canvas, start, start, tip, 1j * normal.along / abs(normal.along))
 
@@ -189,6 +193,10 @@ class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
     found: int
     start: int | None = None
     tip: int | None = None
+
+    def is_measured(self, drawing: Drawing) -> bool:
+        """It is computed."""
+        return False
 
     def has(self, drawing: Drawing) -> float:
         """What the plan has of it."""

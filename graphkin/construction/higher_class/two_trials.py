@@ -131,19 +131,29 @@ class TwoTrials(Construction, frozen=True):
         first, second = self.gaps
         if isinstance(first, DrivenMisclosure) and isinstance(second, DrivenMisclosure):
             return driver_missed(drawing, first, second)
-        mm = on_paper(drawing)
+        return drawing.words("step.share-lines", **self.gaps_in_words(drawing))
+
+    def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
+        """The gap of each trial by itself, where it is measured on a sheet."""
+        if role == "share" and all(gap.is_measured(drawing) for gap in self.gaps):
+            fields = self.gaps_in_words(drawing)
+            yield self.gaps[0].size, drawing.words("step.share-first", **fields)
+            yield self.share, drawing.words("step.share-second", **fields)
+
+    def gaps_in_words(self, drawing: Drawing) -> dict[str, str]:
+        """The points at which both gaps are measured, from which lines, and how large they are."""
+        mm, (first, second) = on_paper(drawing), self.gaps
         one, two = (gap.amount(drawing) for gap in self.gaps)
         side = "alike" if one * two > 0 else "opposite"
-        return drawing.words(
-            "step.share-lines",
-            one=first.point(drawing),
-            two=second.point(drawing),
-            first=drawing.words.fixed(abs(one) * mm, 2),
-            second=drawing.words.fixed(abs(two) * mm, 2),
-            side=drawing.words(f"step.gap-{side}"),
-            locus=first.line(drawing),
-            other=second.line(drawing),
-        )
+        return {
+            "one": first.point(drawing),
+            "two": second.point(drawing),
+            "first": drawing.words.fixed(abs(one) * mm, 2),
+            "second": drawing.words.fixed(abs(two) * mm, 2),
+            "side": drawing.words(f"step.gap-{side}"),
+            "locus": first.line(drawing),
+            "other": second.line(drawing),
+        }
 
     # --- in figures ------------------------------------------------------------------------------
 

@@ -39,6 +39,7 @@ function move(x) {
 function rest() {
   state.going = false;
   put();
+  halos();
   look(true);
   if (!state.dead) read();
   remember();

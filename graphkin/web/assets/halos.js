@@ -3,7 +3,7 @@
 const TINTS = 4; // colours that tell apart what one sentence draws for several points
 const ARROW = 12, CORNER = 2.2, NONE = 0.5; // mm of a velocity at its pin, of a right angle, of no velocity
 const TIP = 12, SHARE = 0.55; // dots of a head, as far as this part of its vector; with its size in steps.css
-const UNMARKED = ".later,.void,[visibility],.arrowhead,.leader,.square-mark,.caption,.detail,[data-aside]";
+const UNMARKED = ".later,.void,.hushed,[visibility],.arrowhead,.leader,.square-mark,.caption,.detail,[data-aside]";
 
 /** The class of the colour of a step. */
 function tint(step) {

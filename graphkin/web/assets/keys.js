@@ -26,9 +26,8 @@ byId("previous").addEventListener("click", () => go(state.step - 1));
 byId("next").addEventListener("click", () => go(state.step + 1));
 play.addEventListener("click", toggle);
 follow.addEventListener("click", zoom);
-for (const stop of document.querySelectorAll("#stops button")) {
-  stop.addEventListener("click", () => go(Number(stop.dataset.stop)));
-}
+for (const stop of stops) stop.addEventListener("click", () => go(Number(stop.dataset.stop)));
+stop_list.addEventListener("change", () => go(Number(stop_list.value)));
 places.forEach(({ link }, i) => link.addEventListener("click", event => {
   event.preventDefault();
   go(i + 1);

@@ -26,26 +26,43 @@ function letter(one, labels, gone, found) {
   }
   const far = LEAP * Math.max(1, gone) * (Number(one.svg.style.getPropertyValue("--dot")) || 0.3);
   const now = performance.now();
-  for (const { i, id, half, records, spots, led } of labels) {
+  const fresh = ({ id }) => byId(id).matches(".now"); // what the step in sight draws is named before all else
+  for (const { i, id, half, records, spots, led } of [...labels].sort((p, q) => fresh(q) - fresh(p))) {
     const mark = byId(id), was = standing.get(id) ?? { side: 0, seen: false, since: -Infinity, spot: null };
     standing.set(id, was);
     if (!spots.length || mark.matches(".later,.void")) {
       Object.assign(was, { seen: false, since: -Infinity, spot: null });
       continue;
     }
-    const box = [half[0], half[1] + (state.going ? AIRY : HANGS)].map(size => size * one.lettering), off = off_middle(mark, records[0]).map(way => way * (1 - one.lettering));
+    const ring = ring_of(mark), box = [Math.max(half[0], ring), Math.max(half[1] + (state.going ? AIRY : HANGS), ring)].map(size => size * one.lettering), off = off_middle(mark, records[0]).map(way => way * (1 - one.lettering));
     const middles = spots.map(([u, v]) => [u + off[0], v + off[1]]), at = middles[was.side];
     const leapt = state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far;
     if (leapt || was.seen && !free(at, box, APART)) Object.assign(was, { seen: false, since: now });
     if (!was.seen && (!state.going || now - was.since >= HUSH)) {
-      const side = middles.findIndex(spot => free(spot, box, state.going ? CLEAR : APART));
+      const side = clearest(one, middles, box, spot => free(spot, box, state.going ? CLEAR : APART));
       if (side >= 0) Object.assign(was, { seen: true, side });
     }
     was.spot = middles[was.side];
     if (was.seen) placed.push([...was.spot, ...box]);
     if (was.side) found.set(i, records[was.side]);
-    for (const part of [mark, ...led.map(motion.named).map(byId)]) part?.classList.toggle("hushed", !was.seen);
+    mark.classList.toggle("hushed", !was.seen);
+    for (const part of led.map(motion.named).map(byId)) part?.classList.toggle("hushed", !was.seen || was.side > 0); // a leader leads to the place that is drawn
   }
+}
+
+/** The side on which a label stands free: as it is drawn, or where it covers the fewest lines; in motion the first. */
+function clearest({ svg }, middles, box, is_free) {
+  const open = middles.map((_, i) => i).filter(i => is_free(middles[i]));
+  if (!open[0] || open.length < 2 || state.going) return open[0] ?? -1;
+  const lines = taken_in(svg).filter(({ to }) => to);
+  const cost = open.map(i => lines.reduce((sum, line) => sum + covers(middles[i], box, line), 0));
+  return open[cost.indexOf(Math.min(...cost))];
+}
+
+/** The radius of the circle about the number of a link; none about other letters. */
+function ring_of(text) {
+  const ring = text.parentElement.previousElementSibling;
+  return ring?.matches("circle.number") ? ring.r.baseVal.value : 0;
 }
 
 const off_middles = new WeakMap();
@@ -66,7 +83,7 @@ function letters_at_rest(one, labels) {
     const texts = [...one.svg.querySelectorAll(".lettering>text")].filter(text => !moving.has(text.id));
     one.resting = texts.map(text => {
       const { x, y, width, height } = text.getBBox();
-      return { text, at: [x + width / 2, y + height / 2], half: [width / 2, INK * height / 2] };
+      return { text, at: [x + width / 2, y + height / 2], half: [width / 2, INK * height / 2].map(size => Math.max(size, ring_of(text))) };
     }).sort((p, q) => ("of" in q.text.dataset) - ("of" in p.text.dataset));
   }
   return one.resting.filter(({ text }) => !text.matches(moved() ? ".later,.void,[visibility],[data-aside]" : ".later,.void,[visibility]"));

@@ -216,11 +216,11 @@ const draw = (at, element, times, sheet, lettering) => {
 
 // The labels of a field that have something to name here: record, half its size, and the records of the
 // sides on which it may stand, its own first; with it go its leader and the circle about it.
-const ASIDE = 7;
+const ASIDE = 7, NEARER = 0.7; // without its leader a letter stands nearer
 const sides = ([kind, shown, o, d, a, b, ...rest], turns) => {
   const own = [[a, b]];
   if (kind === "b") own.push([a, -b], ...[ASIDE, -ASIDE].flatMap((by) => [[a + by, b], [a + by, -b]]));
-  else if (turns) own.push([-a, -b], [-b, a], [b, -a], [1.6 * a, 1.6 * b], [-1.6 * a, -1.6 * b]);
+  else if (turns) own.push(...[[-1, 0], [0, 1], [0, -1], [1.6, 0], [-1.6, 0]].map(([k, l]) => [k * a - l * b, l * a + k * b].map(far => (turns > 1 ? NEARER : 1) * far)));
   return own.map(([along, off]) => [kind, shown, o, d, along, off, ...rest]);
 };
 const labels = (sheet, side) => data.fields[sheet][side].labels.map(([i, across, down, turns]) => {

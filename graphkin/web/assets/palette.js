@@ -166,5 +166,5 @@ function palette_of(record, all_done) {
   /** What kind of thing an action gives: a line, a circle, a vector set on the mechanism, or a point. */
   const shape = action => LINES.includes(action) ? "line" : { compass: "circle", transfer: "vector" }[action] ?? "point";
 
-  return { plus, minus, scaled, dot, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of: shape, size_of: plane => sizes[plane], SAME };
+  return { plus, minus, scaled, dot, cross, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of: shape, size_of: plane => sizes[plane], SAME };
 }

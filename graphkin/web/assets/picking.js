@@ -188,11 +188,40 @@ function whole_line(key, look) {
   if (!drawn?.from) return;
   const { svg, lettering } = sheets[here()].fields[drawn.side], { x, y, width, height } = svg.viewBox.baseVal;
   const start = placed(picks[key].plane, value_of(key)[0]).at, unit = scaled(minus(drawn.to, drawn.from), 1 / length_of(minus(drawn.to, drawn.from)));
-  const sense = dot(minus([x + width / 2, y + height / 2], start), unit) < 0 ? -1 : 1;
-  const text = picks[key].name.replace(/ \([^()]*\)$/, "");
-  const aside = unit[1] < 0 ? [-unit[1], unit[0]] : [unit[1], -unit[0]]; // to the right, where the letters go on
-  const at = plus(plus(start, scaled(unit, 22 * sense)), scaled(aside, 1.5 * lettering));
-  put_in("front", { side: drawn.side, at: plus(at, [0, Math.max(0, 2.5 * lettering * aside[1])]), text }, "open");
+  const text = picks[key].name.replace(/ \(.*\)$/, ""), mark = put_in("front", { side: drawn.side, at: start, text }, "open"), ink = mark.getBBox();
+  const half = [ink.width / 2, 0.4 * ink.height], reach = Math.abs(unit[1]) * half[0] + Math.abs(unit[0]) * half[1] + 0.7 * lettering;
+  const taken = taken_in(svg, mark), own = one => one.to && [one.from, one.to].every(end => Math.abs(cross(minus(end, start), unit)) < 0.1);
+  let best = null;
+  for (let far = 6; far < width + height; far += 2) {
+    for (const [along, aside] of [[far, reach], [far, -reach], [-far, reach], [-far, -reach]]) {
+      const at = plus(plus(start, scaled(unit, along)), scaled([-unit[1], unit[0]], aside)), off = minus(at, [x + width / 2, y + height / 2]);
+      if (Math.abs(off[0]) > width / 2 - half[0] - 1 || Math.abs(off[1]) > height / 2 - half[1] - 1) continue;
+      const cost = 0.02 * Math.abs(far - 22) + taken.filter(one => !own(one)).reduce((sum, one) => sum + covers(at, half, one), 0);
+      if (!best || cost < best.cost) best = { at, cost };
+    }
+  }
+  const [u, v] = minus(best?.at ?? start, [ink.x + ink.width / 2, ink.y + ink.height / 2]);
+  mark.setAttribute("x", (start[0] + u).toFixed(2));
+  mark.setAttribute("y", (start[1] + v).toFixed(2));
+}
+
+/** What is drawn in a field, but perhaps one label: the boxes of letters and points, lines and arrows from end to end. */
+function taken_in(svg, label = null) {
+  const marks = [...svg.querySelectorAll(":is(text,circle,line):not(.later,.void,[visibility],.hushed,.grip,.leader,.halo:first-of-type *)")];
+  return marks.filter(mark => mark !== label).map(mark => {
+    const number = name => Number(mark.getAttribute(name));
+    if (mark.matches("line")) return { from: [number("x1"), number("y1")], to: [number("x2"), number("y2")] };
+    const { x, y, width, height } = mark.getBBox(), larger = mark.closest(".lettering") ? Number(svg.style.getPropertyValue("--t")) || 1 : 1;
+    return { at: [x + width / 2, y + height / 2], half: [larger * width / 2, larger * (mark.matches("text") ? INK : 1) * height / 2], letters: mark.matches("text") };
+  }).filter(({ half }) => !half || half[0] < 20);
+}
+
+/** How much a label at a place, half so large, would cover of what is drawn. */
+function covers(at, [a, b], { from, to, at: middle, half, letters }) {
+  const [u, v] = minus(at, from ? scaled(plus(from, to), 0.5) : middle).map(Math.abs);
+  if (!from) return u < a + half[0] && v < b + half[1] ? letters ? 20 : 4 : 0;
+  const way = scaled(minus(to, from), 0.5), turned = Math.abs(cross(minus(at, from), way));
+  return u < a + Math.abs(way[0]) && v < b + Math.abs(way[1]) && turned < a * Math.abs(way[1]) + b * Math.abs(way[0]) ? 3 : 0;
 }
 
 /** The place nearest to one that has room for a digit in a field. */
@@ -227,4 +256,5 @@ function put_in(group, drawn, look) {
   mark.setAttribute("class", look);
   if (text) write_symbol(mark, text);
   sheets[here()].fields[side][group].append(mark);
+  return mark;
 }

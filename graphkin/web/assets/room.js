@@ -1,6 +1,6 @@
 // As much room for words and values as the longest of them need, so that nothing jumps.
 const NARROWEST = 0.36; // part of the width that a field has at least
-const ROOM = 14; // dots between the drawing, the keys and the end of the window
+const ROOM = 14, FOLD = 3; // dots between the drawing, the keys and the end of the window; the same where what the keys do comes below
 const LOW = 1000; // dots of a window in which what the keys do comes below all else
 const BESIDE = matchMedia("(min-width:60.01rem) and (min-height:34.01rem)"); // as in steps.css: words stand beside the drawing
 
@@ -27,7 +27,7 @@ function fit() {
   const below = innerHeight < LOW ? byId("help").offsetHeight : 0; // there the drawing needs the room more
   style(page, "--dock", `${byId("dock").offsetHeight - below}px`);
   const seen = sheets[here()].element.querySelector(".view");
-  style(page, "--above", `${Math.ceil(seen.getBoundingClientRect().top + scrollY + ROOM)}px`);
+  style(page, "--above", `${Math.ceil(seen.getBoundingClientRect().top + scrollY + (below ? FOLD : ROOM))}px`);
   const box = byId("told");
   box.tabIndex = told.scrollHeight > box.clientHeight + 1 ? 0 : -1;
   sheets.forEach(share);

@@ -18,12 +18,16 @@ function say() {
   byId("told").scrollTop = 0;
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
   list_in_sight();
-  for (const stop of byId("stops").children) {
-    const is = Number(stop.dataset.stop) <= state.step && state.step <= Number(stop.dataset.end);
-    current(stop, is, "true");
-    if (is) into_sight(stop);
-  }
+  stops.forEach(({ dataset }, i) => {
+    const is = Number(dataset.stop) <= state.step && state.step <= Number(dataset.end);
+    current(stops[i], is, "true");
+    if (is) stop_list.value = dataset.stop;
+  });
 }
+
+const stops = [...byId("stops").children], stop_list = byId("stops").appendChild(document.createElement("select")); // buttons, and where there is no room for them a list
+stop_list.append(...stops.map(({ lastChild, dataset }) => new Option(lastChild.textContent.trim(), dataset.stop)));
+stop_list.setAttribute("aria-label", byId("stops").getAttribute("aria-label"));
 
 /** Move the sentence of the step in the list to where it is seen. */
 function list_in_sight() {
@@ -40,12 +44,6 @@ function reason_in_sight() {
   const hidden = reason.offsetTop + reason.offsetHeight - told.offsetTop - told.clientHeight;
   if (by_hand && byId("because").open && hidden > 0) told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
   by_hand = false;
-}
-
-/** Move the row of an element that is wider than the screen to where it is seen. */
-function into_sight(element) {
-  const row = element.parentElement;
-  row.scrollLeft = element.offsetLeft - row.offsetLeft - (row.clientWidth - element.offsetWidth) / 2;
 }
 
 /** Say of an element whether it is the one in sight. */

@@ -3,7 +3,7 @@ const turning = JSON.parse(byId("turning").textContent), { moves, picks } = turn
 const NEAR = { mouse: 14, touch: 26 }; // dots about a point that is meant
 const ORDER = Object.keys(moves).map(Number).sort((a, b) => moves[a].at - moves[b].at || a - b);
 
-const { plus, minus, scaled, dot, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
+const { plus, minus, scaled, dot, cross, length_of, value_of, plane_of, results_of, same_value, on_line, shape_of, size_of, SAME } = palette_of(turning, steps => all_done(steps));
 for (const move of Object.values(moves)) move.sheet = data.bounds.findIndex(([, end]) => move.at <= end);
 const CHOICE = ["cut", "lay_off"]; // where the reader says which of two is meant
 
@@ -111,6 +111,7 @@ function show_turn() {
   tell_count(next, [...rest]);
   byId("turn-sheet").hidden = sheets.length < 2;
   for (const name of ["hint", "draw-it"]) byId(name).disabled = next === undefined;
+  if (motion) put(); // labels make room for those that are new
   look();
   light_up();
   show_inputs();
@@ -141,7 +142,7 @@ function told_found(rows) {
 }
 
 /** The part of the work to which a step belongs, as its button is called. */
-const part_of = step => [...byId("stops").children].find(({ dataset }) => moves[step].at <= Number(dataset.end));
+const part_of = step => stops.find(({ dataset }) => moves[step].at <= Number(dataset.end));
 const part_name = step => part_of(step).lastChild.textContent.trim();
 
 /** What is sought next, and how many steps are left, in this part of the work and in all. */

@@ -3,7 +3,7 @@ const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can
 const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
 const AIR = 3, MOST = 0.12, PIN = 6; // mm about what a field is shifted or grows for; the part of a field beyond its edges that is shown; mm about a pin
 const PLACES = 72, NEARLY = 0.75; // of a motion that are looked at, and the part of them whose drawing is in the frame
-const LEGIBLE = 9.1, GLIDE = 250; // dots of the height of the smallest lettering; milliseconds from one frame to another
+const LEGIBLE = 9.1, LARGEST = 6, GLIDE = 250; // dots of the height of the smallest lettering, times that it grows at most; milliseconds from one frame to another
 const KEPT = [2, Infinity]; // how many times smaller than as drawn a field can be and lettering keep its size
 let wanted = null; // whether what is marked is to be shown large; as the screen is, until one says
 const DRAWN = sheets.map(() => [1, 1]); // as where the scene stands
@@ -26,9 +26,12 @@ function look(glides = false) {
   sheet.fields.forEach((one, i) => {
     const scale = dots(sizes[i], boxes[i]), most = (near ? 2 : 1.3) * times[i];
     style(one.svg, "--dot", (1 / scale).toFixed(3));
-    frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), 3.5 * times[i])), glides);
+    frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), LARGEST * times[i])), glides);
   });
-  if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) put(); // letters of another size stand elsewhere
+  if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) { // letters of another size stand elsewhere
+    put();
+    if (!page.classList.contains("turning")) halos();
+  }
   bars(sheet, sizes, boxes);
 }
 
