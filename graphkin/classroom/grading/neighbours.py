@@ -15,6 +15,7 @@ from msgspec import Struct
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.marking import SENSE, sense_is_open
+from graphkin.classroom.grading.one_drawing import is_one_drawing, mostly
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.asking import worth
 from graphkin.classroom.lab.fairness import Fault
@@ -71,12 +72,15 @@ def compare(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> Neighbours
 class RightValues(Struct, frozen=True):
     """The right values of some variants, a row for each, and what they are worth on its sheet.
 
-    ``sizes`` are held to be equal within ``allowed``, ``senses`` are signs, and those that no
-    drawing tells are ``unclear``; ``points`` and ``sense_points`` are shares of all points.
+    ``sizes`` are held to be equal within ``allowed``, or within ``most`` where all are one drawing
+    by the ``keys``; ``senses`` are signs, and those that no drawing tells are ``unclear``;
+    ``points`` and ``sense_points`` are shares of all points.
     """
 
+    keys: Keys
     sizes: Array
     allowed: Array
+    most: Array
     deviations: Array
     points: Array
     senses: Array
@@ -96,14 +100,33 @@ class RightValues(Struct, frozen=True):
             return np.array([[read(each, f) for f in fields] for each in found])
 
         return cls(
+            keys,
             keys.sizes,
             told(lambda each, f: each.tolerance[f].value, keys.fields),
+            told(lambda each, f: each.tolerance[f].most, keys.fields),
             keys.deviations,
             told(points_of, keys.fields) / total,
             told(lambda each, f: each.key[f], senses),
             told(sense_is_open, senses).astype(bool),
             told(points_of, senses) / total,
         )
+
+    def by_key(self) -> Array:
+        """What the exact values of each earn on the sheets of all, a row for each sheet."""
+        import numpy as np
+
+        shares = self.earned(self, is_within)
+        for i in range(len(self.sizes)):
+            away = self.sizes - self.sizes[i]
+            near = abs(away) <= self.most[i]
+            more = near & (abs(away) > self.allowed[i]) & (self.points[i] > 0)
+            known = self.keys.known(i)
+            for j in np.flatnonzero(more.any(axis=1) & mostly(near.sum(axis=1), near.shape[1])):
+                read = near[j] & known
+                key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
+                if is_one_drawing(away[j, read], rounded, key):
+                    shares[i, j] += self.points[i, more[j]].sum()
+        return shares
 
     def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
         """What the right values of others earn, a row for each own sheet; ``chance`` says of how
@@ -128,7 +151,7 @@ def neighbours(found: Sequence[Standard]) -> Neighbours:
 
     own = RightValues.of(found)
     itself = np.eye(len(found), dtype=bool)
-    shares = (own.earned(own, chance) for chance in (is_within, comes_within))
+    shares = own.by_key(), own.earned(own, comes_within)
     exact, drawn = (np.where(itself, np.nan, each) for each in shares)
     return Neighbours(exact, drawn, np.array([worst_drawn(each)[1] for each in found]))
 
