@@ -15,7 +15,7 @@ from msgspec import Struct
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.marking import SENSE, sense_is_open
-from graphkin.classroom.grading.one_drawing import is_one_drawing, mostly
+from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.asking import worth
 from graphkin.classroom.lab.fairness import Fault
@@ -116,16 +116,13 @@ class RightValues(Struct, frozen=True):
         import numpy as np
 
         shares = self.earned(self, is_within)
-        for i in range(len(self.sizes)):
-            away = self.sizes - self.sizes[i]
-            near = abs(away) <= self.most[i]
-            more = near & (abs(away) > self.allowed[i]) & (self.points[i] > 0)
-            known = self.keys.known(i)
-            for j in np.flatnonzero(more.any(axis=1) & mostly(near.sum(axis=1), near.shape[1])):
-                read = near[j] & known
-                key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
-                if is_one_drawing(away[j, read], rounded, key):
-                    shares[i, j] += self.points[i, more[j]].sum()
+        for i, points in enumerate(self.points):
+            away, read = self.sizes - self.sizes[i], self.keys.known(i)
+            more = (abs(away) <= self.most[i]) & (abs(away) > self.allowed[i])
+            one = np.flatnonzero(more @ points > 0)
+            key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
+            one = one[is_one_drawing(away[one][:, read], rounded, key)]
+            shares[i, one] += more[one] @ points
         return shares
 
     def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
