@@ -43,10 +43,11 @@ class Marker:
         given = with_senses(self.standard, answers)
         torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
         read = [f for f in self.standard.key if given[f].is_read and f not in torn]
-        each = tuple(field for field in read if is_right(self.standard, field, given))
-        beyond = tuple(field for field in read if field not in each)
-        by_key = (*each, *of_one_drawing(self.standard.expectation, given, beyond))
-        off = tuple(field for field in read if field not in by_key)
+        by_key = tuple(field for field in read if is_right(self.standard, field, given))
+        beyond = tuple(field for field in read if field not in by_key)
+        if beyond:
+            by_key = (*by_key, *of_one_drawing(self.standard.expectation, given, beyond))
+        off = tuple(field for field in beyond if field not in by_key)
         computed = rightly(self.standard, given, off, by_key)
         right = (*by_key, *computed)
         wrong = tuple(field for field in off if field not in computed)
