@@ -101,7 +101,7 @@ def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match =
         except RosterError as error:
             reading.told.extend(error.problems)
             continue
-        reading.form(sheet, file) if is_form(sheet) else reading.rows(sheet)
+        reading.form(sheet, file) if is_form(sheet) else reading.rows(sheet, file)
     reading.told.stop()
     reading.answers.empty = given.empty
     refuse_other_lab(path.name, reading)
@@ -147,13 +147,14 @@ class AnswerReading(Struct, dict=True):
         """The fields by their names as they are compared."""
         return {folded(name): name for name in self.known}
 
-    def rows(self, sheet: Spreadsheet) -> None:
-        """A table with a row for each student."""
+    def rows(self, sheet: Spreadsheet, file: HandedIn) -> None:
+        """A table with a row for each student, or one row of the student whose file it is."""
         where = columns(sheet, HEADS | BESIDE)
         named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
         own = {i: name for i, name in named if name is not None}
         meant = [what for what in HEADS if what in where and self.match in ("", what)]
-        if not meant:
+        alone = self.by_file(file) if len(sheet.rows) == 1 else None
+        if not meant and alone is None:
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
             wanted = self.match or "id"
             found = f"no column {wanted}; the head is {head}"
@@ -170,9 +171,12 @@ class AnswerReading(Struct, dict=True):
             if i not in own and cell and folded(cell) not in IDS | OTHERS:
                 self.stranger(sheet, cell)
         for row in sheet.rows:
-            column = where[meant[0]]
-            who = self.signed(sheet, row, sheet.head[column], row.cells[column])
+            column = where[meant[0]] if meant else None
+            head, sign = ("", "") if column is None else (sheet.head[column], row.cells[column])
+            who = self.signed(sheet, row, head or "id", sign or alone or "")
             if who is not None:
+                if alone is not None and file.sender is not None:
+                    self.answers.senders[who] = file.sender
                 cells = {name: self.cell(sheet, row, i, who, name) for i, name in own.items()}
                 self.answers.of[who] = cells
 
@@ -182,15 +186,13 @@ class AnswerReading(Struct, dict=True):
         """
         stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
         stated = [row for row in stated if row.cells[1]] or stated
-        sign = stated[0].cells[1] if stated else file.stem
-        sender = file.sender
-        if not sign or (not stated and self.signs.who(sign) is None):
-            sign = (self.signs.named(sender.name) if sender is not None else None) or sign
+        sign = stated[0].cells[1] if stated else ""
+        sign = sign or self.by_file(file) or ("" if stated else file.stem)
         who = self.signed(sheet, stated[0] if stated else SheetRow(1, ()), "id", sign)
         if who is None:
             return
-        if sender is not None:
-            self.answers.senders[who] = sender
+        if file.sender is not None:
+            self.answers.senders[who] = file.sender
         self.answers.of[who] = {}
         for row in sheet.rows:
             name = self.fields.get(folded(row.cells[0]))
@@ -202,6 +204,12 @@ class AnswerReading(Struct, dict=True):
                 self.told.add(sheet.place(row), f"{name} is answered twice", "once")
             self.seen.add(name)
             self.answers.of[who][name] = self.cell(sheet, row, 1, who, name)
+
+    def by_file(self, file: HandedIn) -> str | None:
+        """Whose a file is that does not tell: by its name, or as a learning platform names it."""
+        if self.signs.who(file.stem) is not None:
+            return file.stem
+        return self.signs.named(file.sender.name) if file.sender is not None else None
 
     def signed(self, sheet: Spreadsheet, row: SheetRow, head: str, sign: str) -> str | None:
         """The student of the class who signs a row and has no answers yet; None, noted, if none."""

@@ -23,6 +23,7 @@ from graphkin.classroom.grading.graded import (
 )
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.same_digits import copies
+from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Expectation, standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Item, Lab
@@ -88,6 +89,10 @@ class Book(Struct, dict=True):
             self.expected[name] = marker.standard.expectation
         return self.expected[name]
 
+    def slips(self, graded: Graded) -> tuple[Slip, ...]:
+        """The slips with a student's data."""
+        return self.marker(graded.taker.settings, graded.taker.compute).slips
+
     def mark(self, taker: Taker, answers: Given | None) -> tuple[Graded, Expectation]:
         """The marks of one student, without answers none, and what was expected."""
         marker = self.marker(taker.settings, taker.compute)
@@ -126,7 +131,7 @@ def graded_class(
     found = [each for _, each in sorted(zip(order, marked, strict=True), key=lambda pair: pair[0])]
     graded = [each for each, _ in found]
     expected = shared(found)
-    others = wrong_variants(graded, expected)
+    others = wrong_variants(graded, expected, book.slips)
     twice = copies(graded, expected)
     fits = {each.students[0]: each.fields for each in others}
     flagged = {*fits, *(who for each in twice for who in each.students)}

@@ -1,22 +1,26 @@
 """Evidence for the lecturer: answers that fit another student's data better than the own.
 
 Both are told by how closely the answers agree with either key, all of them together: by as much as
-one pencil explains, or to the very digits. Whoever else is in the class matters only by number.
+one pencil explains, or to the very digits. The own key is also that of a slip that goes through the
+whole drawing: an angle laid off clockwise is another's angle. Whoever else is in the class matters
+only by number.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import log
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.graded import Graded, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
-from graphkin.classroom.grading.likelihood import FAR, drawn, fit, told_odds
+from graphkin.classroom.grading.likelihood import FAR, Key, drawn, fit, told_odds
 from graphkin.classroom.grading.slip_diagnosis import SHARE
+from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Expectation
 
 FEW = 3
@@ -31,13 +35,22 @@ TRIED = 3
 """Variants that are looked at closely: those nearest to the answers, each answer by itself."""
 
 
+Slips = Callable[[Graded], Sequence[Slip]]
+"""The slips with a student's data."""
+
+
+def no_slips(graded: Graded) -> Sequence[Slip]:
+    """None."""
+    return ()
+
+
 def wrong_variants(
-    graded: Sequence[Graded], standards: Sequence[Expectation]
+    graded: Sequence[Graded], standards: Sequence[Expectation], slips: Slips = no_slips
 ) -> tuple[Suspicion, ...]:
     """Students whose answers fit another's data: (student, owners), the fields, the odds.
 
     ``standards`` holds what each was marked against, in the same order; those who handed in
-    nothing have data, too.
+    nothing have data, too. ``slips`` are asked only for whoever would be named without them.
     """
     if not standards or len(standards[0].tolerance) < FEW:
         return ()
@@ -51,7 +64,10 @@ def wrong_variants(
     for each, standard in zip(graded, standards, strict=True):
         tells = each.present and len(own) > 1
         enough = choices + log(STRONG)
-        best = best_other(each, keys, mine[id(standard)], enough) if tells else None
+        place = mine[id(standard)]
+        best = best_other(each, keys, place, enough) if tells else None
+        if best is not None and (known := [slip for slip in slips(each) if slip.whole]):
+            best = best_other(each, keys, place, enough, known)
         if best is not None:
             ids = (each.taker.student.id, *theirs[best.other])
             found.append(Suspicion(ids, best.fields, told_odds(best.odds - choices), best.of))
@@ -68,20 +84,22 @@ class Best(Struct, frozen=True):
     odds: float
 
 
-def best_other(graded: Graded, keys: Keys, mine: int, enough: float) -> Best | None:
+def best_other(
+    graded: Graded, keys: Keys, mine: int, enough: float, slips: Sequence[Slip] = ()
+) -> Best | None:
     """The other variant that a student's answers fit best; None where none fits so much better than
-    the own as is ``enough``, a logarithm.
+    the own, or the own with one of some slips, as is ``enough``, a logarithm.
     """
     import numpy as np
 
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
-    slipped = np.array([marks[field].odds >= EXPLAINED for field in keys.fields])
+    explained = np.array([marks[field].odds >= EXPLAINED for field in keys.fields])
     found = None
     for other in nearest(answers, digits, keys, mine):
         agree = abs(answers - keys.sizes[other]) <= 1.01 * digits
         known = keys.known(mine) & keys.known(other)
-        read = ~np.isnan(answers) & known & (~slipped | agree)
+        read = ~np.isnan(answers) & known & (~explained | agree)
         if read.sum() < FEW:
             continue
         given, rounded = answers[read], digits[read]
@@ -89,7 +107,11 @@ def best_other(graded: Graded, keys: Keys, mine: int, enough: float) -> Best | N
         plain = drawn(given, rounded, keys.key(mine, read), theirs.fits)
         if theirs.likelihood - plain < enough:
             continue
-        odds = theirs.likelihood - by_own(answers, digits, keys, mine, read, theirs.fits)
+        own = by_own(answers, digits, keys, mine, read, theirs.fits)
+        for slip in slips:
+            key = slipped(keys, mine, read, slip)
+            own = max(own, log(SHARE) + fit(given, rounded, key, theirs.fits).likelihood)
+        odds = theirs.likelihood - own
         fitting = theirs.fits.sum() >= FEW and odds >= enough
         if fitting and (found is None or odds > found.odds):
             fits = np.flatnonzero(read)[theirs.fits]
@@ -117,6 +139,16 @@ def by_own(answers: Any, digits: Any, keys: Keys, mine: int, read: Any, theirs: 
         return found
     scaled = fit(given / times, rounded / times, key, theirs).likelihood
     return max(found, scaled - float(np.log(times).sum()) + log(SHARE))
+
+
+def slipped(keys: Keys, mine: int, read: Any, slip: Slip) -> Key:
+    """The own key as a slip changes it, drawn with the errors of the own drawing."""
+    import numpy as np
+
+    key, right = keys.key(mine, read), keys.standards[mine].key
+    fields = [keys.fields[place] for place in np.flatnonzero(read)]
+    told = np.array([slip.values.get(field, right[field]) for field in fields])
+    return replace(key, sizes=np.where(key.places, told, abs(told)))
 
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:

@@ -178,6 +178,8 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         return words("feedback.unreadable", why=reason)
     if mark.status is Status.RIGHT and mark.source:
         return words("feedback.right_by", source=graded.mark(mark.source).item.symbol)
+    if mark.is_together:
+        return words("feedback.right_together")
     if mark.status in PLAIN:
         return words(PLAIN[mark.status])
     if mark.torn:

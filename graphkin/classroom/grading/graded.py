@@ -95,6 +95,12 @@ class EarnedMark(Struct, frozen=True):
         return self.decision is not None and self.decision.points is not None
 
     @property
+    def is_together(self) -> bool:
+        """Whether it is right, though beyond its own tolerance, since all are one drawing."""
+        sized = self.item.what != "sense" and self.status is Status.RIGHT and not self.source
+        return sized and self.off is not None and abs(self.off) > self.tolerance
+
+    @property
     def waits(self) -> bool:
         """Whether it cannot be read, and nobody has decided its points."""
         return self.status is Status.UNREADABLE and not self.is_ruled

@@ -13,6 +13,7 @@ from graphkin.classroom.grading.field_slips import of_fields
 from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
 from graphkin.classroom.grading.form_relations import Following
 from graphkin.classroom.grading.graded import BLANK, Answer, EarnedMark, Graded, Status, Taker
+from graphkin.classroom.grading.one_drawing import of_one_drawing
 from graphkin.classroom.grading.slip_diagnosis import Found, diagnosed
 from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Standard
@@ -43,7 +44,10 @@ class Marker:
         torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
         read = [f for f in self.standard.key if given[f].is_read and f not in torn]
         by_key = tuple(field for field in read if is_right(self.standard, field, given))
-        off = tuple(field for field in read if field not in by_key)
+        beyond = tuple(field for field in read if field not in by_key)
+        if beyond:
+            by_key = (*by_key, *of_one_drawing(self.standard.expectation, given, beyond))
+        off = tuple(field for field in beyond if field not in by_key)
         computed = rightly(self.standard, given, off, by_key)
         right = (*by_key, *computed)
         wrong = tuple(field for field in off if field not in computed)

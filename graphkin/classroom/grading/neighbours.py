@@ -15,6 +15,7 @@ from msgspec import Struct
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.marking import SENSE, sense_is_open
+from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.asking import worth
 from graphkin.classroom.lab.fairness import Fault
@@ -71,12 +72,15 @@ def compare(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> Neighbours
 class RightValues(Struct, frozen=True):
     """The right values of some variants, a row for each, and what they are worth on its sheet.
 
-    ``sizes`` are held to be equal within ``allowed``, ``senses`` are signs, and those that no
-    drawing tells are ``unclear``; ``points`` and ``sense_points`` are shares of all points.
+    ``sizes`` are held to be equal within ``allowed``, or within ``most`` where all are one drawing
+    by the ``keys``; ``senses`` are signs, and those that no drawing tells are ``unclear``;
+    ``points`` and ``sense_points`` are shares of all points.
     """
 
+    keys: Keys
     sizes: Array
     allowed: Array
+    most: Array
     deviations: Array
     points: Array
     senses: Array
@@ -96,14 +100,30 @@ class RightValues(Struct, frozen=True):
             return np.array([[read(each, f) for f in fields] for each in found])
 
         return cls(
+            keys,
             keys.sizes,
             told(lambda each, f: each.tolerance[f].value, keys.fields),
+            told(lambda each, f: each.tolerance[f].most, keys.fields),
             keys.deviations,
             told(points_of, keys.fields) / total,
             told(lambda each, f: each.key[f], senses),
             told(sense_is_open, senses).astype(bool),
             told(points_of, senses) / total,
         )
+
+    def by_key(self) -> Array:
+        """What the exact values of each earn on the sheets of all, a row for each sheet."""
+        import numpy as np
+
+        shares = self.earned(self, is_within)
+        for i, points in enumerate(self.points):
+            away, read = self.sizes - self.sizes[i], self.keys.known(i)
+            more = (abs(away) <= self.most[i]) & (abs(away) > self.allowed[i])
+            one = np.flatnonzero(more @ points > 0)
+            key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
+            one = one[is_one_drawing(away[one][:, read], rounded, key)]
+            shares[i, one] += more[one] @ points
+        return shares
 
     def earned(self, other: RightValues, chance: Callable[[Array, Array, Array], Array]) -> Array:
         """What the right values of others earn, a row for each own sheet; ``chance`` says of how
@@ -128,7 +148,7 @@ def neighbours(found: Sequence[Standard]) -> Neighbours:
 
     own = RightValues.of(found)
     itself = np.eye(len(found), dtype=bool)
-    shares = (own.earned(own, chance) for chance in (is_within, comes_within))
+    shares = own.by_key(), own.earned(own, comes_within)
     exact, drawn = (np.where(itself, np.nan, each) for each in shares)
     return Neighbours(exact, drawn, np.array([worst_drawn(each)[1] for each in found]))
 

@@ -12,7 +12,6 @@ from graphkin.classroom.grading.neighbours import (
     Neighbours,
     RightValues,
     compare,
-    is_within,
     pencil_fault,
     standards_of,
 )
@@ -124,7 +123,7 @@ def with_room(
     limit, found = lab.fair.apart, list[Fault | None]()
     before, both = len(kept), [*kept, *tried]
     values = RightValues.of([standard for _, standard in both])
-    shares = values.earned(values, is_within)
+    shares = values.by_key()
     shares = np.maximum(shares, shares.T)
     rows = list(range(before))
     for row in range(before, len(both)):

@@ -101,27 +101,32 @@ def written(field: str, value: float, digits: int) -> Answer:
 
 def row(lab: str, taker: Taker, kind: Kind, rng: np.random.Generator, honest: bool = True) -> Row:
     """What a student hands in who draws the own data."""
-    n = number_of(taker)
+    given, sheet = hand.data(lab, number_of(taker)), sheet_of(lab, taker.settings["n"])
+
+    def draw(pencil: Sequence[float], slips: Sequence[str]) -> dict[str, float]:
+        return hand.drawn(lab, given, sheet, rng, *pencil, slips)
+
+    return drawn_row(draw, kind, rng, honest)
+
+
+def drawn_row(
+    draw: Callable[[Sequence[float], Sequence[str]], dict[str, float]],
+    kind: Kind,
+    rng: np.random.Generator,
+    honest: bool = True,
+) -> Row:
+    """What a student of a kind hands in, who draws with a pencil (as a Hand has it) and slips."""
     sigma = rng.uniform(*kind.sigma)
     slips = [str(rng.choice(kind.slips))] if honest and rng.random() < kind.share else []
+    pencil = sigma, kind.turn * sigma, 0.13 if sigma > 0.1 else 0.0, kind.step
     for _ in range(20):
         try:
-            found = hand.drawn(
-                lab,
-                hand.data(lab, n),
-                sheet_of(lab, taker.settings["n"]),
-                rng,
-                sigma,
-                kind.turn * sigma,
-                0.13 if sigma > 0.1 else 0.0,
-                kind.step,
-                slips,
-            )
+            found = draw(pencil, slips)
         except ValueError:
             slips = []
             continue
         return {field: written(field, value, kind.digits) for field, value in found.items()}
-    raise ValueError(f"{lab}, n = {n}: no drawing closes")
+    raise ValueError("no drawing closes")
 
 
 def honest_class(lab: str, kind: Kind, seed: int) -> dict[str, Row]:

@@ -1,4 +1,4 @@
-"""Three labs drawn by hand, from formulas of their own: nothing here comes from graphkin.
+"""Labs drawn by hand, from formulas of their own: nothing here comes from graphkin.
 
 A drawing is made on paper in millimetres, point by point, as a student makes it: every point that
 is marked lies off by a gaussian error along either axis, every direction that is laid off or
@@ -188,14 +188,21 @@ def slider_crank(hand: Hand, given: Data) -> None:
 
 
 def slotted_lever(hand: Hand, given: Data) -> None:
-    """Crank 120 mm, a block at its pin in the slot of a lever about (0, -300 mm), 620 mm long; a
-    rod of 200 mm from its end to a ram on the guide 340 mm above the crank's pivot."""
-    a, va, aa = hand.crank(given, 120)
-    pivot, long, rod = -1j * hand.metres(300), hand.metres(620), hand.metres(200)
+    """Crank 120 mm, lever 620 mm about (0, -300 mm), rod 200 mm, ram 340 mm above the crank."""
+    quick_return(hand, given, 120, 300, 620, 200, 340)
+
+
+def quick_return(
+    hand: Hand, given: Data, crank: float, below: float, reach: float, joint: float, above: float
+) -> None:
+    """A crank, a block at its pin in the slot of a lever about a pivot straight ``below``; a rod
+    from the lever's end to a ram on the level guide ``above`` the crank's pivot."""
+    a, va, aa = hand.crank(given, crank)
+    pivot, long, rod = -1j * hand.metres(below), hand.metres(reach), hand.metres(joint)
     lever = a - pivot
     arm, way = hand.read(abs(lever)), lever / abs(lever)
     b = hand.dot(pivot + long * way)
-    c = hand.dot(on_guide(b, rod, hand.metres(340)))
+    c = hand.dot(on_guide(b, rod, hand.metres(above)))
     bar = c - b
     v3 = hand.crossing(0j, 1j * way, va, way)
     vb = hand.dot(v3 * long / arm)
@@ -260,6 +267,45 @@ def pump(hand: Hand, given: Data) -> None:
     hand.place("I_3", hand.crossing(0j, a, pivot, arm))
     hand.place("J_3", pole(hand, (a, b), (aa, ab)))
     hand.place("J_4", pole(hand, (c, d), (ac, ad)))
+
+
+def six_bar(hand: Hand, given: Data, crank: float, rod: float, rocker: float) -> None:
+    """A four-bar of 200 and 140 mm about (210, -30), a plate ABC of 150 and 110 mm on its coupler,
+    a rod from C to a rocker about (360, 120); B and D lie where arcs meet."""
+    a, va, aa = hand.crank(given, crank)
+    second, third = hand.metres(1) * (210 - 30j), hand.metres(1) * (360 + 120j)
+    b = hand.dot(arcs(a, hand.metres(200), second, hand.metres(140)))
+    plate, arm = b - a, b - second
+    part = (200**2 + 150**2 - 110**2) / (2 * 200**2)
+    shape = complex(part, sqrt((150 / 200) ** 2 - part**2))
+    c = hand.dot(a + shape * plate)
+    d = hand.dot(arcs(third, hand.metres(rocker), c, hand.metres(rod)))
+    bar, swing = d - c, d - third
+    vb = hand.crossing(0j, 1j * arm, va, 1j * plate)
+    vc = hand.dot(va + shape * (vb - va))
+    vd = hand.crossing(0j, 1j * swing, vc, 1j * bar)
+    first = hand.dot(hand.relative_normal(vb, arm / abs(arm) * hand.metres(140)))
+    tip = hand.dot(aa + hand.relative_normal(vb - va, plate / abs(plate) * hand.metres(200)))
+    ab = hand.crossing(first, 1j * arm, tip, 1j * plate)
+    ac = hand.dot(aa + shape * (ab - aa))
+    own = hand.dot(hand.relative_normal(vd, swing / abs(swing) * hand.metres(rocker)))
+    away = hand.dot(ac + hand.relative_normal(vd - vc, bar / abs(bar) * hand.metres(rod)))
+    ad = hand.crossing(own, 1j * swing, away, 1j * bar)
+    hand.velocity("v_C", vc)
+    hand.velocity("v_D", vd)
+    hand.acceleration("a_C", ac)
+    hand.acceleration("a_D", ad)
+    hand.rate("omega_2", vb - va, plate, hand.metres(200))
+    hand.rate("omega_5", vd, swing, hand.metres(rocker))
+    hand.rate("epsilon_2", ab - tip, plate, hand.metres(200))
+    hand.rate("epsilon_5", ad - own, swing, hand.metres(rocker))
+
+
+def arcs(p: complex, own: float, q: complex, other: float) -> complex:
+    """Where arcs about two points meet, to the left of the way from the first to the second."""
+    axis = q - p
+    along = (own**2 - other**2 + abs(axis) ** 2) / (2 * abs(axis))
+    return p + complex(along, sqrt(own**2 - along**2)) * axis / abs(axis)
 
 
 def pole(hand: Hand, ends: tuple[complex, complex], tips: tuple[complex, complex]) -> complex:

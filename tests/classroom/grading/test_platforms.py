@@ -105,6 +105,38 @@ def test_moodles_submissions_are_read_with_all_that_lies_beside(tmp_path, make):
     assert found.senders["01003"].back == "Ana Ștefănescu_12345_assignsubmission_file_/"
 
 
+@pytest.mark.parametrize("match", ["", "email"])
+def test_a_row_without_an_id_is_that_of_the_folder_it_lies_in(tmp_path, match):
+    """A table with one row, by whatever students are found in other tables."""
+    key = marker_of("pump", 7).standard.key
+    table = f"{';'.join(key)}\n{';'.join(f'{value:.5g}' for value in key.values())}\n"
+    files = {
+        "Ana Ștefănescu_12345_assignsubmission_file/answers.csv": table,
+        "Ion Popa_777_assignsubmission_file/sub/x.csv": f"Matricol;v_D\n1005;{key['v_D']}\n"
+        if not match
+        else table,
+    }
+    found = read_answers(packed(tmp_path / "all.zip", files), book_of("pump").form, SIGNS, match)
+    assert set(found.of) == {"01003", "01005"}
+    assert found.of["01003"]["v_D"].value == pytest.approx(key["v_D"], rel=1e-4)
+    assert {who: sender.back for who, sender in found.senders.items()} == {
+        "01003": "Ana Ștefănescu_12345_assignsubmission_file/",
+        "01005": "Ion Popa_777_assignsubmission_file/",
+    }
+
+
+def test_a_row_without_an_id_of_nobody_is_refused(tmp_path):
+    files = {"Eva Nimeni_12345_assignsubmission_file/answers.csv": "v_D\n3.8\n"}
+    with pytest.raises(RosterError, match="no column id"):
+        read_answers(packed(tmp_path / "all.zip", files), book_of("pump").form, SIGNS)
+
+
+def test_rows_of_several_without_ids_are_refused_in_a_folder_of_one(tmp_path):
+    files = {"Ana Ștefănescu_12345_assignsubmission_file/answers.csv": "v_D\n3.8\n3.9\n"}
+    with pytest.raises(RosterError, match="no column id"):
+        read_answers(packed(tmp_path / "all.zip", files), book_of("pump").form, SIGNS)
+
+
 def test_canvas_has_all_files_in_one_folder_by_names_run_together(tmp_path):
     files = {"stefanescuana_901_11_a.csv": form(7), "popaion_LATE_903_12_a.csv": form(9)}
     found = read_answers(packed(tmp_path / "s.zip", files), book_of("pump").form, SIGNS)
