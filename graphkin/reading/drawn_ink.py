@@ -36,6 +36,8 @@ TOLD = 0.4
 """The share of a way that is not below printed ink, for it to tell something."""
 BOW = 5.0
 """Half the length of a compass arc that is looked at, in mm."""
+ARRIVES = 0.35
+"""By how much less of the last piece of a way may be drawn: letters, heads and pale ends."""
 COVERED = 0.3
 """A place of a line counts as drawn from this part of a usual line on."""
 
@@ -46,6 +48,10 @@ it is looked at.
 SPECKS = 0.3
 """The share of what counts as empty that may be dark: a letter stands near, or the paper's grain.
 """
+MARKS = np.arange(0.45, 2.6, 0.15)
+"""Radii of the dots, rings and crosses by which a point is marked, in mm; the last lie beyond."""
+BEYOND, MARKED = 6, 0.7
+"""How many radii on there is paper again; the share of a mark that is drawn at least."""
 ASLANT, MOST_NODES = 12.0, 6
 """Degrees at least by which another line leaves a line; the places where some do that are told."""
 
@@ -152,6 +158,30 @@ class DrawnInk(Struct, frozen=True):
         near = drawn[middle - before : middle + before]
         return InkStroke(None) if near.mean() >= RUNS else None
 
+    def spot(self, places: Any, way: complex | None) -> complex | None:
+        """Where, of some places, a dot, a ring or a small cross marks a point, beside a line that
+        runs there; None where nothing does.
+        """
+        turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
+        if way is not None:
+            turns = turns[abs((turns / way).imag) > 0.5]
+        rings = places[:, None, None] + MARKS[:, None] * turns
+        dark, known = self.at(rings.reshape(len(places), -1))
+        seen = (known > 0).reshape(rings.shape)
+        drawn = (dark > COVERED).reshape(rings.shape) & seen
+        full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > TOLD)
+        round_it = (full[:, :-BEYOND] - full[:, BEYOND:]).max(axis=1)
+        half = turns.size // 2
+        arms = drawn[:, :BEYOND].mean(axis=1) - drawn[:, -2:].mean(axis=1)
+        across = np.minimum(arms, np.roll(arms, half, axis=1)).max(axis=1)
+        marked = np.maximum(round_it, across)
+        best = int(marked.argmax())
+        if marked[best] < MARKED:
+            return None
+        near = marked > marked[best] - 0.1
+        near &= abs(places - places[best]) < MARKS[-1] / 2
+        return complex(places[near].mean())
+
     def node(self, place: complex, way: complex, reach: float) -> float | None:
         """How far along a line, from a place on it, most others leave it; None where none does."""
         along = np.arange(-reach, reach + PITCH, PITCH)
@@ -191,11 +221,18 @@ class DrawnInk(Struct, frozen=True):
         return np.clip(drawn - RUNS, 0, None) / (1 - RUNS), rays
 
     def cover(
-        self, start: complex, end: complex, beside: float = 0.3, hidden: float = 0.0
+        self,
+        start: complex,
+        end: complex,
+        beside: float = 0.3,
+        hidden: float = 0.0,
+        *,
+        arrives: bool = False,
     ) -> float:
         """How much of the way between two places is drawn, straight but for so many mm beside.
 
-        ``hidden`` is what stands for a way most of which lies below printed ink.
+        ``hidden`` is what stands for a way most of which lies below printed ink. ``arrives``: of
+        the whole way, or of its last piece where less of that is drawn: else it ends before.
         """
         long = abs(end - start)
         if not long >= 2.5 * ENDS:  # nor where one end is nowhere
@@ -208,7 +245,11 @@ class DrawnInk(Struct, frozen=True):
         whole = known[:, len(across) // 2] > 0
         if whole.mean() < TOLD:
             return hidden
-        return float((drawn & whole).sum() / max(whole.sum(), 1))
+        found = float((drawn & whole).sum() / max(whole.sum(), 1))
+        last = whole & (along > long - ENDS - RUN)
+        if arrives and last.any():
+            found = min(found, float((drawn & last).sum() / last.sum()) + ARRIVES)
+        return found
 
 
 def offsets(far: float) -> Any:

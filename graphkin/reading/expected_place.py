@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from graphkin.reading.line_crossings import PAPER, LinesCrossing
 
-CLOSE, ROOM, WIDEST = 0.7, 0.3, 5.0
+CLOSE, ROOM, WIDEST = 0.7, 0.3, 10.0
 """Least half width of the window for a point, what is added to its cloud's, and the most, in mm."""
 
 

@@ -18,7 +18,7 @@ from graphkin.drawing.style import style_of
 from graphkin.reading.drawn_ink import flattened
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Unreadable
-from graphkin.reading.registration import SHARED, SIDES, registered, segments
+from graphkin.reading.registration import SHARED, SIDES, SheetSearch, segments
 
 CUT, HIGH = 210.0, 297.0
 """Where the sheet is parted, and how high it is, in mm."""
@@ -53,7 +53,8 @@ def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
     square = np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])
     sides = tuple(side for side in SIDES if side in (half, "upper", "lower"))
     tries = [
-        registered(grey, frame, at, square, sides) for at in corners_in(grey, frame, CORNERS[half])
+        SheetSearch(grey, at, square, sides).registered(frame)
+        for at in corners_in(grey, frame, CORNERS[half])
     ]
     held = [each for each in tries if each is not None and not each.refused]
     if not held:

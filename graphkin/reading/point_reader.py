@@ -17,15 +17,16 @@ from graphkin.reading.line_crossings import LinesCrossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AS_EXPECTED,
+    CLOSE_BY,
     DRAWINGS,
     DRAWN,
     FITS,
+    SURE,
     PointSearch,
 )
 
-SURE, OFF = 6.5, 16.0
-"""Squared distances from what is expected, in deviations: below the first nobody is asked, and
-above the second of what is not expected it does not fit."""
+OFF = 16.0
+"""The squared distance from what is not expected, in deviations, from which a place is off it."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
 """Where the pencil explains so many mm, a point that fits is looked at all the same, unless so many
 lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
@@ -33,7 +34,7 @@ than so many mm.
 """
 ELSEWHERE = 0.6
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
-WHOLE = 0.95
+WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
 
 
@@ -53,7 +54,7 @@ class PointReader(PointSearch):
         exact = self.sheet.exact
         keys = self.clouds()
         found = dict(exact.trace.values)
-        self.next = found
+        self.next = self.drawings = found
         wanted, corners = set(self.sheet.points), set(self.sheet.corners)
         stale = True
         with np.errstate(all="ignore"):
@@ -88,7 +89,10 @@ class PointReader(PointSearch):
         """A corner without a letter: taken where lines cross there; what is off is a mistake."""
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
         away = np.inf if best is None else where.away(best.place, best.error)
-        if best is None or best.cover < DRAWN or (best.count < 2 and away > FITS):
+        off = away > FITS and (
+            best is None or best.count < 2 or max(self.covers(number, best.place, False), default=0.0) < DRAWN
+        )
+        if best is None or best.cover < DRAWN or off:
             self.unread.add(number)
             return None
         if best.count < 2:
@@ -115,7 +119,8 @@ class PointReader(PointSearch):
             other = self.best_near(number, key)
             if self.holds(number, other, key):
                 best, fits = other, True
-        led = best is not None and self.agreement(number, best.place) >= DRAWN
+        stands = self.stands(number, best, own)
+        led = best is not None and (self.agreement(number, best.place) >= DRAWN or stands)
         if best is not None and fits and led and (best.count > 1 or best.ends):
             other = self.elsewhere(number, best.place, own)
             return self.told(number, key, own, other or best, doubtful=other is not None)
@@ -123,7 +128,8 @@ class PointReader(PointSearch):
         if far is not None:
             there = self.likely(number, far.place, own)
             here = self.likely(number, best.place, own) if best is not None else 0.0
-            if there > here + (AS_EXPECTED if fits else 0.0):
+            close = best is not None and own.away(best.place, best.error) <= SURE
+            if there > here + AS_EXPECTED * (fits + close + stands):
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
 
@@ -134,7 +140,7 @@ class PointReader(PointSearch):
         if max(self.beyond(number, place), default=0.0) < DRAWN:
             return None
         far = self.best_far(number, own, place)
-        if far is None:
+        if far is None or max(self.beyond(number, place, far.place), default=0.0) < DRAWN:
             return None
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         return far if there > here + ELSEWHERE else None
@@ -165,16 +171,20 @@ class PointReader(PointSearch):
             steps = self.sheet.exact.program.steps
             untried = any(steps[n].aside is not None for n in self.unread & behind)
             near = abs(best.place - own.middle) <= BESIDE
-            met = best.count >= MEET and near and not self.bad
+            close = abs(best.place - own.middle) <= CLOSE_BY
+            met = ((best.count >= MEET and near) or close) and not self.bad
+            ended = best.ends and close and own.radius <= VAGUE
+            ended = ended and self.is_single(number, best.place)
             vague = (own.radius > VAGUE and not met) or untried  # by an auxiliary plan nobody saw
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            ask = away > SURE or best.count < 2 or best.cover < WHOLE or fresh or doubtful
+            ask = away > SURE or (best.count < 2 and not ended) or best.cover < WHOLE or fresh or doubtful
             ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OFF or (apart > FITS and bool(self.doubted & behind))
+                ask = ask or from_key > OFF or abs(best.place - key.middle) > BESIDE
+                ask = ask or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
                 ask = (

@@ -17,8 +17,8 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
 from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
-from graphkin.reading.drawn_ink import COVERED, DrawnInk, InkLine
-from graphkin.reading.expected_place import ExpectedPlace
+from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk, InkLine
+from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import AHEAD, SHORT, Leading, LetteredSheet
 from graphkin.reading.line_crossings import (
     CROSSING,
@@ -36,20 +36,36 @@ DRAWINGS, SEED = 300, 23
 """Drawings in a cloud, and the seed of their errors."""
 KNOWN, GUESSED = 0.6, 1.6
 """Half width of the window at the other end of a line: a point that was read, one that was not."""
-FITS = 11.0
-"""The squared distance from what is expected, in deviations, up to which a place fits."""
+FITS, SURE = 11.0, 6.5
+"""The squared distance from what is expected, in deviations, up to which a place fits, and up to
+which nobody is asked.
+"""
+CLOSE_BY = 1.2
+"""So many mm from where it is expected the end of a single line is taken for a point, and one that
+the pencil leaves vague for right.
+"""
 DRAWN = 0.7
 """The share of a line that must be there for it to count."""
 PRINTED = 0.3
 """Standard deviation of a hand's mark across the printed line of a guide, in mm."""
-END, NODE = 0.8, 0.5
-"""The same of the end of a line, and of where others leave it."""
+END, NODE, SPOT = 0.8, 0.5, 0.2
+"""The same of the end of a line, of where others leave it, and of the mark of a point."""
 TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays in degrees and mm, and where rays begin."""
 AGREED = 0.5
 """The share of the ways from known ends to a point that is drawn at least."""
-RAY, MOST_RAYS, PARTED = 7.0, 16, 0.8
-"""The shortest ray that counts, in mm; how many of a place do; by how many degrees they differ."""
+RAY, MOST_RAYS, PARTED, BREAK = 7.0, 16, 0.8, 8
+"""The shortest ray that counts, in mm; how many of a place do; by how many degrees they differ;
+over how many steps nothing is drawn where a ray ends.
+"""
+EXPLAINED = 0.5
+"""What is left of a line that leads to a place where it goes on to a point that is known."""
+JOINS = 0.3
+"""What it counts that another line leaves the single one that leads to a place there."""
+SURELY, WAYS, ALONE = 0.9, 3, 0.75
+"""So much is drawn of so many ways to a place that it needs nothing to follow from it; what that
+counts.
+"""
 STOPS, OVER = 0.4, 6.0
 """What it counts for a place that vectors end there, and how far beyond it, in mm, that is seen."""
 KEPT, LEANS = 0.3, 0.02
@@ -72,6 +88,7 @@ class PointSearch:
         self.unread: set[int] = set()
         self.guessed: set[int] = set()
         self.next: Mapping[int, Any] = {}
+        self.drawings: Mapping[int, Any] = {}
 
     # --- what is expected -------------------------------------------------------------------------
 
@@ -135,44 +152,90 @@ class PointSearch:
         """Whether what was found of a point fits, and all is there that leads to it."""
         if best is None or where.away(best.place, best.error) > FITS:
             return False
-        return self.agreement(number, best.place) >= AGREED
+        return self.agreement(number, best.place) >= AGREED or self.stands(number, best, where)
 
-    def agreement(self, number: int, place: complex, *, read: bool = False) -> float:
+    def stands(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
+        """Whether lines cross so well where a point is expected that a vector may be lacking."""
+        if best is None or best.count < 2 or best.cover < SURELY:
+            return False
+        near = abs(best.place - where.middle) <= CLOSE_BY
+        near = near and where.away(best.place, best.error) <= SURE
+        ways = [
+            self.far_place(each, self.next)
+            for each in self.sheet.leading[number]
+            if (self.cover_of(number, each, best.place) or 0.0) >= SURELY
+        ]
+        near = near and are_crossing(ways, best.place)
+        return near and self.agreement(number, best.place, lacking=1) >= SURELY
+
+    def agreement(
+        self, number: int, place: complex, *, read: bool = False, lacking: int = 0
+    ) -> float:
         """How much of the ways from known ends to a place is drawn: the worst of a plan's arrows
-        and lines, the best two of a mechanism's bars, which nobody draws all. ``read``: only of
-        those whose ends were surely read.
+        and lines, but for so many that may be lacking; the best two of a mechanism's bars, which
+        nobody draws all. ``read``: only of those whose ends were surely read.
         """
-        covers = [
+        covers = sorted(self.covers(number, place, read), reverse=True)
+        if not covers:
+            return 1.0
+        if self.sheet.field(number) is self.sheet.layout.mechanism:
+            return float(np.mean(covers[:2]))
+        return covers[max(min(1, len(covers) - 1), len(covers) - 1 - lacking)]
+
+    def covers(self, number: int, place: complex, read: bool) -> list[float]:
+        """How much is drawn of each way to a place that tells something."""
+        return [
             found
             for each in self.sheet.leading[number]
             if not (read and self.is_unsure(each))
             if (found := self.cover_of(number, each, place)) is not None
         ]
-        if not covers:
-            return 1.0
-        if self.sheet.field(number) is self.sheet.layout.mechanism:
-            return float(np.mean(sorted(covers, reverse=True)[:2]))
-        return min(covers)
 
     def is_unsure(self, leading: Leading) -> bool:
         """Whether the other end, or that of a line where it begins, was not surely read."""
+        return bool(self.begins(leading) & (self.unread | self.guessed))
+
+    def begins(self, leading: Leading) -> set[int]:
+        """The other end, and that of a line where it begins."""
         steps = {leading.far}
         if isinstance(self.sheet.exact.trace.values[leading.far], Line):
             steps |= set(self.sheet.exact.program.steps[leading.far].args[:1])
-        return bool(steps & (self.unread | self.guessed))
+        return steps
+
+    def is_vague(self, leading: Leading) -> bool:
+        """Whether nobody knows where a line begins that leads to a point."""
+        value = self.drawings.get(leading.far)
+        if value is None:
+            return False
+        cloud = self.sheet.place(leading.far, value.tail if leading.back else value)
+        return expected(cloud).radius > GUESSED
+
+    def is_single(self, number: int, place: complex) -> bool:
+        """Whether nothing but one line from an end that is known leads to a point."""
+        ends = self.known_ends(number)
+        return not self.is_open(number) and not are_crossing(ends, place)
+
+    def is_open(self, number: int) -> bool:
+        """Whether nobody knows where some line begins that leads to a point."""
+        return any(
+            not (each.after or each.given or each.bow or self.is_known(each))
+            for each in self.sheet.leading[number]
+        )
 
     def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
         """How much of what leads to a place is drawn; None where that tells nothing."""
         far = self.far_place(leading, self.next)
         if leading.given or leading.bow or leading.after or abs(far - place) < 2 * SHORT:
             return None
-        if leading.far in self.guessed:
+        if self.begins(leading) & self.guessed:
             found = self.ink.lines(far, place, GUESSED, 0.5)
             return max((line.cover for line in found), default=0.0)
         if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
-            return self.ink.cover(far, place, 0.4, hidden=1.0)
+            return self.ink.cover(far, place, 0.4, hidden=1.0, arrives=True)
         value = self.sheet.exact.trace.values[leading.far]
         if not isinstance(value, Line) and leading.far not in self.unread:
+            return None
+        if self.is_vague(leading):
             return None
         found = self.ink.lines(far, place, GUESSED, 0.5)
         return max((line.cover for line in found), default=0.0)
@@ -228,6 +291,10 @@ class PointSearch:
                 shift, along, count = self.ink.node(foot, line.way, where.reach), NODE, 2
                 if shift is None:
                     shift, along, count = found.end, END, 1
+                    mark = self.marked_along(foot, line.way, where.reach)
+                    if mark is not None and (shift is None or abs(mark) < abs(shift) + SPOT):
+                        shift, along = mark, SPOT
+                        count = 1 if self.is_open(number) else 2
                 stops = count == 1 and shift is not None
                 place = foot + line.way * (shift or 0.0)
                 near = any(abs(place - e) < SHORT for e in ends)
@@ -235,7 +302,22 @@ class PointSearch:
                     shift, along, count, stops = 0.0, where.reach, 1, len(flat) > 1
                 place, error = foot + line.way * shift, along_way(line.way, along, line.error)
                 return LinesCrossing(place, error, count, line.cover, stops)
-        return None
+        return None if any(lines) else self.marked(number, where)
+
+    def marked_along(self, foot: complex, way: complex, reach: float) -> float | None:
+        """How far along a line, from a place on it, somebody marked a point; None: nowhere."""
+        along = np.arange(-reach, reach + PITCH, PITCH)
+        place = self.ink.spot(foot + along * way, way)
+        return None if place is None else float(((place - foot) / way).real)
+
+    def marked(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
+        """Where somebody marked a point to which no line leads, as on a printed guide."""
+        side = np.arange(-where.reach, where.reach + PITCH, PITCH)
+        places = (where.middle + side[:, None] + 1j * side[None, :]).ravel()
+        place = self.ink.spot(places, None)
+        if place is None or not self.is_own(number, place, where):
+            return None
+        return LinesCrossing(place, np.eye(2) * SPOT**2, 2, 1.0)
 
     def is_own(self, number: int, place: complex, where: ExpectedPlace) -> bool:
         """Whether a place is that of a point and of no other that is expected about there."""
@@ -294,7 +376,8 @@ class PointSearch:
             place
             for place in places
             if in_fields(place)
-            and all(abs(place - other) > APART for other in taken)
+            and all(abs(place - other) > 2 * APART for other in taken)
+            and sum(abs(place - end) > 2 * SHORT for end in ends) >= min(2, len(ends))
             and abs(place - besides) > 2 * APART
         ]
         first = sorted(
@@ -307,7 +390,10 @@ class PointSearch:
                 break
             if self.agreement(number, place, read=True) < AGREED:
                 continue
-            score = led + self.followed(number, place) - 0.003 * abs(place - where.middle)
+            follows = self.followed(number, place)
+            if len(ends) >= WAYS and self.agreement(number, place, read=True) >= SURELY:
+                follows = max(follows, ALONE)
+            score = led + follows - 0.003 * abs(place - where.middle)
             if score > ENOUGH:
                 tried.append((score, place))
         for _, place in sorted(tried, key=lambda each: -each[0]):
@@ -322,7 +408,10 @@ class PointSearch:
         """
         ends = self.known_ends(number)
         led = self.led_to(number, place, ends, are_crossing(ends, where.middle))
-        return led + self.followed(number, place) + self.agreement(number, place)
+        follows, agreed = self.followed(number, place), self.agreement(number, place)
+        if len(ends) >= WAYS and agreed >= SURELY:
+            follows = max(follows, ALONE)
+        return led + follows + agreed
 
     def led_to(self, number: int, place: complex, ends: Sequence[complex], crossed: bool) -> float:
         """How well what leads to a place is drawn, ends there, and runs as it should."""
@@ -373,7 +462,7 @@ class PointSearch:
         drawn = ((dark > COVERED) | (known == 0)) & in_fields(places)
         share = np.cumsum(drawn, axis=1) / np.arange(1, len(radii) + 1)
         recent = np.apply_along_axis(np.convolve, 1, drawn.astype(float), np.ones(8) / 8, "same")
-        alive = (share > 0.85) & (recent > 0.5)
+        alive = (share > 0.85) & (recent > 0.5) & unbroken(drawn)
         lengths = np.where(alive.any(1), radii[alive.shape[1] - 1 - alive[:, ::-1].argmax(1)], 0.0)
         sums = np.cumsum(np.clip(dark, 0, 1) * known, axis=1)
         reach = np.clip(((lengths - BEGIN) / PACE).astype(int), 0, len(radii) - 1)
@@ -393,16 +482,31 @@ class PointSearch:
         where such are expected, or all that lie in one line. Some are printed.
         """
         ways = [
-            (self.ink.cover(end, place, hidden=float(end in printed)), end - place) for end in ends
+            (
+                self.ink.cover(end, place, hidden=float(end in printed), arrives=True)
+                * (EXPLAINED if self.goes_on(end, place) else 1.0),
+                end - place,
+            )
+            for end in ends
         ]
         ways = sorted((each for each in ways if abs(each[1]) > SHORT), key=lambda each: -each[0])
         if not ways:
             return 0.0
         cover, way = ways[0]
         if not crossed:
-            return float(np.mean([each for each, _ in ways]))
+            leaves, _ = self.ink.leaving(np.array([place]), way / abs(way), 6.0)
+            return float(np.mean([each for each, _ in ways])) + JOINS * float(leaves.max())
         crossing = [other for other, way2 in ways[1:] if abs(sine(way, way2)) > CROSSING]
         return (cover + crossing[0]) / 2 if crossing else cover / 2
+
+    def goes_on(self, end: complex, place: complex) -> bool:
+        """Whether what is drawn from an end to a place goes on to another point that is known."""
+        far = abs(place - end)
+        for other in self.own.values():
+            along, beside = (z := (other - end) * (place - end).conjugate() / far).real, z.imag
+            if along > far + 2 * APART and abs(beside) < PASSES:
+                return True
+        return False
 
     def on_lines(self, number: int, place: complex) -> float:
         """How many of the lines that lead to a point pass through a place: a mistake turns one."""
@@ -421,12 +525,18 @@ class PointSearch:
         beyond = self.beyond(number, place)
         return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
 
-    def beyond(self, number: int, place: complex) -> list[float]:
-        """How much is drawn beyond a place of each vector that comes to it from a known end."""
+    def beyond(
+        self, number: int, place: complex, to: complex | None = None
+    ) -> list[float]:
+        """How much is drawn beyond a place of each vector that comes to it from a known end, of
+        all or of those that run on to another place.
+        """
         found = []
         for each in self.sheet.leading[number]:
             if each.arrow and self.is_known(each):
                 far = self.far_place(each, self.next)
+                if to is not None and abs(sine(place - far, to - far)) > LEANS:
+                    continue
                 if abs(place - far) > 2 * SHORT:
                     way = (place - far) / abs(place - far)
                     first, last = place + OVER * way, place + 2 * OVER * way
@@ -456,6 +566,14 @@ class PointSearch:
                 lines += [some] if some else []
         found = through(place, distinct(lines, place), 1.2)
         return found or LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
+
+
+def unbroken(drawn: Any) -> Any:
+    """How far each ray goes before nothing is drawn of it for a while."""
+    count = np.cumsum(drawn, axis=1)
+    count[:, BREAK:] -= count[:, :-BREAK].copy()
+    count[:, :BREAK] = 1
+    return np.logical_and.accumulate(count > 0, axis=1)
 
 
 def in_fields(places: Any) -> Any:

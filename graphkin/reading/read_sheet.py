@@ -149,25 +149,25 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
 
     Raises Unreadable where none can be flattened.
     """
-    from graphkin.reading.registration import found_of_another, registered
+    from graphkin.reading.registration import SheetSearch
 
+    search = SheetSearch(grey, corners)
     best, most, held, refused = None, -1.0, 0.0, ""
     own = order.variants[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
         sheets = sheets_of(order.order, order.variants[code], language)
-        pages = task_pages(sheets)
-        for kind, page in pages:
-            found = registered(grey, page, corners)
-            if found is None or found.own <= most:
-                continue
-            others = [other for _, other in pages if other is not page]
-            foreign = (found_of_another(grey, found.map, page, other) for other in others)
-            share = found.own - max(foreign, default=0.0)
-            if best is not None and share <= most:
-                continue
+        pages = dict(task_pages(sheets))
+        shares = {
+            kind: search.likeness(page, [other for other in pages.values() if other is not page])
+            for kind, page in pages.items()
+        }
+        kind = max(shares, key=lambda each: shares[each])
+        found = search.registered(pages[kind]) if shares[kind] > most else None
+        if found is not None:
             drawing = next(each for each in sheets.drawings if each.kind == kind)
-            most, refused, held = share, found.refused, found.own
-            best = FoundSheet(LetteredSheet(drawing, page), found.map, found.residual, sheets)
+            most, refused, held = shares[kind], found.refused, found.own
+            sheet = LetteredSheet(drawing, pages[kind])
+            best = FoundSheet(sheet, found.map, found.residual, sheets)
         if held >= SURE_OF_SHEET:
             break
     if best is None or refused:

@@ -7,7 +7,7 @@ is fitted anew to all that were found. Perspective, lens and bending are fitted 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -92,6 +92,13 @@ class PrintedLines(Struct, frozen=True):
             self.places[which], self.normals[which], self.widths[which], self.shared[which]
         )
 
+    def beside(self, others: PrintedLines) -> PrintedLines:
+        """Those near which none of others runs the same way."""
+        ours, theirs = self.places - MIDDLE, others.places - MIDDLE
+        squares = (ours**2).sum(1)[:, None] + (theirs**2).sum(1) - 2 * ours @ theirs.T
+        alike = abs(self.normals @ others.normals.T) > 0.5
+        return self.some(~(alike & (squares < SPACING**2)).any(axis=1))
+
 
 class Registration(Struct, frozen=True):
     """The map of a sheet; how much of its lines was found, and their residual in mm (95 of 100)."""
@@ -149,33 +156,84 @@ def square_of(page: Page) -> Any:
     return np.array([[left, top], [right, top], [right, bottom], [left, bottom]])
 
 
-def registered(
-    grey: Any, page: Page, corners: Any, square: Any = None, sides: tuple[str, ...] = SIDES
-) -> Registration | None:
-    """The map of a printed page whose square has its corners at some pixels of a grey picture.
+class SheetSearch:
+    """Where the sheets of a student may lie in a grey picture, whose square has its corners at some
+    pixels. The frame, which they have alike, is followed once.
 
     Another square of the paper may stand for that of the code; of ``sides`` the frame must be seen.
     """
-    square = square_of(page) if square is None else square
-    if square is None:
-        return None
-    lines, smooth = printed_lines(page), cv2.GaussianBlur(grey, (0, 0), 0.7)
-    first = followed(smooth, lines, square, corners, sides, BENT_FROM)
-    if not first.refused:
-        return first
-    other = followed(smooth, lines, square, corners, sides, max(RINGS))  # its bending led astray
-    return first if other.refused else other
+
+    def __init__(
+        self, grey: Any, corners: Any, square: Any = None, sides: tuple[str, ...] = SIDES
+    ) -> None:
+        self.smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
+        self.corners, self.square, self.sides = corners, square, sides
+        self.frames: dict[tuple[bytes, float], PaperMap] = {}
+
+    def registered(self, page: Page) -> Registration | None:
+        """The map of a page; None where it has no square to begin with."""
+        first = self.fitted(page, BENT_FROM)
+        if first is None or not first.refused:
+            return first
+        other = self.fitted(page, max(RINGS))  # its bending led astray
+        return first if other is None or other.refused else other
+
+    def fitted(self, page: Page, bent: float) -> Registration | None:
+        """The map of a page by all of its lines, from that of its frame."""
+        over, lines = self.frame(page, bent), printed_lines(page)
+        if over is None:
+            return None
+        fit = MapFit(over, self.square_of(page), self.corners)
+        for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
+            fit.to(measure(self.smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
+        last = measure(self.smooth, fit.map, lines, NEAR)
+        return judged(fit.map, last, lines, self.sides)
+
+    def square_of(self, page: Page) -> Any:
+        """The square from which a page is followed."""
+        return square_of(page) if self.square is None else self.square
+
+    def frame(self, page: Page, bent: float) -> PaperMap | None:
+        """The map by the lines that all sheets have, followed ring by ring; bending is fitted from
+        some ring on.
+        """
+        square = self.square_of(page)
+        if square is None:
+            return None
+        key = square.tobytes(), bent
+        if key not in self.frames:
+            lines = printed_lines(page)
+            self.frames[key] = followed(
+                self.smooth, lines.some(lines.shared), square, self.corners, bent
+            )
+        return self.frames[key]
+
+    def likeness(self, page: Page, others: Iterable[Page]) -> float:
+        """The share that is found of the lines that only a page has, less that of another's."""
+        over, ours = self.frame(page, BENT_FROM), printed_lines(page)
+        if over is None:
+            return -1.0
+        own = self.share(over, ours.some(~ours.shared))
+        foreign = (self.share(over, printed_lines(other).beside(ours)) for other in others)
+        return own - max(foreign, default=0.0)
+
+    def share(self, over: PaperMap, lines: PrintedLines) -> float:
+        """The share of some lines within the picture that is found."""
+        if len(lines.places) < LEAST_ALONG:
+            return 0.0
+        measured = measure(self.smooth, over, lines, REACH)
+        return float((measured.found & measured.seen).sum() / max(measured.seen.sum(), 1))
 
 
 def followed(
-    smooth: Any, lines: PrintedLines, square: Any, corners: Any, sides: tuple[str, ...], bent: float
-) -> Registration:
+    smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float
+) -> PaperMap:
     """The map that printed lines give, followed ring by ring, bending fitted from some ring on."""
     height, width = smooth.shape
-    fit = MapFit(width, height, square, corners)
+    fit = MapFit(start(width, height, square, np.asarray(corners, dtype=float)), square, corners)
     far = np.hypot(*(lines.places - square.mean(axis=0)).T)
     for ring in RINGS:
-        near = lines.some((far < ring) & lines.shared)
+        near = lines.some(far < ring)
         if not len(near.places):
             continue
         about = sides_off(smooth, fit.map, near)
@@ -184,21 +242,7 @@ def followed(
             fit.to(measured, float(abs(about).max()), lens=True, bent=True)
         measured = measure(smooth, fit.map, near, REACH)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > bent)
-    for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
-        fit.to(measure(smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
-    return judged(fit.map, measure(smooth, fit.map, lines, NEAR), lines, sides)
-
-
-def found_of_another(grey: Any, over: PaperMap, page: Page, other: Page) -> float:
-    """The share that is found, in a picture of a page, of the lines that only another page has."""
-    ours, lines = printed_lines(page), printed_lines(other)
-    alike = abs(lines.normals @ ours.normals.T) > 0.5
-    apart = np.hypot(*(lines.places[:, None] - ours.places[None]).transpose(2, 0, 1))
-    only = ~(alike & (apart < SPACING)).any(axis=1)
-    if only.sum() < LEAST_ALONG:
-        return 0.0
-    measured = measure(cv2.GaussianBlur(grey, (0, 0), 0.7), over, lines.some(only), NEAR)
-    return float((measured.found & measured.seen).sum() / max(measured.seen.sum(), 1))
+    return fit.map
 
 
 class MeasuredLines(Struct, frozen=True):
@@ -316,10 +360,9 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
 class MapFit:
     """A map that is fitted, again and again, to what was measured with it."""
 
-    def __init__(self, width: int, height: int, square: Any, corners: Any) -> None:
-        self.width, self.height = width, height
+    def __init__(self, over: PaperMap, square: Any, corners: Any) -> None:
+        self.width, self.height, self.parameters = over.width, over.height, over.array.copy()
         self.square, self.corners = square, np.asarray(corners, dtype=float)
-        self.parameters = start(width, height, square, self.corners)
         self.expected = prior(BENT)
         self.expected[:6] = np.inf
 
@@ -385,8 +428,8 @@ class MapFit:
             self.parameters[:count] += np.linalg.solve(normal_matrix, pull)
 
 
-def start(width: int, height: int, square: Any, corners: Any) -> Any:
-    """The parameters of the plain map that takes the square's corners to some pixels."""
+def start(width: int, height: int, square: Any, corners: Any) -> PaperMap:
+    """The plain map that takes the square's corners to some pixels."""
     half = np.hypot(width, height) / 2
     goal = (corners - [(width - 1) / 2, (height - 1) / 2]) / half
     places = (square - MIDDLE) / HALF
@@ -394,7 +437,7 @@ def start(width: int, height: int, square: Any, corners: Any) -> Any:
     across, *_ = np.linalg.lstsq(rows, goal, rcond=None)
     found = np.zeros(COUNT)
     found[:3], found[3:6] = across[:, 0], across[:, 1]
-    return found
+    return PaperMap(width, height, tuple(found.tolist()))
 
 
 def judged(
