@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
@@ -20,7 +20,9 @@ Opened = Callable[..., Any]
 LONG = 300_000
 """Milliseconds after which nothing more is waited for, on however slow a machine."""
 HOUR = 3600
-"""Seconds after its beginning at which the clock of a page stands still."""
+"""Seconds after which the clock of a page stands still, for every page that a tab opens."""
+FILES = ("file:", "blob:", "data:")
+"""With what the addresses begin that a page from a file may ask for."""
 
 
 @pytest.fixture(scope="module")
@@ -56,6 +58,36 @@ def barred(page: Any) -> list[tuple[str, list[str]]]:
     return [(rule["id"], [node["html"][:120] for node in rule["nodes"]]) for rule in found]
 
 
+class Watch:
+    """What a page tells on its console at some levels, and asks for beyond some addresses."""
+
+    def __init__(self, page: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> None:
+        self.page, self.own, self.levels = page, own, levels
+        self.wrong: list[str] = []
+        page.set_default_timeout(LONG)
+        page.on("console", self.told)
+        page.on("pageerror", self.failed)
+        page.on("request", self.asked)
+
+    def told(self, said: Any) -> None:
+        if said.type in self.levels:
+            at = f"{said.location.get('url', '')[-60:]}:{said.location.get('lineNumber')}"
+            self.wrong.append(f"console {said.type}: {said.text} ({at}; page {self.page.url})")
+
+    def asked(self, request: Any) -> None:
+        if not request.url.startswith(self.own):
+            self.wrong.append(f"request: {request.method} {request.url} (page {self.page.url})")
+
+    def failed(self, error: Any) -> None:
+        self.wrong.append(f"uncaught: {error} {error.stack or ''} (page {self.page.url})")
+
+
+def judge(watches: Iterable[Watch]) -> None:
+    """Fail for all that pages told or asked for."""
+    if wrong := [line for watch in watches for line in watch.wrong]:
+        pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
+
+
 @contextmanager
 def watched(chromium: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> Iterator[Opened]:
     """New pages, each in a context of its own: page(color_scheme="dark").
@@ -63,55 +95,86 @@ def watched(chromium: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> Ite
     Fails at the end for what any of them told on the console at one of the levels,
     for its uncaught errors, and for what it asked for but addresses that begin with one of own.
     """
-    contexts, wrong = [], []
+    contexts, watches = [], []
 
     def page(**options: Any) -> Any:
         context = chromium.new_context(**options)
         contexts.append(context)
         found = context.new_page()
-        found.set_default_timeout(LONG)
-
-        def told(said: Any) -> None:
-            if said.type in levels:
-                place = said.location
-                at = f"{place.get('url', '')[-60:]}:{place.get('lineNumber')}"
-                wrong.append(f"console {said.type}: {said.text} ({at}; page {found.url})")
-
-        def asked(request: Any) -> None:
-            if not request.url.startswith(own):
-                wrong.append(f"request: {request.method} {request.url} (page {found.url})")
-
-        def failed(error: Any) -> None:
-            wrong.append(f"uncaught: {error} {error.stack or ''} (page {found.url})")
-
-        found.on("console", told)
-        found.on("pageerror", failed)
-        found.on("request", asked)
+        watches.append(Watch(found, own, levels))
         return found
 
     yield page
     for context in contexts:
         context.close()
-    if wrong:
-        pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
+    judge(watches)
+
+
+class Tab:
+    """A page of a context of its own, which opens one file after another as if it were new."""
+
+    def __init__(self, chromium: Any, stopped: bool, **options: Any) -> None:
+        self.page = chromium.new_context(**options).new_page()
+        self.watch = Watch(self.page, FILES, ("error",))
+        self.options, self.stopped, self.hours = options, stopped, 0
+        if stopped:
+            self.page.clock.install(time=0)
+
+    def open(self, address: str) -> Any:
+        """Forget what was before, and open an address."""
+        page = self.page
+        if self.hours:
+            self.forget()
+        self.hours += 1
+        page.goto(address)
+        if self.stopped:
+            page.clock.pause_at(HOUR * self.hours)
+        return page
+
+    def forget(self) -> None:
+        """What a test kept, pressed, and made of the window."""
+        page, options = self.page, self.options
+        self.watch.wrong.clear()
+        page.evaluate("localStorage.clear(); sessionStorage.clear()")
+        page.mouse.up()
+        page.mouse.move(0, 0)
+        page.emulate_media(
+            media="null",
+            color_scheme=options.get("color_scheme", "light"),
+            reduced_motion=options.get("reduced_motion", "no-preference"),
+            forced_colors=options.get("forced_colors", "none"),
+        )
+        page.set_viewport_size(options.get("viewport", {"width": 1280, "height": 720}))
+        if self.stopped:
+            page.clock.resume()
+        page.goto("about:blank")
+
+
+@pytest.fixture(scope="module")
+def tabs(chromium: Any) -> Iterator[dict[str, Tab]]:
+    """The tabs of a module, by what they were opened with: a new one costs more than a page."""
+    found: dict[str, Tab] = {}
+    yield found
+    for tab in found.values():
+        tab.page.context.close()
 
 
 @pytest.fixture
-def opened(chromium: Any) -> Iterator[Opened]:
+def opened(chromium: Any, tabs: dict[str, Tab]) -> Iterator[Opened]:
     """Open a page: opened(path, "#step=3", color_scheme="dark").
 
     Where it is stopped its clock stands still but for page.clock.run_for(milliseconds), so that
     what it does after a while comes then, however slow the machine is.
     """
-    with watched(chromium, ("file:", "blob:", "data:"), ("error",)) as new_page:
+    taken: dict[str, Tab] = {}
 
-        def told(path: Path, place: str = "", *, stopped: bool = False, **options: Any) -> Any:
-            page = new_page(**options)
-            if stopped:
-                page.clock.install(time=0)
-            page.goto(path.as_uri() + place)
-            if stopped:
-                page.clock.pause_at(HOUR)
-            return page
+    def told(path: Path, place: str = "", *, stopped: bool = False, **options: Any) -> Any:
+        key = repr((stopped, sorted(options.items())))
+        while key in taken:
+            key += "'"
+        taken[key] = tabs.pop(key, None) or Tab(chromium, stopped, **options)
+        return taken[key].open(path.as_uri() + place)
 
-        yield told
+    yield told
+    judge(tab.watch for tab in taken.values())
+    tabs |= taken

@@ -154,7 +154,7 @@ def test_a_saved_file_is_opened_to_go_on(
     fill(page, key_of(folder))
     path = save(page, tmp_path)
     before = [field.input_value() for field in page.locator("form.answers [name]").all()]
-    page.on("dialog", lambda dialog: dialog.accept())
+    page.once("dialog", lambda dialog: dialog.accept())
     page.get_by_role("button", name="Golește").click()
     assert {f.input_value() for f in page.locator("form.answers [name]").all()} == {""}
     page.set_input_files("input.file", path)

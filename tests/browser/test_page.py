@@ -382,7 +382,7 @@ def test_every_size_and_look_has_room_letters_to_be_read_and_nothing_against_it(
             assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
             assert page.evaluate("stops.scrollWidth <= stops.clientWidth")
             assert page.evaluate(LEAST) >= 9
-            if (place + number) % 3 == 0:  # Firefox asks axe of each
+            if (place + number) % 5 == 0:  # Firefox asks axe of each
                 assert not barred(page), (size, look)
 
 

@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.solution import Solution
+from graphkin.construction.rolling.kutzbach import SPEEDS
 from graphkin.documents.sheet_documents import hand_out, targets_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
@@ -30,17 +31,15 @@ def test_velocities_alone_give_no_acceleration_sheet_and_run_no_acceleration(nam
 
 @pytest.mark.parametrize("name", ["pump", *CHOSEN])
 def test_whatever_velocity_an_acceleration_needs_is_drawn_and_no_other(name):
-    """But Kutzbach's plan, which is of velocities alone."""
+    """But for a line of speeds, which is of velocities alone."""
     mechanism = accelerations(name)
     program = mechanism.program
     first, then = (targets_of(mechanism, kind) for kind in ("velocity", "acceleration"))
-    taken = {n for n in program.needed(then) if program.steps[n].plane is Plane.VELOCITIES}
-    drawn = {
-        n
-        for n in program.needed(first)
-        if program.steps[n].plane is Plane.VELOCITIES
-        if not type(program.steps[n].of).__module__.endswith(".kutzbach")
-    }
+    first = tuple(target for target in first if target[0] != SPEEDS)
+    taken, drawn = (
+        {n for n in program.needed(targets) if program.steps[n].plane is Plane.VELOCITIES}
+        for targets in (then, first)
+    )
     assert drawn == taken or not first
     assert first or all(not program.steps[n].args for n in taken)
 

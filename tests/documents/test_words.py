@@ -198,35 +198,46 @@ def test_every_key_in_the_code_has_a_sentence():
     assert spoken_keys() <= words("en").sentences.keys()
 
 
+TELLING = (
+    "gears-kutzbach",
+    "gears-ravigneaux",
+    "stephenson-2-binary",
+    "belts-arm",
+    "belts-crossed",
+    "bar-on-drum",
+    "two-loops",
+    "cam-conjugate",
+    "cam-flat",
+    "cam-knife",
+    "cam-lever",
+    "parallelogram",
+    "centrodes-roller",
+    "excavator-relative",
+    "klein-engine",
+    "mobility-cam",
+    "platform-3rpr",
+    "roller-plates",
+)
+"""Scenes with a sentence that no lab and no rare scene has; all others come after them."""
+
+
 def test_every_sentence_is_used():
     USED.clear()
     spoken = Recording("en")
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
-    every = [mechanism_named(lab, 7) for lab in SHIPPED[1:]]
-    more = (
-        "bar-on-drum",
-        "belts-arm",
-        "belts-crossed",
-        "cam-conjugate",
-        "cam-flat",
-        "cam-knife",
-        "cam-lever",
-        "cam-table",
-        "gears-ravigneaux",
-        "rope-on-drum",
-        "stephenson-2-binary",
-        "two-loops",
-    )
-    every += [mechanism_named(name) for name in (*OTHERS, *CHOSEN, *more)]
-    every += [rare(name) for name in RARE]
-    for mechanism in every:
-        every_page(mechanism, spoken)
-    unused = words("en").sentences.keys() - USED - literals() - {*SLIPS.values()} - palette_keys()
-    unused -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
-    unused -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
-    unused -= {f"studio.limit_{limit}" for limit in LIMITS}
-    unused -= {f"animation.{kind}" for kind in ("dead", "change")}
-    assert not unused, " ".join(sorted(unused))
+    waiting = words("en").sentences.keys() - literals() - {*SLIPS.values()} - palette_keys()
+    waiting -= {f"page.{each.value}" for each in Moved} | {f"desk.{key}" for key in SAID}
+    waiting -= {f"page.motion_{name.replace(' ', '_')}" for name in MOTIONS}
+    waiting -= {f"studio.limit_{limit}" for limit in LIMITS}
+    waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
+    made = [partial(mechanism_named, lab, 7) for lab in SHIPPED[1:]]
+    made += [partial(rare, name) for name in RARE]
+    made += [partial(mechanism_named, name) for name in (*TELLING, *OTHERS, *CHOSEN)]
+    for make in made:
+        if waiting <= USED:
+            break
+        every_page(make(), spoken)
+    assert waiting <= USED, " ".join(sorted(waiting - USED))
 
 
 PAGES = [(lab, n, language) for lab in SHIPPED for n in (7,) for language in LANGUAGES]

@@ -14,7 +14,7 @@ from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
 from graphkin.web.field_extents import box_of, room_of
 from graphkin.web.step_page import step_page
-from tests.browser.opening import Opened, chromium, opened  # noqa: F401
+from tests.browser.opening import Opened, chromium, opened, tabs  # noqa: F401
 from tests.chosen import EVERY
 from tests.web.laid import laid
 from tests.web.test_moving import LIMIT, fields, named, page_of

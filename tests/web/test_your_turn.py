@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from graphkin.construction.core.kind import construction
-from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.program import Plane, Program
+from graphkin.construction.rolling.kutzbach import SPEEDS
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
@@ -77,23 +77,27 @@ def apart(found: Any, meant: Any) -> float:
     return max(abs(a - b) for a, b in zip(numbers, meant, strict=True)) / size
 
 
-def is_of_ladder(step: Step) -> bool:
-    """Whether a step belongs to Kutzbach's plan."""
-    return type(construction(step)).__module__.endswith(".kutzbach")
+def for_speeds_alone(program: Program) -> set[int]:
+    """The steps that nothing needs but the points on a line of speeds."""
+    others = [target for target in program.targets if target[0] != SPEEDS]
+    return {*program.needed(program.targets)} - {*program.needed(others)}
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_every_step_of_a_plan_is_a_move(name):
     """Or one that is drawn already, or has no length: it falls on a point that it is drawn from.
 
-    Kutzbach's plan comes along with what it is drawn from.
+    What only the line of speeds calls for comes along with what it is drawn from.
     """
     sheets, told, turn = turn_of(name)
+    program = sheets[0].drawing.trace.program
+    along = for_speeds_alone(program)
+    assert bool(along) == (name == "gears-kutzbach")
     finder = MoveFinder(sheets, told)
     finder.found()
     for number, at in told.at.items():
         step = finder.steps[number]
-        if not at or step.arrow or step.plane not in PLANS or is_of_ladder(step):
+        if not at or step.arrow or step.plane not in PLANS or number in along:
             continue
         if number in turn.moves or finder.same.get(number) in turn.moves:
             continue
