@@ -34,12 +34,13 @@ class ClosedGroup(Construction, frozen=True):
     counted: str
     traced: tuple[str, ...]
     closing: int
-    tried: int
+    tried: tuple[int, ...]
     sides: tuple[int, ...]
 
     def given(self) -> Iterator[tuple[str, int]]:
         """What closes the group, and each value taken from it."""
-        yield from (("closing", self.closing), ("tried", self.tried))
+        yield "closing", self.closing
+        yield from (("tried", number) for number in self.tried)
         yield from (("side", number) for number in self.sides)
 
     @property

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.amounts import in_mm
@@ -36,12 +36,18 @@ if TYPE_CHECKING:
 
 
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
-    """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
+    """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it.
+
+    One for a group within a group belongs to a trial plan of that, its ``whole``; ``within`` has
+    the first of those that belong to it, by the links of their groups.
+    """
 
     tag: str
     link: str
     rate: int
     first: TrialPlan | None = None
+    whole: TrialPlan | None = None
+    within: dict[tuple[str, ...], TrialPlan] = field(default_factory=dict)
 
     @property
     def repeats(self) -> bool:

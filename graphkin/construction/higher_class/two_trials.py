@@ -319,11 +319,8 @@ def two_trials(
     pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each, kind: TrialQuantity
 ) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
-    layers, gaps, begun = [], [], []
-    with pen.on(Part.SHAPE, Plane.NUMBERS):
-        at_rest = pen.given("nought", name=f"{kind.rate} tried of {group.trial.link}")
-        first = TrialPlan(TAGS[0], group.trial.link, at_rest)
-        second = TrialPlan(TAGS[1], group.trial.link, trial_value(pen, group, kind), first)
+    layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
+    first, second = plans_of(pen, group, kind)
     rims = known_rims(pen, group, kind)
     for plan in (first, second):
         begun.append(len(pen.steps))
@@ -333,6 +330,7 @@ def two_trials(
                 each(pen, shapes, member, bases(pen.scene, member))
             gaps.append(missed(pen, shapes, group, kind))
         layers.append(layer)
+        pen.tried.append(layer)
     tried = range(begun[1], len(pen.steps))
     crossed = crossings(pen, shapes, group, kind, layers)
     with pen.on(kind.part, Plane.NUMBERS):
@@ -344,12 +342,32 @@ def two_trials(
     one, two = (pen.make(replace(gap, settled=by_hand)) for gap in gaps)
     pen.make(TwoTrials(group, (first, second), (one, two), divided, by_hand))
     settle(pen, group, kind, layers, divided, crossed, rims)
-    if kind is ACCELERATION:
-        components(pen, group, layers[1], tried)
+    if kind is ACCELERATION and not pen.layers:
+        components(pen, group, tried)
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
-    for link in group.links:
-        omega_of(pen, link, kind.rate)
+    if not pen.layers:
+        pen.tried.clear()
+        for link in group.links:
+            omega_of(pen, link, kind.rate)
+
+
+def plans_of(
+    pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity
+) -> tuple[TrialPlan, TrialPlan]:
+    """The two trial plans of a group; those of one within a group lie within its trial plans."""
+    whole, link = pen.auxiliary, group.trial.link
+    assert whole is None or isinstance(whole, TrialPlan)
+    tag = whole.tag if whole is not None else ""
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        at_rest = pen.given("nought", name=f"{kind.rate} tried of {link}{tag}")
+        value = trial_value(pen, group, kind)
+    alike = whole.first.within[group.links] if whole is not None and whole.first else None
+    first = TrialPlan(tag + TAGS[0], link, at_rest, alike, whole)
+    second = TrialPlan(tag + TAGS[1], link, value, alike or first, whole)
+    if whole is not None:
+        whole.within[group.links] = first
+    return first, second
 
 
 def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> dict[str, int]:
@@ -432,7 +450,7 @@ def missed(
     last = group.last
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
-            p, q = in_order((p, q), [of for what, of in pen.layer or {} if what == kind.quantity])
+            p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
             wanted = pen.given("origin")
             if kind is ACCELERATION:
