@@ -29,12 +29,24 @@ BENT = 0.5
 """The same in parts of its range all round, for the square of a cell's side in radians."""
 CELLS = 40_000
 """Cells looked at together."""
-ROUNDS = 40
+ROUNDS = 20
 """Steps of Newton's method at most."""
+NEAR = 16.0
+"""How far it may lead from where it starts, in halves of a cell."""
+BESIDE = 3.0
+"""How far in v beside a flat dyad, in parts of what half a cell makes of it."""
+CLUSTERED = 3
+"""The step before which those are left out that come to one place."""
+TOGETHER = 1e-5
+"""Shares that differ less are those of one place then."""
 SHORTER = 8
 """How often a step is halved that leads beyond what can be drawn, or no nearer."""
 STEP = 1e-6
 """Half the step of the differences that give slopes, in radians or shares of a way."""
+FLAT = 3.0
+"""How far from a flat dyad a cell may lie that is looked at beside it, in parts of its size."""
+LEADING = 5
+"""Steps along the secant that find the share for a v."""
 STILL = 1e-10
 """A step so small that Newton's method has come to rest, in radians or shares of a way."""
 CLOSED = 1e-9
@@ -43,6 +55,8 @@ CLOSED = 1e-9
 Array = Any
 Misses = Callable[[Array, Array], Array]
 """The misfits (K, n) of rows (K,) at shares (K, n)."""
+Reach = Callable[[Array, Array], Array]
+"""How far a dyad can be drawn (K,): positive where it can; NaN where one before it cannot."""
 
 
 class SeveralTrials(Trying, frozen=True, dict=True):
@@ -76,10 +90,31 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             found = self.found(here, self.valued(share, scales[owner[row]]), signs[row])
             return np.stack([found[one.misfit] for one in self.unknowns], axis=1)
 
-        row, share = fits(missed, len(owner), *self.grid_of_shares())
+        choices = [k for k, choice in enumerate(self.choices) if choice is not None]
+        reaches = [self.reaching(k, known, owner, scales, signs) for k in choices]
+        chain = DrawnChain(missed, reaches)
+        cells, half, ranges = candidates(chain, len(owner), *self.grid_of_shares())
+        start = drawn_places(missed, cells, half)
+        found = [closed_in(missed, cells.row, start, NEAR * half, ranges)]
+        for k, reach in zip(choices, reaches, strict=True):
+            bit = 1 << (len(self.signs) - 1 - k)
+            found += FlatDyad(missed, reach, bit).fits(cells, half, ranges)
+        row, share = (np.concatenate(column) for column in zip(*found, strict=True))
         tried = self.valued(share, scales[owner[row]])
         touching = np.zeros(row.size, dtype=bool)
         return self.ordered(known, size, owner[row], tried, signs[row], touching)
+
+    def reaching(
+        self, k: int, known: Sequence[Any], owner: Array, scales: Array, signs: Array
+    ) -> Reach:
+        """How far the dyad of a sign can be drawn (K,), of rows (K,) at shares (K, n)."""
+
+        def reach(row: Array, share: Array) -> Array:
+            here = [array[owner[row]] for array in known]
+            tried = self.valued(share, scales[owner[row]])
+            return self.drawable(k, here, tried, signs[row, :k])
+
+        return reach
 
     def grid_of_shares(self) -> tuple[Array, Array, int]:
         """Where the shares of each unknown begin, how far they go, and how many steps they take."""
@@ -119,13 +154,15 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         size = len(self.unknowns)
         step = STEP * np.where([one.turns for one in self.unknowns], 1.0, np.maximum(abs(tried), 1e-3))
         misfits, ways = np.zeros((len(tried), size, size)), np.zeros((len(tried), size, size), complex)
+        here = self.found(known, tried, signs)
         for k in range(size):
             away = np.zeros_like(tried)
             away[:, k] = step[:, k]
             low, high = (self.found(known, tried + way * away, signs) for way in (-1, 1))
             for i, one in enumerate(self.unknowns):
-                misfits[:, i, k] = (high[one.misfit] - low[one.misfit]) / (2 * step[:, k])
-                ways[:, i, k] = (high[one.locus] - low[one.locus]) / (2 * step[:, k])
+                for slopes, n in ((misfits, one.misfit), (ways, one.locus)):
+                    ends = [np.where(np.isfinite(end[n]), end[n], here[n]) for end in (low, high)]
+                    slopes[:, i, k] = (ends[1] - ends[0]) / (2 * step[:, k])
         return crossing_sines(misfits, ways)
 
 
@@ -164,38 +201,62 @@ class Cells(NamedTuple):
     middle: Array
 
 
-def fits(missed: Misses, rows: int, start: Array, way: Array, steps: int) -> tuple[Array, Array]:
-    """Every place at which all misfits of a row vanish, as far as the grid shows: row and shares.
+def joined(cells: Sequence[Cells]) -> Cells:
+    """Some cells after others."""
+    import numpy as np
 
-    A place may be found more than once.
+    return Cells(*(np.concatenate(column) for column in zip(*cells, strict=True)))
+
+
+class DrawnChain(NamedTuple):
+    """What is looked at in a cell: misfits, and how far each dyad can be drawn, in order."""
+
+    missed: Misses
+    reaches: Sequence[Reach]
+
+    def at(self, row: Array, share: Array) -> tuple[Array, Array]:
+        """Both at places (K, n): misfits (K, n), reaches (K, dyads)."""
+        import numpy as np
+
+        reaches = [reach(row, share) for reach in self.reaches]
+        return self.missed(row, share), np.stack([np.zeros(len(row)), *reaches], axis=1)
+
+
+def candidates(
+    chain: DrawnChain, rows: int, start: Array, way: Array, steps: int
+) -> tuple[Cells, Array, Array]:
+    """Small cells in which all misfits of a row may vanish, half their sides (n,), and how far each
+    misfit of a row ranges (rows, n).
+
+    Shares begin at a start and go so far, in so many steps.
     """
     import numpy as np
 
-    size = len(start)
-    side = way / steps
+    size, side = len(start), way / steps
     lattice = start + np.array([*product(range(steps + 1), repeat=size)]) * side
     found, ranges = list[Cells](), np.empty((rows, size))
-    corners = np.array([*product((0, 1), repeat=size)])
     strides = (steps + 1) ** np.arange(size)[::-1]
     first = np.array([*product(range(steps), repeat=size)])
+    corners = (first[:, None, :] + corners_of(size)) @ strides
     for row in range(rows):
-        value = missed(np.full(len(lattice), row), lattice)
+        value, reach = chain.at(np.full(len(lattice), row), lattice)
         ranges[row] = spread(value)
-        at = value[(first[:, None, :] + corners) @ strides]
-        keep = may_vanish(at, ranges[row], side)
+        keep = may_vanish(value[corners], reach[corners], ranges[row], side)
         found.append(Cells(np.full(keep.sum(), row), start + (first[keep] + 0.5) * side))
-    cells = Cells(*(np.concatenate(column) for column in zip(*found, strict=True)))
-    half = side / 2
+    cells, half = joined(found), side / 2
     for _ in range(HALVED):
-        parts = [
-            halved(missed, Cells(cells.row[k : k + CELLS], cells.middle[k : k + CELLS]), half, ranges)
-            for k in range(0, len(cells.row), CELLS)
-        ]
-        if not parts:
-            break
-        cells = Cells(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+        parts = range(0, len(cells.row), CELLS)
+        some = (Cells(cells.row[k : k + CELLS], cells.middle[k : k + CELLS]) for k in parts)
+        cells = joined([halved(chain, each, half, ranges) for each in some] or [cells])
         half = half / 2
-    return closed_in(missed, cells, half, ranges)
+    return cells, half, ranges
+
+
+def corners_of(size: int) -> Array:
+    """The corners of a cell, of shares nought and one."""
+    import numpy as np
+
+    return np.array([*product((0, 1), repeat=size)])
 
 
 def spread(value: Array) -> Array:
@@ -207,87 +268,178 @@ def spread(value: Array) -> Array:
     return np.nanmax(value, axis=0) - np.nanmin(value, axis=0)
 
 
-def may_vanish(at: Array, ranges: Array, side: Array) -> Array:
-    """Of which cells all misfits may vanish within, from what they are at the corners (C, 2^n, n).
-
-    A cell of which no corner can be drawn is left out.
-    """
+def may_vanish(value: Array, reach: Array, ranges: Array, side: Array) -> Array:
+    """Of which cells all misfits may vanish within: from those at the corners (C, 2^n, n), or where
+    no corner can be drawn from how far dyads are from that (C, 2^n, dyads)."""
     import numpy as np
 
-    finite = np.isfinite(at).all(axis=2)
-    there = finite.any(axis=1)
-    low = np.min(np.where(finite[..., None], at, np.inf), axis=1)
-    high = np.max(np.where(finite[..., None], at, -np.inf), axis=1)
+    finite = np.isfinite(value).all(axis=2)
+    low, high = ends(np.where(finite[..., None], value, np.nan))
     edge = ~finite.all(axis=1)
     with np.errstate(all="ignore"):
         more = (high - low) * np.where(edge, AT_EDGE, SLACK)[:, None]
-        more = more + np.where(edge, np.sqrt(side.max()), BENT * side.max() ** 2)[:, None] * ranges
-        return there & ((low - more <= 0) & (high + more >= 0)).all(axis=1)
+        bent = np.where(edge, np.sqrt(side.max()), BENT * side.max() ** 2)
+        more = more + bent[:, None] * ranges
+        crossed = ((low - more <= 0) & (high + more >= 0)).all(axis=1)
+        low, high = ends(reach)
+        drawn = ~(high + (high - low) * SLACK < 0).any(axis=1)
+    return np.where(finite.any(axis=1), crossed, drawn & np.isfinite(ranges).all(axis=-1))
 
 
-def halved(missed: Misses, cells: Cells, half: Array, ranges: Array) -> Cells:
+def ends(value: Array) -> tuple[Array, Array]:
+    """The least and the largest of the corners (C, K); NaN where none has a value."""
+    import numpy as np
+
+    there = np.isfinite(value)
+    low = np.where(there, value, np.inf).min(axis=1)
+    high = np.where(there, value, -np.inf).max(axis=1)
+    return np.where(low <= high, low, np.nan), np.where(low <= high, high, np.nan)
+
+
+def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells:
     """The halves, in each direction, of cells in which all misfits may vanish."""
     import numpy as np
 
     size = len(half)
     nodes = np.array([*product((-1, 0, 1), repeat=size)])
-    places = cells.middle[:, None, :] + nodes * half
-    row = np.repeat(cells.row, len(nodes))
-    value = missed(row, places.reshape(-1, size)).reshape(len(cells.row), len(nodes), size)
-    strides = 3 ** np.arange(size)[::-1]
-    corners = np.array([*product((0, 1), repeat=size)])
-    found = list[Cells]()
-    for first in corners:
-        at = value[:, (first + corners) @ strides]
-        keep = may_vanish(at, ranges[cells.row], half)
-        middle = cells.middle + (first - 0.5) * half
-        found.append(Cells(cells.row[keep], middle[keep]))
-    return Cells(*(np.concatenate(column) for column in zip(*found, strict=True)))
+    places = (cells.middle[:, None, :] + nodes * half).reshape(-1, size)
+    found = chain.at(np.repeat(cells.row, len(nodes)), places)
+    value, reach = (each.reshape(len(cells.row), len(nodes), -1) for each in found)
+    strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
+    for first in corners_of(size):
+        at = (first + corners_of(size)) @ strides
+        keep = may_vanish(value[:, at], reach[:, at], ranges[cells.row], half)
+        parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
+    return joined(parts)
 
 
-def closed_in(missed: Misses, cells: Cells, half: Array, ranges: Array) -> tuple[Array, Array]:
-    """Where Newton's method comes to rest from cells: rows and shares.
+def closed_in(
+    missed: Misses, row: Array, start: Array, near: Array, ranges: Array
+) -> tuple[Array, Array]:
+    """Where Newton's method comes to rest from starts (K, n), no farther than ``near`` (n,): rows
+    and shares.
 
     Steps are halved that lead beyond what can be drawn, or no nearer.
     """
     import numpy as np
 
-    row, share = cells.row, cells.middle.copy()
-    if not row.size:
-        return row, share
-    value = missed(row, share)
-    corners = np.array([*product((-1, 1), repeat=len(half))])
-    for corner in corners:
-        lost = ~np.isfinite(value).all(axis=1)
-        share[lost] = cells.middle[lost] + corner * half
-        value[lost] = missed(row[lost], share[lost])
-    good = np.isfinite(value).all(axis=1)
-    row, share, value = row[good], share[good], value[good]
-    scale = ranges[row]
-    rest = np.zeros(row.size, dtype=bool)
-    for _ in range(ROUNDS):
-        if not (live := np.flatnonzero(~rest)).size:
+    share, value = start.copy(), missed(row, start)
+    which = np.flatnonzero(np.isfinite(value).all(axis=1))
+    found = [np.empty(0, dtype=int)]
+    for turn in range(ROUNDS):
+        if not which.size:
             break
-        way = steps_of(missed, row[live], share[live], value[live])
-        moved = np.zeros(live.size, dtype=bool)
+        way = steps_of(missed, row[which], share[which], value[which])
+        aim = share[which] + way
+        good = np.isfinite(aim).all(axis=1) & (abs(aim - start[which]) <= near).all(axis=1)
+        which, way = which[good], way[good]
+        which, way = apart(row, share, which, way) if turn == CLUSTERED else (which, way)
+        rest = (abs(way) < STILL).all(axis=1)
+        found.append(which[rest])
+        which, way = which[~rest], way[~rest]
+        scale, waiting = ranges[row[which]], np.ones(which.size, dtype=bool)
         for shorter in range(SHORTER):
-            left = np.flatnonzero(~moved & np.isfinite(way).all(axis=1))
+            left = np.flatnonzero(waiting)
             if not left.size:
                 break
-            trial = share[live[left]] + way[left] / 2**shorter
-            found = missed(row[live[left]], trial)
-            nearer = far(found, scale[live[left]]) < far(value[live[left]], scale[live[left]])
-            small = (abs(way[left]) < STILL).all(axis=1)
-            take = left[nearer]
-            share[live[take]], value[live[take]] = trial[nearer], found[nearer]
-            moved[take] = True
-            moved[left[small]] = True
-        small = np.isfinite(way).all(axis=1) & (abs(way) < STILL).all(axis=1)
-        stopped = ~moved | small
-        rest[live[stopped]] = True
-        share[live[~moved & ~small]] = np.nan
-    good = np.isfinite(share).all(axis=1) & (far(value, scale) < CLOSED)
-    return row[good], share[good]
+            trial = share[which[left]] + way[left] / 2**shorter
+            there = missed(row[which[left]], trial)
+            nearer = far(there, scale[left]) < far(value[which[left]], scale[left])
+            took = left[nearer]
+            share[which[took]], value[which[took]] = trial[nearer], there[nearer]
+            waiting[took] = False
+        still = which[waiting]
+        found.append(still[far(value[still], ranges[row[still]]) < CLOSED])
+        which = which[~waiting]
+    every = np.concatenate(found)
+    every = every[far(value[every], ranges[row[every]]) < CLOSED]
+    return row[every], share[every]
+
+
+def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:
+    """Of those that all but stand at one place only one, with the steps of each."""
+    import numpy as np
+
+    place = np.round((share[which] + way) / TOGETHER)
+    _, first = np.unique(np.column_stack([row[which], place]), axis=0, return_index=True)
+    return which[first], way[first]
+
+
+def drawn_places(missed: Misses, cells: Cells, half: Array) -> Array:
+    """A place of each cell that can be drawn: its middle, else a corner."""
+    import numpy as np
+
+    share = cells.middle.copy()
+    lost = np.arange(len(share))
+    for corner in np.array([[0] * len(half), *product((-1, 1), repeat=len(half))]):
+        share[lost] = cells.middle[lost] + corner * half
+        lost = lost[~np.isfinite(missed(cells.row[lost], share[lost])).all(axis=1)]
+        if not lost.size:
+            break
+    return share
+
+
+class FlatDyad(NamedTuple):
+    """Beside the places where the dyad of one sign is stretched flat: its two signs meet there.
+
+    With v, the root of how far it can be drawn, taken with its sign, in place of the share that
+    moves it most, misfits run smoothly through the flat dyad. ``bit`` is that of its sign in rows.
+    """
+
+    missed: Misses
+    reach: Reach
+    bit: int
+
+    def fits(self, cells: Cells, half: Array, ranges: Array) -> list[tuple[Array, Array]]:
+        """The fits near cells that the dyad does not reach all over: rows and shares."""
+        import numpy as np
+
+        here = self.reach(cells.row, cells.middle)
+        slopes = np.empty(cells.middle.shape)
+        for j, side in enumerate(half):
+            away = np.where(np.arange(len(half)) == j, side, 0.0)
+            low, high = (self.reach(cells.row, cells.middle + way * away) for way in (-1, 1))
+            slopes[:, j] = (high - low) / (2 * side)
+        size = abs(slopes * half)
+        with np.errstate(all="ignore"):
+            near = abs(here) < FLAT * size.sum(axis=1)
+        most = size.argmax(axis=1)
+        found = list[tuple[Array, Array]]()
+        for j in range(len(half)):
+            mine = np.flatnonzero(near & (most == j))
+            if mine.size:
+                some = Cells(cells.row[mine], cells.middle[mine])
+                found.append(self.fits_beside(j, some, slopes[mine, j], half, ranges))
+        return found
+
+    def fits_beside(
+        self, j: int, cells: Cells, slope: Array, half: Array, ranges: Array
+    ) -> tuple[Array, Array]:
+        """The fits near cells with v in place of a share whose ``slope`` of the reach is known."""
+        import numpy as np
+
+        row, middle = cells
+        scale, plain = np.sqrt(abs(slope) * half[j]), row & ~self.bit
+
+        def placed(which: Array, share: Array) -> tuple[Array, Array]:
+            v, at, rise = share[:, j] * scale[which], share.copy(), slope[which]
+            at[:, j], own = middle[which, j], plain[which]
+            here = self.reach(own, at)
+            for _ in range(LEADING):
+                way = (v * v - here) / rise
+                at[:, j] += way
+                before, here = here, self.reach(own, at)
+                moved = (way != 0) & np.isfinite(here) & (here != before)
+                rise = np.where(moved, (here - before) / np.where(way == 0, 1.0, way), rise)
+            return np.where(v < 0, own | self.bit, own), at
+
+        def missed(which: Array, share: Array) -> Array:
+            return self.missed(*placed(which, share))
+
+        start, near = middle.copy(), NEAR * half
+        start[:, j], near[j] = np.where(row & self.bit, -0.5, 0.5), BESIDE
+        which, share = closed_in(missed, np.arange(row.size), start, near, ranges[row])
+        return placed(which, share)
 
 
 def far(value: Array, scale: Array) -> Array:
@@ -305,14 +457,11 @@ def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
     size = share.shape[1]
     slope = np.empty((len(row), size, size))
     for k in range(size):
-        away = np.zeros(size)
-        away[k] = STEP
-        low, high = missed(row, share - away), missed(row, share + away)
-        slope[:, :, k] = np.where(
-            np.isfinite(high) & np.isfinite(low),
-            (high - low) / (2 * STEP),
-            np.where(np.isfinite(high), (high - value) / STEP, (value - low) / STEP),
-        )
+        away = np.where(np.arange(size) == k, STEP, 0.0)
+        there, way = missed(row, share + away), np.full(len(row), STEP)
+        lost = ~np.isfinite(there).all(axis=1)
+        there[lost], way[lost] = missed(row[lost], share[lost] - away), -STEP
+        slope[:, :, k] = (there - value) / way[:, None]
     good = np.isfinite(slope).all(axis=(1, 2))
     good &= abs(np.linalg.det(np.where(good[:, None, None], slope, 0))) > 0
     slope = np.where(good[:, None, None], slope, np.eye(size))
