@@ -141,6 +141,18 @@ class Trying(Trial, frozen=True, dict=True):
         )
         return (*values, *map(float, rest))
 
+    def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
+        """Where the traced points go all round, with the signs of a closure: (N,) each."""
+        import numpy as np
+
+        arrays = [np.atleast_1d(each) for each in known]
+        tried = self.grid(arrays, 1)[0]
+        here = [np.broadcast_to(array, tried.shape) for array in arrays]
+        signs = np.asarray(value[1:-1], dtype=float)
+        rows = np.broadcast_to(signs, (tried.size, len(self.signs)))
+        found = self.found(here, tried, rows)
+        return [found[number] for number in self.traced]
+
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
         import numpy as np
@@ -275,22 +287,12 @@ class ClosureSolver(Struct, frozen=True):
 
         return closed_in(self.trying, known, self.number, kind)
 
-    def loci(self, known: Sequence[Any], signs: Sequence[float]) -> list[Any]:
+    def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go while the link is tried, (N,) each; NaN where one breaks off.
 
-        None where no point shows the fit.
+        None where no point shows the fit. ``value`` is the closure beside which they are drawn.
         """
-        import numpy as np
-
-        trying = self.trying
-        if not trying.traced:
-            return []
-        arrays = [np.atleast_1d(value) for value in known]
-        tried = trying.grid(arrays, 1)[0]
-        here = [np.broadcast_to(array, tried.shape) for array in arrays]
-        rows = np.broadcast_to(np.asarray(signs, dtype=float), (tried.size, len(trying.signs)))
-        found = trying.found(here, tried, rows)
-        return [found[number] for number in trying.traced]
+        return self.trying.loci(known, value) if self.trying.traced else []
 
     def ways(self, known: Sequence[Any]) -> int:
         """In how many ways the group closes on known values."""

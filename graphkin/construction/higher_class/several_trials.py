@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
 from graphkin.construction.higher_class.trial import FAR
+from graphkin.numbers.arithmetic import phase
 
 ACROSS = {2: 120, 3: 32}
 """Steps of the grid along each of so many unknowns."""
@@ -31,10 +32,12 @@ CELLS = 40_000
 """Cells looked at together."""
 ROUNDS = 20
 """Steps of Newton's method at most."""
-NEAR = 16.0
+NEAR = 64.0
 """How far it may lead from where it starts, in halves of a cell."""
-BESIDE = 3.0
+BESIDE = 12.0
 """How far in v beside a flat dyad, in parts of what half a cell makes of it."""
+STARTS = (0.1, 0.6)
+"""Where it starts in v, on the side of the dyad's sign."""
 CLUSTERED = 3
 """The step before which those are left out that come to one place."""
 TOGETHER = 1e-5
@@ -49,6 +52,12 @@ LEADING = 5
 """Steps along the secant that find the share for a v."""
 STILL = 1e-10
 """A step so small that Newton's method has come to rest, in radians or shares of a way."""
+TRACES = 40
+"""Places to both sides of a closure at which a locus is drawn."""
+TRACED = 0.02
+"""How far they lie apart, in radians or parts of the way that is tried."""
+TRACING = 4
+"""Steps of Newton's method for each."""
 CLOSED = 1e-9
 """Misfit left at a closure at most, in parts of its range all round."""
 
@@ -66,6 +75,57 @@ class SeveralTrials(Trying, frozen=True, dict=True):
     def across(self) -> int:
         """Steps of the grid along each unknown."""
         return ACROSS.get(len(self.unknowns), FEWEST)
+
+    def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
+        """Where the traced points go beside a closure while the outermost link is tried, those
+        within closed each time: (N,) each, as far as they close."""
+        import numpy as np
+
+        start = self.row_of(value)
+        size, traced = len(self.unknowns), self.traced
+        here = [np.broadcast_to(np.atleast_1d(each), 2) for each in known]
+        signs = np.tile(start[size:-1], (2, 1))
+        tried = np.tile(start[:size], (2, 1))
+        ways, places = np.array([-1.0, 1.0]), [[], []]
+        step = TRACED * np.where(self.unknowns[0].turns, 1.0, self.scales(here, 2)[:, 0])
+        rise = np.zeros((2, size))
+        rise[:, 0] = 1.0
+        for _ in range(TRACES + 1):
+            found = self.found(here, tried, signs)
+            for side in range(2):
+                places[side].append([found[number][side] for number in traced])
+            before = tried
+            tried = self.closed_within(here, tried + ways[:, None] * step[:, None] * rise, signs)
+            rise = (tried - before) / (ways * step)[:, None]
+        back, on = (np.array(each).T for each in places)
+        return [np.concatenate([b[:0:-1], o]) for b, o in zip(back, on, strict=True)]
+
+    def closed_within(self, known: Sequence[Any], tried: Array, signs: Array) -> Array:
+        """Trial values at which all groups within close, that of the outermost as it is."""
+        import numpy as np
+
+        inner = self.inner
+
+        def missed(row: Array, share: Array) -> Array:
+            here = [array[row] for array in known]
+            found = self.found(here, np.column_stack([tried[row, :1], share]), signs[row])
+            return np.stack([found[one.misfit] for one in inner], axis=1)
+
+        share, every = tried[:, 1:].copy(), np.arange(len(tried))
+        for _ in range(TRACING):
+            share = share + steps_of(missed, every, share, missed(every, share))
+        return np.column_stack([tried[:, :1], share])
+
+    def row_of(self, value: Sequence[Any]) -> Array:
+        """A closure as numbers: trial values, signs, the sine of crossing."""
+        import numpy as np
+
+        tried, rest = value[: len(self.unknowns)], value[len(self.unknowns) :]
+        angles = (
+            phase(complex(each)) if one.turns else float(each)
+            for one, each in zip(self.unknowns, tried, strict=True)
+        )
+        return np.array([*angles, *map(float, rest)])
 
     def places(self, known: Sequence[Any], size: int) -> int:
         """At how many places each element is tried."""
@@ -335,6 +395,7 @@ def closed_in(
         which, way = which[good], way[good]
         which, way = apart(row, share, which, way) if turn == CLUSTERED else (which, way)
         rest = (abs(way) < STILL).all(axis=1)
+        share[which[rest]] += way[rest]
         found.append(which[rest])
         which, way = which[~rest], way[~rest]
         scale, waiting = ranges[row[which]], np.ones(which.size, dtype=bool)
@@ -436,9 +497,11 @@ class FlatDyad(NamedTuple):
         def missed(which: Array, share: Array) -> Array:
             return self.missed(*placed(which, share))
 
-        start, near = middle.copy(), NEAR * half
-        start[:, j], near[j] = np.where(row & self.bit, -0.5, 0.5), BESIDE
-        which, share = closed_in(missed, np.arange(row.size), start, near, ranges[row])
+        near = NEAR * half
+        near[j] = BESIDE
+        start = np.tile(middle, (len(STARTS), 1))
+        start[:, j] = np.repeat(STARTS, row.size) * np.tile(np.where(row & self.bit, -1, 1), len(STARTS))
+        which, share = closed_in(missed, np.tile(np.arange(row.size), len(STARTS)), start, near, ranges[row])
         return placed(which, share)
 
 
