@@ -92,8 +92,8 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
         yield words("why.idle"), NO_STEP
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
-    elif isinstance(plan, TrialPlan) and sentence.name:
-        yield words("why.trial_again" if plan.repeats else "why.trial"), NO_STEP
+    elif isinstance(plan, TrialPlan) and sentence.name == f"trial{plan.tag}":
+        yield words("why.trial_again" if plan.is_second else "why.trial"), NO_STEP
 
 
 def of_rate(drawing: Drawing, step: Step) -> str:

@@ -64,8 +64,6 @@ from graphkin.structure.pairs import Pin, Sliding
 
 TAGS = tuple(MARKED)
 """What the points of the two plans bear behind their names."""
-GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
-"""What two trial plans miss."""
 
 
 @action("far")
@@ -114,6 +112,12 @@ class TwoTrials(Construction, frozen=True):
     def rates(self) -> tuple[int, int]:
         """The steps of the rates that are tried."""
         return self.plans[0].rate, self.plans[1].rate
+
+    @property
+    def symbol(self) -> str:
+        """Markup of the share, with the tag of the plan to which its trials lead, if of a trial."""
+        whole = self.plans[0].whole
+        return "*λ*" if whole is None else symbol(f"λ{whole.tag}")
 
     def divided(self, program: Program) -> Iterator[DividedPoint]:
         """The points of the right plan that it divides."""
@@ -165,15 +169,16 @@ class TwoTrials(Construction, frozen=True):
             part = OnPaper(float(values[self.share]) * whole)
             figures = f"{drawn_length(drawing, part)}/{drawn_length(drawing, whole)}"
             remark = drawing.words("calculation.divided-alike", **fields) if others else ""
-            yield Relation("*λ*", ratio, figures, result, "", remark)
+            yield Relation(self.symbol, ratio, figures, result, "", remark)
             return
-        for name, gap in zip(GAPS, self.gaps, strict=True):
+        names = [symbol(f"m{plan.tag}") for plan in self.plans]
+        for name, gap in zip(names, self.gaps, strict=True):
             yield gap.relation(drawing, name)
         first = figure(drawing, self.gaps[0].amount(drawing))
         second = within(drawing, self.gaps[1].amount(drawing))
         yield Relation(
-            "*λ*",
-            "{0}/({0} − {1})".format(*GAPS),
+            self.symbol,
+            "{0}/({0} − {1})".format(*names),
             f"{first}/({first} − {second})",
             result,
             "",
@@ -205,17 +210,26 @@ def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMiscl
 
 
 def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The points that divide the lines of two trials said in one sentence."""
+    """The points that divide the lines of two trials said in one sentence, of each two trials."""
+    steps = drawing.trace.program.steps
+    divided: dict[int, dict[Sentence, DividedPoint]] = {}
+    for said in found:
+        if said.step >= 0 and isinstance(kind := construction(steps[said.step]), DividedPoint):
+            divided.setdefault(kind.share, {})[said] = kind
+    for share, points in divided.items():
+        found = divided_together(drawing, found, share, points)
+    return found
+
+
+def divided_together(
+    drawing: Drawing, found: list[Sentence], share: int, points: dict[Sentence, DividedPoint]
+) -> list[Sentence]:
+    """The points of one ``share`` said in one sentence."""
     steps, values = drawing.trace.program.steps, drawing.trace.values
-    points = {
-        said: kind
-        for said in found
-        if said.step >= 0 and isinstance(kind := construction(steps[said.step]), DividedPoint)
-    }
     crossed = [said for said, point in points.items() if point.is_crossed(values)]
     divided = [said for said in points if said not in crossed]
     if crossed:
-        found = [said for said in found if said.name != "share"]
+        found = [said for said in found if said.step != share]
     if not divided:
         return found
     listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
