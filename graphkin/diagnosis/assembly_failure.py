@@ -161,7 +161,7 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
     closer = closer_of(failed.step)
     assert closer is not None
     trying = closer.trying
-    if trying.facing is not None:
+    if trying.facing is not None or trying.inner:
         return ""
     known = [np.atleast_1d(value) for value in failed.args_found]
     tried = trying.grid(known, 1).ravel()

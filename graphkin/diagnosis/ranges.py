@@ -23,6 +23,8 @@ NARROWINGS = 5
 """How often the last step at the end of a range is cut into parts."""
 PARTS = 16
 """Parts into which it is cut, all at once."""
+FEWER, FEWER_PARTS = 36, 4
+"""The same where several links are tried at once: each position costs as much as a hundred."""
 NOISE = 1e-12
 """Sine of crossing of lines that are parallel throughout, but for rounding."""
 MOST = 3
@@ -127,7 +129,8 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
     try:
         if course.sweep.whole and wheels(course) and not course.closing_work:
             return ClosingRanges(ranges_followed(course))
-        count = min(GRID, max(FEWEST, WORK // max(course.closing_work, 1)))
+        fewest = FEWER if course.tries_several else FEWEST
+        count = min(GRID, max(fewest, WORK // max(course.closing_work, 1)))
         found = ranges_of(course, count)
     except GraphkinError:
         return ClosingRanges([])
@@ -197,13 +200,14 @@ def refined(course: Course, at: Any, steps: Any) -> Any:
     """The ends of closing ranges, each between a position that closes and one a step further."""
     import numpy as np
 
-    share = np.arange(1, PARTS) / PARTS
+    count = FEWER_PARTS if course.tries_several else PARTS
+    share = np.arange(1, count) / count
     for _ in range(NARROWINGS):
         between = at[:, None] + steps[:, None] * share
         tried = within_turn(course, between)
         closes = course.closes(tried.ravel()).reshape(between.shape)
         passed = np.cumprod(closes, axis=1).sum(axis=1)
-        at, steps = at + steps * passed / PARTS, steps / PARTS
+        at, steps = at + steps * passed / count, steps / count
     return at
 
 

@@ -9,11 +9,19 @@ from graphkin.drawing.richtext import escape
 
 NAME = re.compile(
     r"^(?P<times>\d*)(?P<letter>[^\W\d_¹²]+)(?P<index>\d*(?:,\w+?)?)(?P<prime>[′″‴⁗]?)"
-    r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]?)(?:\^(?P<sup>\w))?$"
+    r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]*)(?:\^(?P<sup>\w))?$"
 )
 FOURTH = "⁗"
 TAGS = {"¹": "I", "²": "II"}
 """The tags of two auxiliary plans as they are written: below, so that none reads as a power."""
+WITHIN = ({"¹": "a", "²": "b"}, TAGS)
+"""The same of plans within one of these, then within one of those: Ia, IbII."""
+
+
+def tag_words(tag: str) -> str:
+    """The tag of an auxiliary plan as it is written, after those of the plans around it."""
+    written = (WITHIN[k % 2][sign] for k, sign in enumerate(tag[1:]))
+    return "".join((TAGS.get(tag[:1], ""), *written))
 
 
 @lru_cache(maxsize=1024)
@@ -29,7 +37,7 @@ def symbol(name: str) -> str:
     sub, sup, tag = found.group("sub", "sup", "tag")
     apart = "," if index and sub and sub[0].isdigit() else ""
     scripts = f"{index}{apart}{sub or ''}".removeprefix(",")
-    scripts = ",".join(filter(None, (scripts, TAGS.get(tag))))
+    scripts = ",".join(filter(None, (scripts, tag_words(tag))))
     low = f"_{{{escape(scripts)}}}" if scripts else ""
     high = f"^{{{sup}}}" if sup else "^{IV}" if prime == FOURTH else ""
     return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"

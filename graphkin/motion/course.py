@@ -22,7 +22,7 @@ from graphkin.numbers.arithmetic import FLOAT, batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.scene.model import Branch, Scene
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.groups import Group
+from graphkin.structure.groups import Group, Higher
 from graphkin.text.errors import GraphkinError
 
 Reals = np.ndarray[Any, np.dtype[Any]]
@@ -140,6 +140,11 @@ class Course(Struct, frozen=True, dict=True):
                 trace = run_batch(self.program, needed, values, batch_kind(), args)
             work += action.value.trying.work([np.atleast_1d(trace.values[arg]) for arg in args])
         return work
+
+    @property
+    def tries_several(self) -> bool:
+        """Whether a group closes only when several of its links are tried at once."""
+        return any(len(g.nested) > 1 for g in self.groups if isinstance(g, Higher))
 
     def margins(self, at: Any) -> Reals:
         """The sine of every crossing (rows as ``crossings``) for each u (N,); NaN does not close.

@@ -57,9 +57,9 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
     for number in closing:
         step = steps[number]
         assert step.action is not None and isinstance(step.action.value, ClosureSolver)
-        _, *signs, _ = trace.values[number]
-        round_ = step.action.value.trying.turns
-        loci = step.action.value.loci([trace.values[arg] for arg in step.args], signs)
+        closer = step.action.value
+        round_ = closer.trying.turns and not closer.trying.inner
+        loci = closer.loci([trace.values[arg] for arg in step.args], trace.values[number])
         kind = construction(step)
         assert isinstance(kind, ClosedGroup)
         for point, locus in zip(kind.traced, loci, strict=True):

@@ -118,16 +118,15 @@ class Numbered:
             closures = trying.closures(known)
         counts = np.bincount(closures.table[:, 0].astype(int), minlength=len(at))
         every = [
-            self._stand(at, values, np.array(closures.picked(number)), trying.turns)
+            self._stand(at, values, trying.parts(np.array(closures.picked(number))))
             for number in range(1, int(counts.max(initial=0)) + 1)
         ]
         return np.array(every) if every else np.empty((0, len(self.rows), len(at)), complex)
 
-    def _stand(self, at: Reals, values: dict[str, Any], table: Reals, turns: bool) -> Reals:
+    def _stand(self, at: Reals, values: dict[str, Any], closed: tuple[Any, ...]) -> Reals:
         """Where all points and links stand in one closure at each place."""
         program = self.course.program
-        tried = np.exp(1j * table[:, 1]) if turns else table[:, 1]
-        overrides = {self.step: (tried, *table[:, 2:].T)}
+        overrides = {self.step: closed}
         keep = [program.targets[target] for target in self.rows]
         with np.errstate(all="ignore"):
             trace = run_batch(

@@ -186,11 +186,11 @@ def unused(scene: Scene, groups: Sequence[Group]) -> list[Driver]:
     """The drivers that no group takes."""
     taken = list[Driver]()
     for group in groups:
-        parts = (*group.chain, group) if isinstance(group, Higher) else (group,)
+        nested = group.nested if isinstance(group, Higher) else ()
+        parts = group.members if isinstance(group, Higher) else (group,)
         taken += [part.driver for part in parts if isinstance(part, Crank | Driven | Spun)]
         taken += [each for part in parts if isinstance(part, Stretched) for each in part.drivers]
-        if isinstance(group, Higher) and isinstance(group.last, Driver):
-            taken.append(group.last)
+        taken += [each.last for each in nested if isinstance(each.last, Driver)]
     return [driver for driver in scene.drivers if driver not in taken]
 
 

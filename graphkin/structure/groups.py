@@ -351,6 +351,8 @@ class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
     What closes it at last is a link between two known points, or a driver's given motion. Where
+    dyads alone do not do the rest, its chain holds groups within it that are tried in their turn.
+    Where
     ``wheels`` of it roll on straight tracks that are known, and pinning them where they touch
     leaves groups that need no trial, those move it ``at_instant``.
     """
@@ -367,6 +369,18 @@ class Higher(Struct, frozen=True):
         """All links, that whose place is tried first and that which closes last."""
         last = self.last.links if isinstance(self.last, Tie) else ()
         return (*self.trial.links, *(link for g in self.chain for link in g.links), *last)
+
+    @property
+    def nested(self) -> tuple[Higher, ...]:
+        """It, and the groups within it that are tried in their turn, from the outermost inwards."""
+        inner = (each for each in self.chain if isinstance(each, Higher))
+        return (self, *(one for each in inner for one in each.nested))
+
+    @property
+    def members(self) -> tuple[Group, ...]:
+        """What is constructed after trials, with that of the groups within it, in order."""
+        parts = (each.members if isinstance(each, Higher) else (each,) for each in self.chain)
+        return tuple(member for part in parts for member in part)
 
     @property
     def order(self) -> tuple[int, int]:

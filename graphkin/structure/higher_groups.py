@@ -1,6 +1,7 @@
 """Groups of class III and higher: which link to try so that dyads do the rest.
 
-Cutting one constraint of a group leaves a chain that dyads construct; what was cut closes it.
+Cutting one constraint of a group leaves a chain that dyads construct; what was cut closes it. Where
+the chain comes to a stand, a group within it is closed by a trial of its own.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from msgspec.structs import replace
 from graphkin.scene.model import Driver, Scene
 from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Spun, Tie, TriedLink
 from graphkin.structure.instant_groups import groups_at_instant, pinned_wheels
-from graphkin.structure.joints import Joints
+from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
     next_driven,
     next_group,
@@ -23,12 +24,28 @@ from graphkin.structure.next_group import (
 from graphkin.structure.pairs import Joint, Pin, turned_by_smaller
 
 
+MOST_TRIED = 4
+"""Links of a group that are tried together at most."""
+
+
 def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Higher | None:
-    """The smallest group that closes after one link has been tried, as written first.
+    """The smallest group that closes after the fewest links have been tried, as written first.
 
     Of two wheels that turn one another the larger is tried: all round it the smaller goes farther.
     A link is tried among those that pairs and drivers join it to: no other can follow it.
     """
+    for count in range(1, MOST_TRIED + 1):
+        if least := least_tried(joints, known, waiting, count):
+            wheels = pinned_wheels(joints, least, known)
+            at_instant = groups_at_instant(joints, least, known, waiting, wheels)
+            return replace(least, wheels=wheels, at_instant=at_instant)
+    return None
+
+
+def least_tried(
+    joints: Joints, known: Collection[str], waiting: list[Driver], count: int
+) -> Higher | None:
+    """The smallest group that closes after so many links have been tried."""
     tied = [{driver.link, driver.against} for driver in waiting]
     part_of = {
         link: part
@@ -39,20 +56,15 @@ def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -
     found = [
         group
         for trial in trials(joints, known)
-        for group in tried(part_of[trial.link], known, waiting, trial)
+        for group in tried(part_of[trial.link], known, waiting, trial, count)
     ]
     scene = joints.scene
-    least = min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
-    if least is None:
-        return None
-    wheels = pinned_wheels(joints, least, known)
-    at_instant = groups_at_instant(joints, least, known, waiting, wheels)
-    return replace(least, wheels=wheels, at_instant=at_instant)
+    return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
 
 
 def speeding(scene: Scene, group: Higher) -> int:
     """How many wheels of a group are turned by smaller ones."""
-    geared = [each for each in group.chain if isinstance(each, Geared)]
+    geared = [each for each in group.members if isinstance(each, Geared)]
     return sum(turned_by_smaller(scene, each.contact, each.link) for each in geared)
 
 
@@ -69,10 +81,13 @@ def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
 
 
 def tried(
-    joints: Joints, known: Collection[str], waiting: list[Driver], trial: TriedLink
+    joints: Joints, known: Collection[str], waiting: list[Driver], trial: TriedLink, count: int
 ) -> Iterator[Higher]:
-    """The group that closes when a link's place is taken as known, if one does."""
-    grown, left = {*known, trial.link}, list(waiting)
+    """The group that closes when a link's place is taken as known, if one does.
+
+    Those within it may try ``count`` links less one.
+    """
+    grown, left, count = {*known, trial.link}, list(waiting), count - 1
     chain: list[Group] = []
     while True:
         last = over_given(joints, known, grown, left) or next_tie(joints, grown)
@@ -84,11 +99,13 @@ def tried(
             next_driven(joints, grown, left)
             or next_group(joints, grown)
             or next_stretched(joints, grown, left)
+            or (least_tried(joints, grown, left, count) if count else None)
         )
         if group is None:
             return
         chain.append(group)
         settle(group, grown, left)
+        count -= len(group.nested) if isinstance(group, Higher) else 0
     ends = {last.link, last.against} if isinstance(last, Driver) else supports(last)
     kept = needed(joints, chain, ends)
     if trial.link not in kept.needs:
@@ -110,6 +127,12 @@ def over_given(
 
 def supports(group: Group) -> set[str]:
     """The links on which a group hangs."""
+    if isinstance(group, Higher):
+        parts = (*group.chain, *([group.last] if isinstance(group.last, Tie) else []))
+        found = {partner(group.trial.pair, group.trial.link)}.union(*map(supports, parts))
+        if isinstance(group.last, Driver):
+            found |= {group.last.link, group.last.against}
+        return found - set(group.links)
     found = {link for pair in getattr(group, "outer", ()) for link in pair.links}
     if isinstance(group, Crank | Driven | Spun):
         found |= {group.driver.link, group.driver.against}
@@ -135,6 +158,8 @@ def needed(joints: Joints, chain: list[Group], ends: set[str]) -> Needed:
 
 def pivots(joints: Joints, group: Group) -> set[str]:
     """The links that own the pin about which a crank turns."""
+    if isinstance(group, Higher):
+        return set[str]().union(*(pivots(joints, each) for each in group.chain)) - {*group.links}
     pivot = getattr(group, "pivot", None)
     pivot = pivot.point if isinstance(pivot, Pin) else pivot
     return set(joints.owners[pivot]) - set(group.links) if pivot else set()

@@ -93,6 +93,10 @@ def taken_over(
     There is a last value that can be tried; the misfit goes with the root of the distance from it.
     """
     for k, (place, each) in enumerate(solve.placed()):
+        if each.count > 1:
+            if found := turned_over(solve, at, states, step, place, each):
+                return found
+            continue
         if last_value(solve.missed(k, at[-1], list(states[-1])), states[-1][place], each) is None:
             continue
         for sign in range(place + 1, place + len(each.names)):
@@ -105,6 +109,26 @@ def taken_over(
                 if found is not None:
                     turned[place] = found
                     return there, tuple(turned)
+    return None
+
+
+def turned_over(
+    solve: Solver,
+    at: Sequence[float],
+    states: Sequence[State],
+    step: float,
+    place: int,
+    each: TracedClosing,
+) -> tuple[float, State] | None:
+    """The same of a group in which several links are tried: one sign after the other is turned."""
+    for sign in range(place + each.count, place + len(each.names)):
+        for part in PARTED:
+            there = at[-1] + step / part
+            turned = list(extrapolated(at, states, there))
+            turned[sign] = -states[-1][sign]
+            found = solve(there, tuple(turned))
+            if found is not None and not leaps(solve, tuple(turned), found):
+                return there, found
     return None
 
 
@@ -171,15 +195,20 @@ def extrapolated(at: Sequence[float], states: Sequence[State], place: float) -> 
 
 def leaps(solve: Solver, guess: State, found: State) -> bool:
     """Whether a closure found is not the one that was followed."""
-    return any(abs(guess[i] - found[i]) > FAR * each.size for i, each in solve.placed())
+    return any(
+        abs(guess[i + k] - found[i + k]) > FAR * size
+        for i, each in solve.placed()
+        for k, size in enumerate(each.sizes)
+    )
 
 
 def returns(solve: Solver, way: TrackedBranch) -> bool:
     """Whether groups are at the end of a turn what they were at its beginning."""
     first, last = way.states[0], way.states[-1]
     for place, each in solve.placed():
-        apart = last[place] - first[place]
-        turns = 2 * math.pi * round(apart / (2 * math.pi)) if each.turns else 0.0
-        if abs(apart - turns) > 1e-6 * each.size:
-            return False
+        for k, (turning, size) in enumerate(zip(each.turns, each.sizes, strict=True)):
+            apart = last[place + k] - first[place + k]
+            turns = 2 * math.pi * round(apart / (2 * math.pi)) if turning else 0.0
+            if abs(apart - turns) > 1e-6 * size:
+                return False
     return True

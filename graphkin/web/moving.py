@@ -348,8 +348,7 @@ def misses(tracing: Tracing) -> Iterator[str]:
     """By how much each group that is closed anew misses, as functions."""
     names = [f"miss{i}" for i, _ in enumerate(tracing.closings)]
     for name, each in zip(names, tracing.closings, strict=True):
-        outputs = (each.misfit.node, each.facing.node)
-        yield script_source(tracing.graph, outputs, tracing.inputs, name)
+        yield script_source(tracing.graph, each.outputs, tracing.inputs, name)
     yield f"const closings = [{','.join(names)}];"
 
 
@@ -364,7 +363,7 @@ def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
 def way_through(course: TrackedBranch, tracing: Tracing, reach: Reach) -> dict[str, Any]:
     """The way of groups of higher class through the range, as a page knows it."""
     places = [tracing.inputs[each.names[0]] for each in tracing.closings]
-    sizes = [each.size for each in tracing.closings]
+    sizes = [each.sizes if each.count > 1 else each.size for each in tracing.closings]
     turn = TURN if reach.whole else 0
     return {
         "at": course.at,

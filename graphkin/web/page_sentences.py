@@ -64,7 +64,8 @@ class PartedSentence(Struct, frozen=True):
             markup = AND.join(part.markup for part in some)
             name = some[-1].name
             if self.plan is not None:
-                markup = self.plan.introduced(drawing, markup, first=place == 0)
+                begins = place == 0 and self.plan.begins(drawing, self.said.all_steps)
+                markup = self.plan.introduced(drawing, markup, first=begins)
                 name = name if place == 0 else ""
             steps = tuple(part.step for part in some) if len(some) > 1 else ()
             yield Sentence(some[-1].step, name, markup, steps), len(some)
@@ -93,8 +94,9 @@ def parted_sentence(drawing: Drawing, said: Sentence) -> PartedSentence:
     if said.name == TURNING:
         return PartedSentence(said, tuple(readings(drawing)) or (one,))
     plan = auxiliary_plan(drawing, said.step)
-    if plan is not None:
-        told = plan.told_in_parts(drawing)
+    divided = isinstance(construction(drawing.trace.program.steps[said.step]), DividedPoint)
+    if plan is not None and not divided:
+        told = plan.told_in_parts(drawing, said.all_steps)
         parts = tuple(SentencePart(s, p, text, said.name) for p, s, text in told)
         return PartedSentence(said, parts, plan)
     parts = tuple(

@@ -51,7 +51,7 @@ from graphkin.construction.velocity.perpendicular_through import square_to
 from graphkin.construction.velocity.translated_image import alike
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.drawing.symbol_markup import TAGS, symbol
+from graphkin.drawing.symbol_markup import symbol, tag_words
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
@@ -492,7 +492,7 @@ class MoveFinder:
         else:
             return None
         if step.aside is not None and isinstance(kind, LaidOffByRate):
-            name += f" ({TAGS.get(step.aside.tag, step.aside.tag)})"
+            name += f" ({tag_words(step.aside.tag)})"
         pick = Pick("vector", name, step.plane, self.needs(others), value, on)
         self.picks.setdefault(key, pick)
         return key
@@ -554,7 +554,7 @@ class MoveFinder:
             vector = kind.fields(drawing, step.role)["vector"]
         if not vector:
             return ""
-        tag = f" ({TAGS.get(step.aside.tag, step.aside.tag)})" if step.aside else ""
+        tag = f" ({tag_words(step.aside.tag)})" if step.aside else ""
         return drawing.words("turn.end_of", vector=vector) + tag
 
     def name_of_line(self, number: int) -> str:

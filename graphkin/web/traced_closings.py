@@ -10,8 +10,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.batch import made_ready, run_moving
+from graphkin.construction.higher_class.refined_trials import slopes, solved
 from graphkin.construction.tape.emit import LOOP, value
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
@@ -31,39 +33,63 @@ State = tuple[float, ...]
 
 class TracedClosing(Struct, frozen=True):
     """A step that closes a group: the inputs that hold what it tries and the signs of its dyads,
-    these where the scene stands, and by how much it misses.
+    these where the scene stands, and by how much it misses, one misfit for each link tried.
 
     ``facing`` must be positive; ``sine`` is that of the crossing of the two loci.
     """
 
     names: tuple[str, ...]
-    turns: bool
+    turns: tuple[bool, ...]
     drawn: State
-    misfit: TracedNumber
+    misfits: tuple[TracedNumber, ...]
     facing: TracedNumber
     sine: TracedNumber
 
     @property
+    def count(self) -> int:
+        """How many links are tried."""
+        return len(self.turns)
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        """What the tried values are measured by: a radian, or a length."""
+        pairs = zip(self.turns, self.drawn, strict=False)
+        return tuple(1.0 if turns else max(abs(value), 1e-3) for turns, value in pairs)
+
+    @property
     def size(self) -> float:
-        """What the tried value is measured by: a radian, or a length."""
-        return 1.0 if self.turns else max(abs(self.drawn[0]), 1e-3)
+        """What the first of them is measured by."""
+        return self.sizes[0]
+
+    @property
+    def outputs(self) -> tuple[int, ...]:
+        """The nodes of its misfits, and of what must be positive."""
+        return (*(each.node for each in self.misfits), self.facing.node)
 
 
-def names_of(number: int, drawn: Sequence[Any]) -> tuple[str, ...]:
+def names_of(number: int, closer: Any) -> tuple[str, ...]:
     """The inputs of a step that closes a group; no parameter is called so."""
-    return (f"tried {number}", *(f"tried {number} sign {k}" for k in range(len(drawn) - 2)))
+    more = (f"tried {number} within {k}" for k in range(1, len(closer.trying.unknowns)))
+    signs = (f"tried {number} sign {k}" for k in range(len(closer.trying.signs)))
+    return (f"tried {number}", *more, *signs)
 
 
 def drawn_state(closer: Any, drawn: Sequence[Any]) -> State:
-    """The tried value where the scene stands, in radians or metres, and the signs."""
-    first = phase(complex(drawn[0])) if closer.trying.turns else drawn[0]
-    return (float(first), *(float(sign) for sign in drawn[1:-1]))
+    """The tried values where the scene stands, in radians or metres, and the signs."""
+    unknowns = closer.trying.unknowns
+    pairs = zip(unknowns, drawn[: len(unknowns)], strict=True)
+    tried = (phase(complex(each)) if one.turns else each for one, each in pairs)
+    return (*map(float, tried), *map(float, drawn[len(unknowns) : -1]))
 
 
 def tried(names: Sequence[str], graph: Graph, closer: Any) -> tuple[Any, ...]:
-    """The value of such a step for traced numbers: what is tried, the signs, no sine yet."""
-    first, *signs = (TracedNumber(graph, graph.input(name)) for name in names)
-    return (traced_kind().radians(first) if closer.trying.turns else first, *signs, 1.0)
+    """The value of such a step for a traced trial: what it tries, the signs, no sine yet."""
+    numbers = [TracedNumber(graph, graph.input(name)) for name in names]
+    unknowns = closer.trying.unknowns
+    pairs = zip(unknowns, numbers[: len(unknowns)], strict=True)
+    kind = traced_kind()
+    values = (kind.radians(each) if one.turns else each for one, each in pairs)
+    return (*values, *numbers[len(unknowns) :], 1.0)
 
 
 def closing(
@@ -75,23 +101,60 @@ def closing(
 ) -> TracedClosing:
     """What closes a group, traced on what is known."""
     trying, lift, state = closer.trying, tape.lifted, drawn_state(closer, drawn)
-    first, *signs = (TracedNumber(tape.graph, tape.graph.input(name)) for name in names)
-    step = STEP * (1 if trying.turns else max(abs(state[0]), 1e-3))
-    here, before, after = (
-        result(trying, known, first + away, signs) for away in (0.0, -step, step)
-    )
-    across = abs(lift(after[trying.misfit] - before[trying.misfit]))
-    way = abs(lift(after[trying.locus] - before[trying.locus]))
-    sine = (across / way).do("min", lift(1.0))
-    facing = lift(1.0 if trying.facing is None else here[trying.facing])
-    return TracedClosing(names, trying.turns, state, lift(here[trying.misfit]), facing, sine)
+    numbers = [TracedNumber(tape.graph, tape.graph.input(name)) for name in names]
+    unknowns = trying.unknowns
+    tried, signs = numbers[: len(unknowns)], numbers[len(unknowns) :]
+    here = trial(trying, known, tried, signs)
+    facings = [lift(here[one.facing]) for one in unknowns if one.facing is not None]
+    facing = lift(1.0) if not facings else facings[0]
+    for each in facings[1:]:
+        facing = facing.do("min", each)
+    misfits = tuple(lift(here[one.misfit]) for one in unknowns)
+    turns = tuple(one.turns for one in unknowns)
+    own = TracedClosing(names, turns, state, misfits, facing, lift(1.0))
+    return replace(own, sine=crossing_sine(own, tape, closer, known, tried, signs))
 
 
-def result(trying: Any, known: Sequence[Any], at: Any, signs: Sequence[Any]) -> Mapping[int, Any]:
-    """The results of what is tried, for traced numbers."""
+def crossing_sine(
+    own: TracedClosing,
+    tape: TapeOutputs,
+    closer: Any,
+    known: Sequence[Any],
+    tried: Sequence[TracedNumber],
+    signs: Sequence[TracedNumber],
+) -> TracedNumber:
+    """The least sine of the angles at which a locus crosses what was cut, those within closed."""
+    trying, lift = closer.trying, tape.lifted
+    unknowns, sides = trying.unknowns, range(own.count)
+    misfits, loci = [], []
+    for k, size in enumerate(own.sizes):
+        ends = (
+            trial(trying, known, [*tried[:k], tried[k] + way * STEP * size, *tried[k + 1 :]], signs)
+            for way in (-1, 1)
+        )
+        low, high = ends
+        misfits.append([high[one.misfit] - low[one.misfit] for one in unknowns])
+        loci.append([high[one.locus] - low[one.locus] for one in unknowns])
+    least = lift(1.0)
+    for k in sides:
+        inner = [i for i in sides if i > k]
+        rows = [[misfits[j][i] for j in inner] for i in inner]
+        led = solved(rows, [-misfits[k][i] for i in inner]) if inner else []
+        across, way = misfits[k][k], loci[k][k]
+        for j, share in zip(inner, led, strict=True):
+            across, way = across + share * misfits[j][k], way + share * loci[j][k]
+        least = (abs(lift(across)) / abs(lift(way))).do("min", least)
+    return least
+
+
+def trial(
+    trying: Any, known: Sequence[Any], at: Sequence[Any], signs: Sequence[Any]
+) -> Mapping[int, Any]:
+    """The results of a trial for traced numbers."""
     kind = traced_kind()
     overrides = dict(zip(trying.inputs, known, strict=True))
-    overrides[trying.tried] = kind.radians(at) if trying.turns else at
+    for one, each in zip(trying.unknowns, at, strict=True):
+        overrides[one.tried] = kind.radians(each) if one.turns else each
     overrides |= dict(zip(trying.signs, signs, strict=True))
     needed = trying.program.behind(trying.results)
     ready = made_ready(trying.program, needed, trying.values, trying.results, frozenset(overrides))
@@ -109,7 +172,7 @@ class Solver(Struct, frozen=True):
     """
 
     closings: Sequence[TracedClosing]
-    misses: Sequence[Callable[..., tuple[float, float]]]
+    misses: Sequence[Callable[..., tuple[float, ...]]]
     near: Callable[[float], Mapping[str, Any]]
     size: float
 
@@ -117,6 +180,16 @@ class Solver(Struct, frozen=True):
         """The state in which the groups close; None where one does not."""
         found = list(near)
         for k, (place, each) in enumerate(self.placed()):
+            if each.count > 1:
+                own = slice(place, place + each.count)
+                steps = [STEP * size for size in each.sizes]
+                several = closed_together(
+                    self.missed_all(k, at, found), found[own], steps, self.size
+                )
+                if several is None:
+                    return None
+                found[own] = several
+                continue
             good = closed_near(self.missed(k, at, found), found[place], STEP * each.size, self.size)
             if good is None:
                 return None
@@ -141,6 +214,19 @@ class Solver(Struct, frozen=True):
 
         return missed
 
+    def missed_all(
+        self, k: int, at: float, state: list[float]
+    ) -> Callable[[Sequence[float]], tuple[float, ...]]:
+        """The misfits of a group by all that it tries."""
+        place, each = [*self.placed()][k]
+        near = [float(angle) for angle in self.near(at).values()]
+
+        def missed(values: Sequence[float]) -> tuple[float, ...]:
+            here = [*state[:place], *values, *state[place + each.count :]]
+            return self.misses[k](at, *here, *near)
+
+        return missed
+
 
 def solver(
     graph: Graph,
@@ -152,7 +238,7 @@ def solver(
 ) -> Solver:
     """What closes all groups of a graph; ``near`` gives the inputs ``counting`` at a place."""
     names = [driver, *(name for each in closings for name in each.names), *counting]
-    misses = [function(graph, names, (each.misfit.node, each.facing.node)) for each in closings]
+    misses = [function(graph, names, each.outputs) for each in closings]
     return Solver(closings, misses, near, size)
 
 
@@ -169,6 +255,29 @@ def closed_near(
         if abs(after) < CLOSED * size and facing > 0:
             return found
     return None
+
+
+def closed_together(
+    miss: Callable[[Sequence[float]], tuple[float, ...]],
+    start: Sequence[float],
+    steps: Sequence[float],
+    size: float,
+) -> list[float] | None:
+    """Where all misfits vanish near a start, by Newton's method; None as for one."""
+    here = [*start]
+    try:
+        for _ in range(TRIES):
+            value = miss(here)[:-1]
+            rows = slopes(lambda tried: miss(tried)[:-1], here, value, steps)
+            way = solved(rows, [-each for each in value])
+            here = [each + step for each, step in zip(here, way, strict=True)]
+            if all(abs(w) < 1e-14 * max(1.0, abs(h)) for w, h in zip(way, here, strict=True)):
+                break
+        *left, facing = miss(here)
+    except (ValueError, ZeroDivisionError, OverflowError):
+        return None
+    good = all(abs(each) < CLOSED * size for each in left) and facing > 0
+    return here if good else None
 
 
 def secant(miss: Callable[[float], tuple[float, float]], start: float, step: float) -> float:

@@ -138,7 +138,7 @@ class Tracing(Struct, frozen=True, dict=True):
         """The steps that close groups, with traced inputs in their place."""
         found = {}
         for number, closer in closing_steps(drawn):
-            names = names_of(number, drawn.values[number])
+            names = names_of(number, closer)
             state = drawn_state(closer, drawn.values[number])
             self.tape.inputs.update(zip(names, state, strict=True))
             found[number] = tried(names, self.graph, closer)
@@ -148,14 +148,14 @@ class Tracing(Struct, frozen=True, dict=True):
         """What closes the groups that no sheet before has, traced on what is known of them."""
         steps = trace.program.steps
         for number, closer in closing_steps(drawn):
-            names = names_of(number, drawn.values[number])
+            names = names_of(number, closer)
             if any(each.names == names for each in self.closings):
                 continue
             known = [trace.values[arg] for arg in steps[number].args]
             each = closing(names, self.tape, closer, known, drawn.values[number])
             self.closings.append(each)
             parts = (later for later in trace.values if number in steps[later].args)
-            self.margins.update({n: each.sine for n in parts if steps[n].extra == (0,)})
+            self.margins.update({n: each.sine for n in parts if steps[n].extra[0] < each.count})
 
     # --- how far it goes -----------------------------------------------------------------------
 

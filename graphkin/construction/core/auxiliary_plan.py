@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from graphkin.construction.core.program import PlanAside
 
@@ -16,13 +16,14 @@ if TYPE_CHECKING:
 class AuxiliaryPlan(PlanAside):
     """A plan that is drawn only to find the right one."""
 
-    reason: ClassVar[str] = ""
-    """The key of why it is drawn; of one that repeats another, with ``_again``."""
-
     @property
     def repeats(self) -> bool:
         """Whether it repeats the lines of another one, and follows no equation of its own."""
         return False
+
+    def reason(self, name: str) -> str:
+        """The key of why it is drawn, for the sentence that begins it; nothing for any other."""
+        return ""
 
     def turned_by(self, rate: int) -> str:
         """The link whose rate it assumes at a step; nothing where it assumes none there."""
@@ -32,8 +33,14 @@ class AuxiliaryPlan(PlanAside):
         """Whether a line finds only points which fall on where it begins."""
         return False
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, int, str]]:
-        """Its points line by line: the step of the point, that which ends a part, and its words."""
+    def begins(self, drawing: Drawing, named: Sequence[int]) -> bool:
+        """Whether some points are those with which it begins."""
+        return False
+
+    def told_in_parts(
+        self, drawing: Drawing, named: Sequence[int]
+    ) -> Iterator[tuple[int, int, str]]:
+        """Points of it line by line: the step of the point, that which ends a part, its words."""
         yield from ()
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:

@@ -58,7 +58,8 @@ class Pen:
         self.scale_step: int | None = None
         self.shared: dict[tuple[Any, ...], int] = {}
         self.peeked: dict[int, Any] = {}
-        self.layer: dict[Target, int] | None = None
+        self.layers: list[dict[Target, int]] = []
+        self.tried: list[dict[Target, int]] = []
         self.auxiliary: PlanAside | None = None
         self.part, self.plane, self.hand = Part.SHAPE, Plane.NUMBERS, False
         self.effect: Effect | None = None
@@ -87,10 +88,15 @@ class Pen:
 
     @contextmanager
     def aside(self, plan: PlanAside) -> Iterator[dict[Target, int]]:
-        """Work at an auxiliary plan: its points bear a tag, its quantities are gathered apart."""
-        self.layer, self.auxiliary = {}, plan
-        yield self.layer
-        self.layer = self.auxiliary = None
+        """Work at an auxiliary plan: its points bear a tag, its quantities are gathered apart.
+
+        Within another one what is known there is known.
+        """
+        before, self.auxiliary = self.auxiliary, plan
+        self.layers.append({})
+        yield self.layers[-1]
+        self.layers.pop()
+        self.auxiliary = before
 
     def draw(
         self,
@@ -145,7 +151,7 @@ class Pen:
 
     def arrow(self, action: Action, *args: int, name: str) -> int:
         """Add an arrow: drawn where its ends are, used by no other step, in no auxiliary plan."""
-        if self.layer is not None:
+        if self.layers:
             return -1
         self.arrows.add(name)
         return self._add(Step(action, args, self.part, self.plane, name, hand=True, arrow=True))
@@ -174,18 +180,19 @@ class Pen:
 
     def want(self, quantity: str, of: str, number: int) -> int:
         """Say which step carries a quantity of a point or link."""
-        where = self.targets if self.layer is None else self.layer
+        where = self.layers[-1] if self.layers else self.targets
         where[quantity, of] = number
         return number
 
     def has(self, quantity: str, of: str) -> bool:
         """True when a quantity has been constructed."""
-        return (quantity, of) in self.targets or (quantity, of) in (self.layer or {})
+        return any((quantity, of) in known for known in (self.targets, *self.layers))
 
     def the(self, quantity: str, of: str) -> int:
         """The step that carries a quantity."""
-        if self.layer and (quantity, of) in self.layer:
-            return self.layer[quantity, of]
+        for layer in reversed(self.layers):
+            if (quantity, of) in layer:
+                return layer[quantity, of]
         return self.targets[quantity, of]
 
     def is_nought(self, number: int) -> bool:

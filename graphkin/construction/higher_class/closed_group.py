@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
@@ -26,19 +26,25 @@ class ClosedGroup(Construction, frozen=True):
     loci a hand draws.
     """
 
-    reasons: ClassVar[Mapping[str, str]] = {"closing": "why.closed"}
 
     group: Higher
     number: int
     counted: str
     traced: tuple[str, ...]
     closing: int
-    tried: int
+    tried: tuple[int, ...]
     sides: tuple[int, ...]
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """That no two lines are known."""
+        if role != "closing":
+            return ""
+        return "why.closed" if len(self.group.nested) == 1 else "why.closed_together"
 
     def given(self) -> Iterator[tuple[str, int]]:
         """What closes the group, and each value taken from it."""
-        yield from (("closing", self.closing), ("tried", self.tried))
+        yield "closing", self.closing
+        yield from (("tried", number) for number in self.tried)
         yield from (("side", number) for number in self.sides)
 
     @property
@@ -112,10 +118,10 @@ class ClosedGroup(Construction, frozen=True):
         fields = {"k": escape(tried), "n": str(self.number), "list": listed}
         if self.driver is not None:
             fields["what"] = angle_symbol(drawing.scene, self.driver)
-            return drawing.words("step.close-driver", **fields)
-        drawn = seen(drawing, self.links_drawn(drawing))
-        key = "step.close-links" if len(drawn) > 1 else "step.close-link"
-        fields["draw"] = drawing.words(key, list=escape(", ".join(drawn)))
+            whole = drawing.words("step.close-driver", **fields)
+            within = drawing.words("list_mark").join(self.tried_within(drawing))
+            return f"{whole}; {within}" if within else whole
+        fields["draw"] = self.drawn_each_time(drawing)
         fields["q"] = symbol(self.locus)
         if self.guide:
             return drawing.words("step.close-guide", guide=way_of(drawing, self.guide), **fields)
@@ -123,6 +129,29 @@ class ClosedGroup(Construction, frozen=True):
         fields |= {"p": symbol(fixed or self.pins[0]), "q": symbol(moving)}
         key = "step.close-bar" if fixed else "step.close-gap"
         return drawing.words(key, bar=bar(*self.pins), **fields)
+
+    def drawn_each_time(self, drawing: Drawing) -> str:
+        """What is drawn for each place of the tried link: links, and trials within."""
+        inner = {link for one in self.group.nested[1:] for link in one.links}
+        drawn = seen(drawing, (link for link in self.links_drawn(drawing) if link not in inner))
+        key = "step.close-links" if len(drawn) > 1 else "step.close-link"
+        first = drawing.words(key, list=escape(", ".join(drawn)))
+        return drawing.words("list_mark").join((first, *self.tried_within(drawing)))
+
+    def tried_within(self, drawing: Drawing) -> Iterator[str]:
+        """How each group within it is closed."""
+        for one in self.group.nested[1:]:
+            match one.last:
+                case Driver() as driver:
+                    cut = angle_symbol(drawing.scene, driver)
+                case Tie(first=Pin(point=p), second=Pin(point=q)):
+                    cut = bar(p, q)
+                case Tie(first=Pin(point=p)):
+                    cut = symbol(p)
+            (tried,) = seen(drawing, [one.trial.link])
+            drawn = (link for each in one.chain for link in each.links)
+            listed = escape(", ".join(seen(drawing, drawn)))
+            yield drawing.words("step.close-within", k=escape(tried), list=listed, cut=cut)
 
     def links_drawn(self, drawing: Drawing) -> list[str]:
         """The links that give the locus: all but the one that a pin or guide is cut off."""

@@ -100,8 +100,7 @@ class Trying(Trial, frozen=True, dict=True):
         arrays = [np.atleast_1d(value) for value in known]
         size = max((len(array) for array in arrays), default=1)
         arrays = [np.broadcast_to(array, size) for array in arrays]
-        places = self.shares(arrays, size).shape[1]
-        chunk = max(1, MOST // (places * 2 ** len(self.signs)))
+        chunk = max(1, MOST // (self.places(arrays, size) * 2 ** len(self.signs)))
         parts = [
             self.closures([array[start : start + chunk] for array in arrays])
             for start in range(0, size, chunk)
@@ -113,9 +112,19 @@ class Trying(Trial, frozen=True, dict=True):
                     raise merging
                 raise ClosingError(parts[0].ways(), number)
             return self.polished(known, rows[0])
-        table = np.array(rows)
-        tried = np.exp(1j * table[:, 1]) if self.turns else table[:, 1]
-        return (tried, *table[:, 2:].T)
+        return self.parts(np.array(rows))
+
+    def places(self, known: Sequence[Any], size: int) -> int:
+        """At how many places each element is tried."""
+        return int(self.shares(known, size).shape[1])
+
+    def parts(self, table: Any) -> tuple[Any, ...]:
+        """Trial values, signs and sines of rows: element, trial values, signs, sine."""
+        import numpy as np
+
+        ends = enumerate(self.unknowns, 1)
+        tried = (np.exp(1j * table[:, k]) if one.turns else table[:, k] for k, one in ends)
+        return (*tried, *table[:, 1 + len(self.unknowns) :].T)
 
     def closures_of(self, known: Sequence[Any]) -> Closures:
         """Every closure on known scalars, in the order of their numbers."""
@@ -124,10 +133,25 @@ class Trying(Trial, frozen=True, dict=True):
         return self.closures([np.atleast_1d(value) for value in known])
 
     def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
-        """A closure in floats, with a last step along the secant."""
-        tried, signs, sine = float(row[1]), [float(sign) for sign in row[2:-1]], float(row[-1])
-        value: Any = complex(FLOAT.radians(tried)) if self.turns else tried
-        return (value, *signs, sine)
+        """A closure in floats: trial values, signs and the sine of crossing."""
+        tried, rest = row[1 : 1 + len(self.unknowns)], row[1 + len(self.unknowns) :]
+        values = (
+            complex(FLOAT.radians(float(each))) if one.turns else float(each)
+            for one, each in zip(self.unknowns, tried, strict=True)
+        )
+        return (*values, *map(float, rest))
+
+    def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
+        """Where the traced points go all round, with the signs of a closure: (N,) each."""
+        import numpy as np
+
+        arrays = [np.atleast_1d(each) for each in known]
+        tried = self.grid(arrays, 1)[0]
+        here = [np.broadcast_to(array, tried.shape) for array in arrays]
+        signs = np.asarray(value[1:-1], dtype=float)
+        rows = np.broadcast_to(signs, (tried.size, len(self.signs)))
+        found = self.found(here, tried, rows)
+        return [found[number] for number in self.traced]
 
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
@@ -205,9 +229,10 @@ class Trying(Trial, frozen=True, dict=True):
 
         here = [array[owner] for array in known]
         found = self.found(here, tried, signs)
-        good = np.isfinite(found[self.misfit])
-        if self.facing is not None:
-            good &= found[self.facing] > 0
+        good = np.ones(len(owner), dtype=bool)
+        for one in self.unknowns:
+            good &= np.isfinite(found[one.misfit])
+            good &= one.facing is None or found[one.facing] > 0
         angles = [np.mod(phase(found[n]) + SAME, 2 * np.pi) // (2 * SAME) for n in self.axes]
         sine = self.sines(here, tried, signs)
         order = np.lexsort((*angles[::-1], owner))
@@ -262,22 +287,12 @@ class ClosureSolver(Struct, frozen=True):
 
         return closed_in(self.trying, known, self.number, kind)
 
-    def loci(self, known: Sequence[Any], signs: Sequence[float]) -> list[Any]:
+    def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go while the link is tried, (N,) each; NaN where one breaks off.
 
-        None where no point shows the fit.
+        None where no point shows the fit. ``value`` is the closure beside which they are drawn.
         """
-        import numpy as np
-
-        trying = self.trying
-        if not trying.traced:
-            return []
-        arrays = [np.atleast_1d(value) for value in known]
-        tried = trying.grid(arrays, 1)[0]
-        here = [np.broadcast_to(array, tried.shape) for array in arrays]
-        rows = np.broadcast_to(np.asarray(signs, dtype=float), (tried.size, len(trying.signs)))
-        found = trying.found(here, tried, rows)
-        return [found[number] for number in trying.traced]
+        return self.trying.loci(known, value) if self.trying.traced else []
 
     def ways(self, known: Sequence[Any]) -> int:
         """In how many ways the group closes on known values."""

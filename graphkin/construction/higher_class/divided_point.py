@@ -112,6 +112,10 @@ class CrossedLine(Construction, frozen=True):
         if role == "line":
             canvas.chain()
 
+    def marks_aside(self, canvas: Canvas, role: str) -> None:
+        """The same in a trial plan."""
+        self.marks(canvas, role)
+
 
 class DividedPoint(Divided, frozen=True, kw_only=True):
     """The image of a ``point``: where its line is crossed, or divided as another one's is."""
@@ -159,9 +163,18 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The point, with the line of its trials where no other step draws it."""
+        self.draw_line(canvas)
+        canvas.image()
+
+    def marks_aside(self, canvas: Canvas, role: str) -> None:
+        """The same in a trial plan, whose points are smaller."""
+        self.draw_line(canvas)
+        canvas.image_aside()
+
+    def draw_line(self, canvas: Canvas) -> None:
+        """The line of its trials where no other step draws it."""
         if not self.is_crossed(canvas.drawing.trace.values):
             canvas.through(*map(canvas.value, (self.first, self.second, self.value)))
-        canvas.image()
 
     def ratio(self, drawing: Drawing, first: float, second: float) -> dict[str, str]:
         """How it divides the line of its trials, and beyond which of them, if not between.

@@ -5,7 +5,7 @@ Once the place of one link is known the others follow as dyads.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from msgspec import Struct
@@ -19,6 +19,7 @@ from graphkin.construction.guides.guide_actions import axis_with_guide, turned_b
 from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
+from graphkin.construction.higher_class.trial import Unknown
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -107,17 +108,31 @@ def reach(line: Line, *rest: Any) -> Real:
     return 1.01 * total
 
 
+@action("span")
+def span(*rest: Any) -> Real:
+    """How far bars and the places of known points reach together: as for reach, without a line."""
+    *values, count = rest
+    total: Real = 0.0
+    for length in values[:count]:
+        total = total + abs(length)
+    for place in values[count:]:
+        total = total + abs(place - values[count])
+    return total
+
+
 def position(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The mechanism to scale: the tried link where the locus says, then dyad by dyad."""
     trying, inputs = trial_of(pen, group, each)
     number, dyads = closure_of(pen.scene, group), choosing_dyads(group)
     counted, traced = counted_by(pen, group), tuple(traced_points(pen, group.last))
+    unknowns = len(group.nested)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         closing = pen.draw(trying.action(number), *inputs)
-        tried, *sides = (pen.draw(part, closing, extra=(k,)) for k in range(len(dyads) + 1))
+        values = [pen.draw(part, closing, extra=(k,)) for k in range(unknowns + len(dyads))]
+    tried, sides = tuple(values[:unknowns]), tuple(values[unknowns:])
     pen.chosen |= {dyad.links: side for dyad, side in zip(dyads, sides, strict=True)}
-    pen.make(ClosedGroup(group, number, counted, traced, closing, tried, tuple(sides)))
-    build(pen, shapes, group, each, tried)
+    pen.make(ClosedGroup(group, number, counted, traced, closing, tried, sides))
+    build(pen, shapes, group, each, iter(tried))
 
 
 def counted_by(pen: Pen, group: Higher) -> str:
@@ -137,15 +152,31 @@ def counted_by(pen: Pen, group: Higher) -> str:
 
 def choosing_dyads(group: Higher) -> list[Dyad]:
     """The dyads of the chain that can close in two ways."""
-    dyads = [each.dyad if isinstance(each, Stretched) else each for each in group.chain]
+    dyads = [each.dyad if isinstance(each, Stretched) else each for each in group.members]
     return [d for d in dyads if isinstance(d, Dyad) and (d.type == "RRR" or has_two_ways(d))]
 
 
-def build(pen: Pen, shapes: LinkShapes, group: Higher, each: Each, tried: int) -> None:
-    """The whole group in the plane, from the tried value."""
-    place_trial(pen, shapes, group, tried)
-    for member in (*group.chain, *ending(group)):
-        each(pen, shapes, member, bases(pen.scene, member))
+def build(
+    pen: Pen,
+    shapes: LinkShapes,
+    group: Higher,
+    each: Each,
+    tried: Iterator[int],
+    closed: Callable[[Higher], None] = lambda group: None,
+) -> None:
+    """The whole group in the plane, from the tried values of it and of those within it.
+
+    ``closed`` is called of each where its links stand, from the innermost outwards.
+    """
+    place_trial(pen, shapes, group, next(tried))
+    for member in group.chain:
+        if isinstance(member, Higher):
+            build(pen, shapes, member, each, tried, closed)
+        else:
+            each(pen, shapes, member, bases(pen.scene, member))
+    for last in ending(group):
+        each(pen, shapes, last, bases(pen.scene, last))
+    closed(group)
 
 
 def place_trial(pen: Pen, shapes: LinkShapes, group: Higher, tried: int) -> None:
@@ -165,37 +196,69 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     """The program of the trial, and the steps of what it takes as known."""
     fork = TrialPen(pen)
     shapes = LinkShapes(fork)
-    tried = fork.input_step()
+    tried = [fork.input_step() for _ in group.nested]
     dyads = choosing_dyads(group)
     signs = [fork.input_step() for _ in dyads]
     fork.chosen |= {dyad.links: sign for dyad, sign in zip(dyads, signs, strict=True)}
-    pair = group.trial.pair
-    turns = isinstance(pair, Pin)
-    build(fork, shapes, group, each, tried)
+    ends = dict[tuple[str, ...], tuple[Any, ...]]()
+
+    def closed(one: Higher) -> None:
+        with fork.on(Part.POSITION, Plane.NUMBERS):
+            ends[one.links] = fitting(fork, shapes, one, group)
+
+    build(fork, shapes, group, each, iter(tried), closed)
+    unknowns = [
+        Unknown(number, isinstance(one.trial.pair, Pin), *ends[one.links])
+        for one, number in zip(group.nested, tried, strict=True)
+    ]
     with fork.on(Part.POSITION, Plane.NUMBERS):
-        fit = misfit(fork, shapes, group)
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
-        reach = None if turns else reach_of(fork, shapes, group)
-        rim = None if isinstance(pair, Pin) else led_by(pair).rim(fork)
     traced = tuple(fork.the("position", point) for point in traced_points(pen, group.last))
-    fork.keep_inputs(fit.size, fit.locus, fit.facing, *axes, reach, rim, *traced)
-    trying = Trying(
+    kept = (end for one in unknowns for end in ends_of(one))
+    fork.keep_inputs(*kept, *axes, *traced)
+    first, *inner = unknowns
+    kind = Trying if not inner else several_trials()
+    trying = kind(
         fork.program(),
         pen.scene.values,
         tuple(fork.inputs),
-        tried,
-        turns,
+        first.tried,
+        first.turns,
         tuple(signs),
-        fit.size,
-        fit.locus,
-        fit.facing,
+        first.misfit,
+        first.locus,
+        first.facing,
         axes,
-        reach,
-        rim,
+        first.reach,
+        first.rim,
         traced,
+        tuple(inner),
     )
     return trying, list(fork.inputs.values())
+
+
+def several_trials() -> type[Trying]:
+    """The trial of several links at once, loaded where a group needs it."""
+    from graphkin.construction.higher_class.several_trials import SeveralTrials
+
+    return SeveralTrials
+
+
+def ends_of(one: Unknown) -> tuple[int | None, ...]:
+    """The steps at which an unknown is looked at."""
+    return one.misfit, one.locus, one.facing, one.reach, one.rim
+
+
+def fitting(
+    pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher
+) -> tuple[int, int, int | None, int | None, int | None]:
+    """What closes a group of a ``whole``: misfit, locus, what faces, and how far it is tried."""
+    fit, pair = misfit(pen, shapes, group), group.trial.pair
+    if isinstance(pair, Pin):
+        return fit.size, fit.locus, fit.facing, None, None
+    far = reach_of(pen, shapes, group) if group is whole else span_of(pen, shapes, whole)
+    return fit.size, fit.locus, fit.facing, far, led_by(pair).rim(pen)
 
 
 def traced_points(pen: Pen, last: Tie | Driver) -> list[str]:
@@ -286,15 +349,27 @@ def reach_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
     pair = group.trial.pair
     assert not isinstance(pair, Pin)
     line = led_by(pair).line(pen, shapes)
+    lengths = lengths_of(pen, shapes, group)
+    known = [pen.the("position", p) for p in known_points(pen, group)]
+    return pen.draw(reach, line, *lengths, *known, extra=(len(lengths),))
+
+
+def span_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
+    """How far along a guide that moves a link of a group may have to be looked for."""
+    lengths = lengths_of(pen, shapes, group)
+    known = [pen.the("position", p) for p in known_points(pen, group)]
+    return pen.draw(span, *lengths, *known, extra=(len(lengths),))
+
+
+def lengths_of(pen: Pen, shapes: LinkShapes, group: Higher) -> list[int]:
+    """The lengths of the bars of a group, and those that its drivers set."""
     lengths = [
         shapes.length(name, points[0], point)
         for name in group.links
         for points in (pen.scene.link(name).points,)
         for point in points[1:]
     ]
-    lengths += [pen.drive(d).position for d in slid_within(pen, group)]
-    known = [pen.the("position", p) for p in known_points(pen, group)]
-    return pen.draw(reach, line, *lengths, *known, extra=(len(lengths),))
+    return lengths + [pen.drive(d).position for d in slid_within(pen, group)]
 
 
 def slid_within(pen: Pen, group: Higher) -> list[Driver]:

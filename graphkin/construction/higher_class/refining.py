@@ -32,6 +32,12 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
     the group closes, and MergingError where it does not tell which closure has the number.
     """
     doubles = [in_doubles(value) for value in known]
+    if trying.inner:
+        from graphkin.construction.higher_class.refined_trials import refined as refined_together
+
+        single = not any(hasattr(value, "shape") for value in doubles)
+        closed = (trying.closed_again if single else trying.closed)(tuple(doubles), number)
+        return refined_together(trying, known, closed, kind)
     if kind.name == "ball":
         return closed_in_balls(trying, known, doubles, number, kind)
     found, *signs, sine = trying.closed(doubles, number)

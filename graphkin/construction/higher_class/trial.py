@@ -26,6 +26,22 @@ FAR = 1.565
 """Angle whose tangent is how far along a guide a link is tried, in parts of what bars reach."""
 
 
+class Unknown(Struct, frozen=True):
+    """What a trial tries: the step ``tried``, a unit vector (``turns``) or a coordinate (m), and
+    what closes it: the ``misfit``, the ``locus`` and what must be positive (``facing``).
+
+    ``reach`` and ``rim`` are those of a trial.
+    """
+
+    tried: int
+    turns: bool
+    misfit: int
+    locus: int
+    facing: int | None = None
+    reach: int | None = None
+    rim: int | None = None
+
+
 class Trial(Struct, frozen=True, dict=True):
     """The program of a trial: its inputs, the tried value, the signs of its dyads, the misfit.
 
@@ -51,21 +67,40 @@ class Trial(Struct, frozen=True, dict=True):
     """The step that holds the radius of a wheel that is tried along its track."""
     traced: tuple[int, ...] = ()
     """The steps that hold the points whose loci a hand draws."""
+    inner: tuple[Unknown, ...] = ()
+    """What is tried at once with it, for groups within the group; trial values are then rows."""
+
+    @cached_property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """All that is tried, from the outermost group inwards."""
+        first = Unknown(
+            self.tried, self.turns, self.misfit, self.locus, self.facing, self.reach, self.rim
+        )
+        return (first, *self.inner)
+
+    def columns(self, tried: Any) -> Any:
+        """The trial values of each unknown, of one or of many rows."""
+        return tried.T if self.inner else (tried,)
 
     # --- what is run ---------------------------------------------------------------------------
 
     @cached_property
     def results(self) -> tuple[int, ...]:
         """The steps whose values are looked at."""
-        facing = () if self.facing is None else (self.facing,)
-        return (self.misfit, self.locus, *facing, *self.traced, *self.axes)
+        each = [(one.misfit, one.locus, one.facing) for one in self.unknowns]
+        own = (number for some in each for number in some if number is not None)
+        return (*own, *self.traced, *self.axes)
+
+    @cached_property
+    def outside(self) -> frozenset[int]:
+        """The steps whose values come from outside."""
+        return frozenset((*self.inputs, *(one.tried for one in self.unknowns), *self.signs))
 
     @cached_property
     def ready(self) -> Ready:
         """The program made ready for arrays of trials."""
-        outside = frozenset((*self.inputs, self.tried, *self.signs))
         needed = self.program.behind(self.results)
-        return made_ready(self.program, needed, self.values, self.results, outside)
+        return made_ready(self.program, needed, self.values, self.results, self.outside)
 
     def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """The results for arrays of trial values and of signs, known values given per element."""
@@ -79,7 +114,6 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def choices(self) -> tuple[tuple[Ready, Any, tuple[int, ...]] | None, ...]:
         """For each sign: what its dyad is drawn of, made ready, and how far that reaches."""
-        outside = frozenset((*self.inputs, self.tried, *self.signs))
         found: list[tuple[Ready, Any, tuple[int, ...]] | None] = []
         for sign in self.signs:
             drawn = [(e.action.value, e.args) for e in self.program.steps if e.action is not None]
@@ -91,7 +125,7 @@ class Trial(Struct, frozen=True, dict=True):
                 continue
             args = tuple(arg for arg in args if arg != sign)
             needed = self.program.behind(args)
-            ready = made_ready(self.program, needed, self.values, args, outside)
+            ready = made_ready(self.program, needed, self.values, args, self.outside)
             found.append((ready, REACHES[value], args))
         return tuple(found)
 
@@ -112,13 +146,12 @@ class Trial(Struct, frozen=True, dict=True):
     @cached_property
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
         """The lines that cross in a point of the trial, made ready: parallel ones are its poles."""
-        outside = frozenset((*self.inputs, self.tried, *self.signs))
         found: list[tuple[Ready, tuple[int, ...]]] = []
         for number in self.program.behind((self.misfit,)):
             step = self.program.steps[number]
             if step.action is not None and step.action.value is meet.value:
                 needed = self.program.behind(step.args)
-                ready = made_ready(self.program, needed, self.values, step.args, outside)
+                ready = made_ready(self.program, needed, self.values, step.args, self.outside)
                 found.append((ready, step.args))
         return tuple(found)
 
@@ -139,7 +172,8 @@ class Trial(Struct, frozen=True, dict=True):
         import numpy as np
 
         found = dict(zip(self.inputs, known, strict=True))
-        found[self.tried] = np.exp(1j * tried) if self.turns else tried
+        for one, each in zip(self.unknowns, self.columns(tried), strict=True):
+            found[one.tried] = np.exp(1j * each) if one.turns else each
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
 
     def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:

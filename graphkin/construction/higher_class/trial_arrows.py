@@ -7,7 +7,7 @@ from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
-from graphkin.construction.core.program import Part, Plane, Target
+from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.coriolis import slid
 from graphkin.numbers.arithmetic import Point
@@ -66,16 +66,19 @@ def relative_arrows(pen: Pen, name: str) -> None:
         arrow_between(pen, pen.the("velocity", start), here, name, about_which)
 
 
-def components(
-    pen: Pen, group: CoupledTrain | Higher, second: dict[Target, int], tried: range
-) -> None:
+def components(pen: Pen, group: CoupledTrain | Higher, tried: range) -> None:
     """The arrows of the components in the right plan, and of the velocities that they start from.
 
-    What is laid off there is what the second trial has laid off, for it does not hang on what is
+    What is laid off there is what the second trial, at the steps ``tried``, has laid off, for it does not hang on what is
     tried: components that follow from velocities. What closes the way to a point is its tangential
     component, or the acceleration along a guide.
     """
-    right = {number: pen.targets[t] for t, number in second.items() if t in pen.targets}
+    right = {
+        number: pen.targets[target]
+        for layer in pen.tried
+        for target, number in layer.items()
+        if target in pen.targets
+    }
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         for number in tried:
             carried_legs(pen, right, number)

@@ -62,7 +62,9 @@ class TrialChain:
         """The values of some steps at a trial value; ValueError where they cannot be drawn."""
         trying = self.trying
         overrides = dict(self.known if known is None else known)
-        overrides[trying.tried] = turn_by(tried) if trying.turns else tried
+        every = tried if trying.inner else (tried,)
+        for one, each in zip(trying.unknowns, every, strict=True):
+            overrides[one.tried] = turn_by(each) if one.turns else each
         overrides |= dict(zip(trying.signs, self.signs, strict=True))
         if wanted not in self.needed:
             self.needed[wanted] = trying.program.behind(wanted)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.amounts import in_mm
@@ -22,33 +22,52 @@ from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.higher_class.divided_point import CrossedLine, DividedPoint
 from graphkin.construction.step_sentences import point_parts, point_sentence
 from graphkin.construction.velocity.crossed_image import CrossedImage
 from graphkin.construction.velocity.image_of_link import ImageOfLink
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffAboutPivot, LaidOffByRate
 from graphkin.construction.velocity.translated_image import TranslatedImage
 from graphkin.drawing.style import OWN_LINES
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import TAGS, bar, symbol, tag_words
 from graphkin.numbers.plane import Line as Carrier
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
 
 
-class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
-    """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
+SECOND = tuple(TAGS)[1]
+"""The tag of the second of two trial plans."""
 
-    reason: ClassVar[str] = "why.trial"
+
+class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
+    """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it.
+
+    One for a group within a group belongs to a trial plan of that, its ``whole``; ``within`` has
+    the first of those that belong to it, by the links of their groups.
+    """
 
     tag: str
     link: str
     rate: int
     first: TrialPlan | None = None
+    whole: TrialPlan | None = None
+    within: dict[tuple[str, ...], TrialPlan] = field(default_factory=dict)
 
     @property
     def repeats(self) -> bool:
         """The second plan repeats the lines of the first."""
         return self.first is not None
+
+    @property
+    def is_second(self) -> bool:
+        """Whether it is the second of its two."""
+        return self.tag.endswith(SECOND)
+
+    def reason(self, name: str) -> str:
+        """Why one tries, or does so again."""
+        again = "why.trial_again" if self.is_second else "why.trial"
+        return again if name == f"trial{self.tag}" else ""
 
     def turned_by(self, rate: int) -> str:
         """The tried link."""
@@ -74,7 +93,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         apart = (drawn_between(drawing, other, number, step.plane) for other in before)
         if not before or any(size >= NAUGHT for size in apart):
             return ""
-        known = [other for other in before if other not in drawing.auxiliary]
+        known = [other for other in before if drawing.auxiliary.get(other) is not self]
         if known:
             return steps[known[0]].name
         return self.falls_on(drawing, before[0]) or steps[before[0]].name
@@ -90,6 +109,9 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         """A line as far as it is needed, or a leg and the point at its end."""
         drawing = canvas.drawing
         step = drawing.trace.program.steps[number]
+        if isinstance(step.of, CrossedLine | DividedPoint):
+            step.of.marks_aside(canvas, step.role)
+            return
         if isinstance(drawing.trace.values[number], Carrier):
             if not self.is_idle(drawing, number):
                 canvas.line_aside()
@@ -102,17 +124,35 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     # --- in words --------------------------------------------------------------------------------
 
     def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:
-        """One sentence for the whole plan, with its last point."""
-        named = self.points(drawing)
-        if number != named[-1]:
+        """One sentence for the points of the plan, with the last; those that trials within it lead
+        to are told for themselves, and what follows from them in one more."""
+        step = drawing.trace.program.steps[number]
+        if isinstance(step.of, DividedPoint):
+            yield Sentence(number, step.name, point_told(drawing, number))
             return
-        told = self.told_in_full(drawing, named) if self.first is None else self.told_again(drawing)
-        markup = self.introduced(drawing, "; ".join(told), first=True)
-        yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
+        for named in self.runs(drawing):
+            if number == named[-1]:
+                full = self.first is None
+                told = (self.told_in_full if full else self.told_again)(drawing, named)
+                markup = self.introduced(
+                    drawing, "; ".join(told), first=self.begins(drawing, named)
+                )
+                yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, int, str]]:
-        """Its points line by line: the step of the point, that which ends a part, and its words."""
-        named = self.points(drawing)
+    def runs(self, drawing: Drawing) -> list[list[int]]:
+        """Its points in runs: those before trials within it, and those that follow from these."""
+        steps = drawing.trace.program.steps
+        parts = groupby(self.points(drawing), lambda n: isinstance(steps[n].of, DividedPoint))
+        return [[*run] for is_divided, run in parts if not is_divided]
+
+    def begins(self, drawing: Drawing, named: Sequence[int]) -> bool:
+        """Whether some points are those with which it begins."""
+        return self.points(drawing)[0] in named
+
+    def told_in_parts(
+        self, drawing: Drawing, named: Sequence[int]
+    ) -> Iterator[tuple[int, int, str]]:
+        """Points of it line by line: the step of the point, that which ends a part, its words."""
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:
                 fallen = list(run)
@@ -126,11 +166,14 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
         """A part of it after what it is; in the ``first`` one, after what it assumes too."""
+        which = "2" if self.is_second else "1"
+        within = "" if self.whole is None else "-in"
+        fields = {"plan": symbol(tag_words(self.whole.tag))} if self.whole is not None else {}
         if not first:
-            return drawing.words("step.trial-2-on" if self.repeats else "step.trial-1-on", how=how)
+            return drawing.words(f"step.trial{within}-{which}-on", how=how, **fields)
         what, size = self.assumed(drawing, self.points(drawing))
-        key = "step.trial-2" if self.repeats else "step.trial-1"
-        return drawing.words(key, what=what, amount=size, how=how)
+        key = f"step.trial{within}-{which}"
+        return drawing.words(key, what=what, amount=size, how=how, **fields)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
         """Its points one by one; those that fall on what they are drawn from in one."""
@@ -142,8 +185,8 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             else:
                 yield from (point_told(drawing, number) for number in run)
 
-    def told_again(self, drawing: Drawing) -> Iterator[str]:
-        """Its points: in full where other lengths or more lines than in the first are drawn."""
+    def told_again(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
+        """Points of it: in full where other lengths or more lines than in the first are drawn."""
         assert self.first is not None
         steps = drawing.trace.program.steps
         first = {steps[n].letter: n for n in self.first.points(drawing)}
@@ -153,7 +196,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             begins = begun_by(steps[number]) is not None
             return begins or before is None or bool(self.falls_on(drawing, before))
 
-        for new, run in groupby(self.points(drawing), is_new):
+        for new, run in groupby(named, is_new):
             if new:
                 for number in run:
                     yield turned_again(drawing, number) or point_told(drawing, number)

@@ -63,8 +63,6 @@ from graphkin.structure.pairs import Pin, Sliding
 
 TAGS = tuple(MARKED)
 """What the points of the two plans bear behind their names."""
-GAPS = tuple(symbol(f"m{tag}") for tag in TAGS)
-"""What two trial plans miss."""
 
 
 @action("far")
@@ -113,6 +111,12 @@ class TwoTrials(Construction, frozen=True):
     def rates(self) -> tuple[int, int]:
         """The steps of the rates that are tried."""
         return self.plans[0].rate, self.plans[1].rate
+
+    @property
+    def symbol(self) -> str:
+        """Markup of the share, with the tag of the plan to which its trials lead, if of a trial."""
+        whole = self.plans[0].whole
+        return "*λ*" if whole is None else symbol(f"λ{whole.tag}")
 
     def divided(self, program: Program) -> Iterator[DividedPoint]:
         """The points of the right plan that it divides."""
@@ -174,15 +178,16 @@ class TwoTrials(Construction, frozen=True):
             part = OnPaper(float(values[self.share]) * whole)
             figures = f"{drawn_length(drawing, part)}/{drawn_length(drawing, whole)}"
             remark = drawing.words("calculation.divided-alike", **fields) if others else ""
-            yield Relation("*λ*", ratio, figures, result, "", remark)
+            yield Relation(self.symbol, ratio, figures, result, "", remark)
             return
-        for name, gap in zip(GAPS, self.gaps, strict=True):
+        names = [symbol(f"m{plan.tag}") for plan in self.plans]
+        for name, gap in zip(names, self.gaps, strict=True):
             yield gap.relation(drawing, name)
         first = figure(drawing, self.gaps[0].amount(drawing))
         second = within(drawing, self.gaps[1].amount(drawing))
         yield Relation(
-            "*λ*",
-            "{0}/({0} − {1})".format(*GAPS),
+            self.symbol,
+            "{0}/({0} − {1})".format(*names),
             f"{first}/({first} − {second})",
             result,
             "",
@@ -214,17 +219,26 @@ def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMiscl
 
 
 def with_trials_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
-    """The points that divide the lines of two trials said in one sentence."""
+    """The points that divide the lines of two trials said in one sentence, of each two trials."""
+    steps = drawing.trace.program.steps
+    divided: dict[int, dict[Sentence, DividedPoint]] = {}
+    for said in found:
+        if said.step >= 0 and isinstance(kind := construction(steps[said.step]), DividedPoint):
+            divided.setdefault(kind.share, {})[said] = kind
+    for share, points in divided.items():
+        found = divided_together(drawing, found, share, points)
+    return found
+
+
+def divided_together(
+    drawing: Drawing, found: list[Sentence], share: int, points: dict[Sentence, DividedPoint]
+) -> list[Sentence]:
+    """The points of one ``share`` said in one sentence."""
     steps, values = drawing.trace.program.steps, drawing.trace.values
-    points = {
-        said: kind
-        for said in found
-        if said.step >= 0 and isinstance(kind := construction(steps[said.step]), DividedPoint)
-    }
     crossed = [said for said, point in points.items() if point.is_crossed(values)]
     divided = [said for said in points if said not in crossed]
     if crossed:
-        found = [said for said in found if said.name != "share"]
+        found = [said for said in found if said.step != share]
     if not divided:
         return found
     listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
@@ -328,11 +342,8 @@ def two_trials(
     pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each, kind: TrialQuantity
 ) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
-    layers, gaps, begun = [], [], []
-    with pen.on(Part.SHAPE, Plane.NUMBERS):
-        at_rest = pen.given("nought", name=f"{kind.rate} tried of {group.trial.link}")
-        first = TrialPlan(TAGS[0], group.trial.link, at_rest)
-        second = TrialPlan(TAGS[1], group.trial.link, trial_value(pen, group, kind), first)
+    layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
+    first, second = plans_of(pen, group, kind)
     rims = known_rims(pen, group, kind)
     for plan in (first, second):
         begun.append(len(pen.steps))
@@ -342,6 +353,7 @@ def two_trials(
                 each(pen, shapes, member, bases(pen.scene, member))
             gaps.append(missed(pen, shapes, group, kind))
         layers.append(layer)
+        pen.tried.append(layer)
     tried = range(begun[1], len(pen.steps))
     crossed = crossings(pen, shapes, group, kind, layers)
     with pen.on(kind.part, Plane.NUMBERS):
@@ -353,12 +365,32 @@ def two_trials(
     one, two = (pen.make(replace(gap, settled=by_hand)) for gap in gaps)
     pen.make(TwoTrials(group, (first, second), (one, two), divided, by_hand))
     settle(pen, group, kind, layers, divided, crossed, rims)
-    if kind is ACCELERATION:
-        components(pen, group, layers[1], tried)
+    if kind is ACCELERATION and not pen.layers:
+        components(pen, group, tried)
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
-    for link in group.links:
-        omega_of(pen, link, kind.rate)
+    if not pen.layers:
+        pen.tried.clear()
+        for link in group.links:
+            omega_of(pen, link, kind.rate)
+
+
+def plans_of(
+    pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity
+) -> tuple[TrialPlan, TrialPlan]:
+    """The two trial plans of a group; those of one within a group lie within its trial plans."""
+    whole, link = pen.auxiliary, group.trial.link
+    assert whole is None or isinstance(whole, TrialPlan)
+    tag = whole.tag if whole is not None else ""
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        at_rest = pen.given("nought", name=f"{kind.rate} tried of {link}{tag}")
+        value = trial_value(pen, group, kind)
+    alike = whole.first.within[group.links] if whole is not None and whole.first else None
+    first = TrialPlan(tag + TAGS[0], link, at_rest, alike, whole)
+    second = TrialPlan(tag + TAGS[1], link, value, alike or first, whole)
+    if whole is not None:
+        whole.within[group.links] = first
+    return first, second
 
 
 def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> dict[str, int]:
@@ -441,7 +473,7 @@ def missed(
     last = group.last
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
-            p, q = in_order((p, q), [of for what, of in pen.layer or {} if what == kind.quantity])
+            p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
             wanted = pen.given("origin")
             if kind is ACCELERATION:

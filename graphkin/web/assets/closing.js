@@ -36,7 +36,7 @@ const count = () => {
 
 // Groups of class III: near a state that the way through the range gives, the secant closes them.
 const TRIES = 24, TRIAL = 1e-6, CLOSED = 1e-9;
-const trial = [0, 0];
+const trial = [];
 const secant = (miss, start, step) => {
   let old = start + step, now = start, before = miss(old), after = miss(now);
   for (let k = 0; k < TRIES && after !== 0 && after !== before; k++) {
@@ -46,10 +46,37 @@ const secant = (miss, start, step) => {
   }
   return Math.abs(after) < CLOSED * data.reach && trial[1] > 0;
 };
+// Where several links are tried at once: Newton's method, by elimination in the rows of the slopes.
+const newton = (miss, place, sizes) => {
+  const n = sizes.length, missed = () => { miss(x, trial); return trial.slice(0, n); };
+  for (let k = 0; k < TRIES; k++) {
+    const here = missed(), rows = here.map((value) => [-value]);
+    sizes.forEach((size, j) => {
+      const step = TRIAL * size, own = x[place + j];
+      x[place + j] = own + step;
+      missed().forEach((value, i) => { rows[i].splice(j, 0, (value - here[i]) / step); });
+      x[place + j] = own;
+    });
+    for (let j = 0; j < n; j++) {
+      const best = rows.slice(j).reduce((b, row, i) => Math.abs(row[j]) > Math.abs(rows[b][j]) ? i + j : b, j);
+      [rows[j], rows[best]] = [rows[best], rows[j]];
+      rows.forEach((row, i) => {
+        const share = row[j] / rows[j][j];
+        if (i !== j) rows[i] = row.map((value, m) => value - share * rows[j][m]);
+      });
+    }
+    const way = rows.map((row, j) => row[n] / row[j]);
+    way.forEach((step, j) => { x[place + j] += step; });
+    if (way.every((step, j) => Math.abs(step) < 1e-14 * Math.max(1, Math.abs(x[place + j])))) break;
+  }
+  return missed().every((value) => Math.abs(value) < CLOSED * data.reach) && trial[n] > 0;
+};
 const closedNear = (state) => {
   state.forEach((number, i) => { x[i + 1] = number; });
   return closings.every((miss, i) => {
-    const place = data.course.places[i], start = x[place], step = TRIAL * data.course.sizes[i];
+    const place = data.course.places[i], size = data.course.sizes[i];
+    if (size.length) return newton(miss, place, size);
+    const start = x[place], step = TRIAL * size;
     const missed = (tried) => { x[place] = tried; miss(x, trial); return trial[0]; };
     return secant(missed, start, step) || secant(missed, start, -step);
   });
