@@ -89,7 +89,7 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
     elif plan and plan.reason and sentence.name:
-        yield words(f"{plan.reason}_again" if plan.repeats else plan.reason), NO_STEP
+        yield words(plan.reason), NO_STEP
 
 
 def is_nothing(drawing: Drawing, number: int) -> bool:

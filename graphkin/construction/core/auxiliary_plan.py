@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from graphkin.construction.core.program import PlanAside
 
@@ -16,8 +16,10 @@ if TYPE_CHECKING:
 class AuxiliaryPlan(PlanAside):
     """A plan that is drawn only to find the right one."""
 
-    reason: ClassVar[str] = ""
-    """The key of why it is drawn; of one that repeats another, with ``_again``."""
+    @property
+    def reason(self) -> str:
+        """The key of why it is drawn; nothing where it needs none."""
+        return ""
 
     @property
     def repeats(self) -> bool:

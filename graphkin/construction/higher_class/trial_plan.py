@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
@@ -38,8 +38,6 @@ if TYPE_CHECKING:
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it."""
 
-    reason: ClassVar[str] = "why.trial"
-
     tag: str
     link: str
     rate: int
@@ -49,6 +47,11 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     def repeats(self) -> bool:
         """The second plan repeats the lines of the first."""
         return self.first is not None
+
+    @property
+    def reason(self) -> str:
+        """That a rate is assumed, or assumed once more."""
+        return "why.trial_again" if self.repeats else "why.trial"
 
     def turned_by(self, rate: int) -> str:
         """The tried link."""
