@@ -40,6 +40,13 @@ from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, LinkShapes, Any], None]
 """What draws a group in one of the drawings."""
+MOVED, ACCELERATED = 1, 2
+"""Which of a group's works draws it in either plan."""
+PLANS = {
+    MOVED: (velocity, velocity.sliding, asked.VELOCITY),
+    ACCELERATED: (acceleration, sliding.sliding, asked.ACCELERATION),
+}
+"""What draws the rest of a link in each plan, how a block slides, and what of it is asked."""
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
 
@@ -59,12 +66,12 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
 
         rolling.refuse_idle_turns(pen)
     write_turning(pen, shapes)
-    write_velocities(pen, shapes, standing)
+    write_plan(pen, shapes, standing, MOVED)
     if scene.sheet.plan == "kutzbach":
         from graphkin.construction.rolling.kutzbach import draw_ladder
 
         draw_ladder(pen)
-    write_accelerations(pen, shapes, standing)
+    write_plan(pen, shapes, standing, ACCELERATED)
     if scene.sheet.method == KLEIN:
         from graphkin.construction.normal_component.klein import refuse_unused
 
@@ -144,9 +151,8 @@ def by_trials() -> tuple[Work, Work]:
     """What a group draws in both plans that has a link tried."""
     from graphkin.construction.higher_class import two_trials
 
-    return partial(two_trials.velocity, each=move), partial(
-        two_trials.acceleration, each=accelerate
-    )
+    first, second = (partial(in_plan, which=which) for which in PLANS)
+    return partial(two_trials.velocity, each=first), partial(two_trials.acceleration, each=second)
 
 
 def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
@@ -175,42 +181,27 @@ def write_turning(pen: Pen, shapes: LinkShapes) -> None:
             pen.want("slide", link.name, found)
 
 
-def write_velocities(pen: Pen, shapes: LinkShapes, standing: Standing) -> None:
-    """The velocity plan, the angular velocities, and what is asked set on the mechanism."""
-    velocity.frame(pen)
+def write_plan(pen: Pen, shapes: LinkShapes, standing: Standing, which: int) -> None:
+    """A plan, the rates of links, how blocks slide, and what is asked set on the mechanism."""
+    plan, slides, quantity = PLANS[which]
+    plan.frame(pen)
     for group, found in standing:
-        move(pen, shapes, group, found)
+        in_plan(pen, shapes, group, found, which=which)
     for link in pen.scene.links.values():
         if link.slides:
-            velocity.sliding(pen, shapes, link.name)
-    asked.show(pen, asked.VELOCITY, tips(pen, standing))
+            slides(pen, shapes, link.name)
+    asked.show(pen, quantity, tips(pen, standing))
 
 
-def move(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
-    """The velocity plan: one group."""
-    work_of(group)[1](pen, shapes, group)
+def in_plan(
+    pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...], *, which: int
+) -> None:
+    """One group in a plan."""
+    work_of(group)[which](pen, shapes, group)
+    plan = PLANS[which][0]
     for base in own_bases(group, found):
-        velocity.plate_points(pen, shapes, base)
-        velocity.turning(pen, base)
-
-
-def write_accelerations(pen: Pen, shapes: LinkShapes, standing: Standing) -> None:
-    """The acceleration plan, the angular accelerations, and what is asked set on the mechanism."""
-    acceleration.frame(pen)
-    for group, found in standing:
-        accelerate(pen, shapes, group, found)
-    for link in pen.scene.links.values():
-        if link.slides:
-            sliding.sliding(pen, shapes, link.name)
-    asked.show(pen, asked.ACCELERATION, tips(pen, standing))
-
-
-def accelerate(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
-    """The acceleration plan: one group."""
-    work_of(group)[2](pen, shapes, group)
-    for base in own_bases(group, found):
-        acceleration.plate_points(pen, shapes, base)
-        acceleration.turning(pen, base)
+        plan.plate_points(pen, shapes, base)
+        plan.turning(pen, base)
 
 
 def tips(pen: Pen, standing: Standing) -> list[str]:

@@ -20,7 +20,6 @@ from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
 
 TIPS = ("roller", "knife", "flat")
-DWELL = "dwell"
 MOST_PIECES = 24
 CAM = "the link of the cam"
 OTHER_CAMS = (

@@ -30,8 +30,6 @@ from graphkin.scene.parameters import set_values
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Group, Tie
 
-CRANK = 1e-9
-"""Part by which seconds may differ from those of the crank and still be them."""
 DRAWINGS = 8_192
 """Drawings made at once, of all variants together."""
 Settings = Mapping[str, str]
