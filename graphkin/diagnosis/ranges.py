@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from graphkin.motion.sweep import Sweep
 
 WORK = 60_000_000
-"""Steps that close groups, within which positions are searched: about a second."""
+"""Steps of trials within which positions are searched: about a second."""
 FEWEST = 180
 """Positions that are searched whatever they cost."""
 NARROWINGS = 5
@@ -116,7 +116,7 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
 
     The closures are those that the scene picks, the other drivers stand. One turn is looked at, or
     as far as all lengths together reach; [(0, 360)] is a whole turn. Where groups are closed by
-    trying so many positions are searched as the work allows, which the result says.
+    trial so many positions are searched as the work allows, which the result says.
     """
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
@@ -125,9 +125,9 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
 
     course = Course(swept(scene, number), scene.branches)
     try:
-        if course.sweep.whole and wheels(course) and not course.closing_work:
+        if course.sweep.whole and wheels(course) and not course.trials:
             return ClosingRanges(ranges_followed(course))
-        count = min(GRID, max(FEWEST, WORK // max(course.closing_work, 1)))
+        count = min(GRID, max(FEWEST, WORK // max(course.trials, 1)))
         found = ranges_of(course, count)
     except GraphkinError:
         return ClosingRanges([])

@@ -13,13 +13,13 @@ NAME = re.compile(
 )
 FOURTH = "⁗"
 TAGS = {"¹": "I", "²": "II"}
-"""The tags of two auxiliary plans as they are written: below, so that none reads as a power."""
+"""The tags of two trial plans as they are written: below, so that none reads as a power."""
 
 
 @lru_cache(maxsize=1024)
 def symbol(name: str) -> str:
     """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
-    numeral of its plan; nothing where there is no name."""
+    numeral of its trial; nothing where there is no name."""
     found = NAME.match(name)
     if not name or name.isdigit():
         return name

@@ -125,8 +125,8 @@ class Course(Struct, frozen=True, dict=True):
         return {link: float(np.degrees(row[0])) for link, row in found.items()}
 
     @cached_property
-    def closing_work(self) -> int:
-        """How many steps closing groups costs at one position of the driver; 0 without any."""
+    def trials(self) -> int:
+        """How many steps of trials one position of the driver costs; 0 without such groups."""
         work = 0
         values = self.values(np.array([self.sweep.start]))
         for n in self.early:

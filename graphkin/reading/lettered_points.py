@@ -108,7 +108,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     @cached_property
     def corners(self) -> tuple[int, ...]:
         """The steps of the corners of the plan that bear no letter of their own: ends of components
-        from which lines are drawn, and the points of auxiliary plans.
+        from which lines are drawn, and the points of trial plans.
         """
         steps, values = self.exact.program.steps, self.exact.trace.values
         lettered = set(self.points)

@@ -166,7 +166,7 @@ class PointReader(PointSearch):
             untried = any(steps[n].aside is not None for n in self.unread & behind)
             near = abs(best.place - own.middle) <= BESIDE
             met = best.count >= MEET and near and not self.bad
-            vague = (own.radius > VAGUE and not met) or untried  # by an auxiliary plan nobody saw
+            vague = (own.radius > VAGUE and not met) or untried  # by a trial plan nobody saw
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = away > SURE or best.count < 2 or best.cover < WHOLE or fresh or doubtful
             ask = ask or vague or odd

@@ -67,21 +67,21 @@ class LabReport(Struct, frozen=True):
     closest: str = ""
 
 
-def lab_report(outcome: LabTrial, words: Words) -> LabReport:
-    """What is shown of a lab that was tried, in the language of the page."""
-    count, near = len(outcome.many), outcome.neighbours
+def lab_report(trial: LabTrial, words: Words) -> LabReport:
+    """What is shown of a trial, in the language of the page."""
+    count, near = len(trial.many), trial.neighbours
     shares = [] if near is None else [[percent(share) for share in row] for row in near.exact]
-    names = [each.student.id for each in outcome.compared]
+    names = [each.student.id for each in trial.compared]
     closest = ""
     if near is not None:
         own, other = near.closest()
         gaps = {"own": names[own], "other": names[other], "share": str(shares[own][other])}
         closest = words("studio.closest", **gaps)
-    rows = [student_row(i, each, shares, names, words) for i, each in enumerate(outcome.compared)]
-    tables = "".join(trial_tables(outcome, words))
-    limit = outcome.lab.fair.apart
+    rows = [student_row(i, each, shares, names, words) for i, each in enumerate(trial.compared)]
+    tables = "".join(trial_tables(trial, words))
+    limit = trial.lab.fair.apart
     apart = percent(APART if limit is None else limit)
-    return LabReport(count - outcome.unfair, count, tables, rows, shares, apart, closest)
+    return LabReport(count - trial.unfair, count, tables, rows, shares, apart, closest)
 
 
 def percent(share: float) -> int:
@@ -118,20 +118,20 @@ def fault_words(fault: Fault, words: Words, where: Callable[[str], str] = str) -
     return f"{what}: {value}{unit} {side} {bound}{unit}"
 
 
-def trial_tables(outcome: LabTrial, words: Words) -> Iterator[str]:
-    """The tables of a lab that was tried: what is unfair, the spread, the scales."""
+def trial_tables(trial: LabTrial, words: Words) -> Iterator[str]:
+    """The tables of a trial: what is unfair, how far variants spread, at which scales."""
     head = tuple(map(words, ("studio.limit_broken", "studio.times", "studio.whose")))
-    yield table(words("studio.unfair"), head, list(unfair_rows(outcome, words)))
+    yield table(words("studio.unfair"), head, list(unfair_rows(trial, words)))
     head = tuple(map(words, ("studio.on_sheets", "studio.least", "studio.half", "studio.most")))
-    yield table(words("studio.spread"), head, list(spread_rows(outcome, words)))
+    yield table(words("studio.spread"), head, list(spread_rows(trial, words)))
     head = (words("studio.scale"), "*m*", "*m′*", words("studio.times"))
-    yield table(words("studio.scales"), head, list(scale_rows(outcome)))
+    yield table(words("studio.scales"), head, list(scale_rows(trial)))
 
 
-def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
+def unfair_rows(trial: LabTrial, words: Words) -> Iterator[Row]:
     """Each limit that is broken somewhere: the worst, how often, by whom."""
     found: dict[tuple[str, str], list[tuple[str, Fault]]] = {}
-    for name, faults in outcome.faults():
+    for name, faults in trial.faults():
         for fault in faults:
             where = "" if fault.limit == "apart" else fault.where
             found.setdefault((fault.limit, where), []).append((name, fault))
@@ -141,9 +141,9 @@ def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
         yield Row((fault_words(worst, words, symbol), str(len(names)), some(names)))
 
 
-def spread_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
+def spread_rows(trial: LabTrial, words: Words) -> Iterator[Row]:
     """The least, the middle and the most of what makes sheets hard, or alike."""
-    fairness, near = outcome.fairness, outcome.neighbours
+    fairness, near = trial.fairness, trial.neighbours
     drawn = fairness.closes & fairness.fits
     spread = [
         ("studio.flattest", "°", fairness.flattest[drawn]),
@@ -161,9 +161,9 @@ def spread_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
             yield Row((words(key), *(f"{words.fixed(each, 1)}{unit}" for each in found[::2])))
 
 
-def scale_rows(outcome: LabTrial) -> Iterator[Row]:
+def scale_rows(trial: LabTrial) -> Iterator[Row]:
     """The scales of the sheets, and how many students have which, the most first."""
-    fairness = outcome.fairness
+    fairness = trial.fairness
     drawn = (fairness.closes & fairness.fits).nonzero()[0]
     columns = (fairness.kL, fairness.larger, fairness.larger_still)
     found = Counter(tuple(float(column[i]) for column in columns) for i in drawn)

@@ -11,12 +11,13 @@ from itertools import groupby
 
 from msgspec import Struct
 
-from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.divided_point import DividedPoint
+from graphkin.construction.higher_class.trial_plan import TrialPlan
 from graphkin.construction.higher_class.two_trials import divided_alone
 from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.step_sentences import point_parts
@@ -51,7 +52,7 @@ class PartedSentence(Struct, frozen=True):
 
     said: Sentence
     parts: tuple[SentencePart, ...]
-    plan: AuxiliaryPlan | None = None
+    plan: TrialPlan | None = None
 
     def sentences(self, drawing: Drawing, strokes: Sequence[int]) -> Iterator[tuple[Sentence, int]]:
         """The sentences of the page, each with the number of its parts, which draw so many
@@ -93,7 +94,7 @@ def parted_sentence(drawing: Drawing, said: Sentence) -> PartedSentence:
     if said.name == TURNING:
         return PartedSentence(said, tuple(readings(drawing)) or (one,))
     plan = auxiliary_plan(drawing, said.step)
-    if plan is not None:
+    if isinstance(plan, TrialPlan):
         told = plan.told_in_parts(drawing)
         parts = tuple(SentencePart(s, p, text, said.name) for p, s, text in told)
         return PartedSentence(said, parts, plan)

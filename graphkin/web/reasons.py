@@ -11,6 +11,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.trial_plan import TrialPlan
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
 from graphkin.documents.flattest import OWN
@@ -88,14 +89,14 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
         yield words("why.idle"), NO_STEP
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
-    elif plan and plan.reason and sentence.name:
-        yield words(plan.reason), NO_STEP
+    elif isinstance(plan, TrialPlan) and sentence.name:
+        yield words("why.trial_again" if plan.repeats else "why.trial"), NO_STEP
 
 
 def is_nothing(drawing: Drawing, number: int) -> bool:
     """Whether a point of such a plan falls on what it is drawn from, or a line finds only such."""
     plan, step = auxiliary_plan(drawing, number), drawing.trace.program.steps[number]
-    if plan is None:
+    if not isinstance(plan, TrialPlan):
         return False
     if isinstance(drawing.trace.values[number], Line):
         return plan.is_idle(drawing, number)

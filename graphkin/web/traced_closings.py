@@ -22,7 +22,7 @@ from graphkin.numbers.arithmetic import phase
 TRIES = 24
 """Steps along the secant, at most."""
 STEP = 1e-6
-"""How far off the second value lies, in radians or parts of the tried length."""
+"""How far off the second trial lies, in radians or parts of the tried length."""
 CLOSED = 1e-9
 """Parts of the mechanism by which a closed group may miss."""
 State = tuple[float, ...]
@@ -61,7 +61,7 @@ def drawn_state(closer: Any, drawn: Sequence[Any]) -> State:
 
 
 def tried(names: Sequence[str], graph: Graph, closer: Any) -> tuple[Any, ...]:
-    """The value of such a step for traced numbers: what is tried, the signs, no sine yet."""
+    """The value of such a step for a traced trial: what it tries, the signs, no sine yet."""
     first, *signs = (TracedNumber(graph, graph.input(name)) for name in names)
     return (traced_kind().radians(first) if closer.trying.turns else first, *signs, 1.0)
 
@@ -77,9 +77,7 @@ def closing(
     trying, lift, state = closer.trying, tape.lifted, drawn_state(closer, drawn)
     first, *signs = (TracedNumber(tape.graph, tape.graph.input(name)) for name in names)
     step = STEP * (1 if trying.turns else max(abs(state[0]), 1e-3))
-    here, before, after = (
-        result(trying, known, first + away, signs) for away in (0.0, -step, step)
-    )
+    here, before, after = (trial(trying, known, first + away, signs) for away in (0.0, -step, step))
     across = abs(lift(after[trying.misfit] - before[trying.misfit]))
     way = abs(lift(after[trying.locus] - before[trying.locus]))
     sine = (across / way).do("min", lift(1.0))
@@ -87,8 +85,8 @@ def closing(
     return TracedClosing(names, trying.turns, state, lift(here[trying.misfit]), facing, sine)
 
 
-def result(trying: Any, known: Sequence[Any], at: Any, signs: Sequence[Any]) -> Mapping[int, Any]:
-    """The results of what is tried, for traced numbers."""
+def trial(trying: Any, known: Sequence[Any], at: Any, signs: Sequence[Any]) -> Mapping[int, Any]:
+    """The results of a trial for traced numbers."""
     kind = traced_kind()
     overrides = dict(zip(trying.inputs, known, strict=True))
     overrides[trying.tried] = kind.radians(at) if trying.turns else at
@@ -172,7 +170,7 @@ def closed_near(
 
 
 def secant(miss: Callable[[float], tuple[float, float]], start: float, step: float) -> float:
-    """The last step along the secant through two values."""
+    """The last step along the secant through two trials."""
     old, new = start + step, start
     before, after = miss(old)[0], miss(new)[0]
     for _ in range(TRIES):

@@ -17,11 +17,6 @@ class AuxiliaryPlan(PlanAside):
     """A plan that is drawn only to find the right one."""
 
     @property
-    def reason(self) -> str:
-        """The key of why it is drawn; nothing where it needs none."""
-        return ""
-
-    @property
     def repeats(self) -> bool:
         """Whether it repeats the lines of another one, and follows no equation of its own."""
         return False
@@ -29,18 +24,6 @@ class AuxiliaryPlan(PlanAside):
     def turned_by(self, rate: int) -> str:
         """The link whose rate it assumes at a step; nothing where it assumes none there."""
         return ""
-
-    def is_idle(self, drawing: Drawing, number: int) -> bool:
-        """Whether a line finds only points which fall on where it begins."""
-        return False
-
-    def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, int, str]]:
-        """Its points line by line: the step of the point, that which ends a part, and its words."""
-        yield from ()
-
-    def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
-        """A part of it after what it is; in the ``first`` one, after what it assumes too."""
-        return how
 
     def falls_on(self, drawing: Drawing, number: int) -> str:
         """The point on which one of its own falls with all that it is drawn from; else nothing."""

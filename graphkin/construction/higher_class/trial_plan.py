@@ -48,11 +48,6 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         """The second plan repeats the lines of the first."""
         return self.first is not None
 
-    @property
-    def reason(self) -> str:
-        """That a rate is assumed, or assumed once more."""
-        return "why.trial_again" if self.repeats else "why.trial"
-
     def turned_by(self, rate: int) -> str:
         """The tried link."""
         return self.link if rate == self.rate else ""
@@ -238,7 +233,7 @@ def drawn_from(drawing: Drawing, number: int) -> Iterator[int]:
 
 
 def turned_again(drawing: Drawing, number: int) -> str:
-    """How a point of the second plan is found whose centripetal component is that of the first.
+    """How a point of the second plan is found whose normal component is that of the first.
 
     Nothing of any other point.
     """
