@@ -36,13 +36,13 @@ def structure(scene: Scene) -> Iterator[str]:
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
-    """Each link that the scene does not have, put in to keep a wheel in its place."""
-    for name, (wheel, path) in scene.keepers.items():
+    """Each link that the scene does not have, put in to keep a wheel where it rolls."""
+    for name, (wheel, rolling) in scene.keepers.items():
         link = scene.links[name]
         what = f"{link.points[0]}, a block on the parallel to the track through the centre"
-        if path.through is None:
+        if rolling.through is None:
             what = f"{'-'.join(link.points)}, the line of centres"
-        pair = f"the wheel of {link_words(wheel)} on {link_words(path.on)}"
+        pair = f"the wheel of {link_words(wheel)} on {link_words(rolling.on)}"
         yield f"link {name}: {what}; it keeps {pair} and takes nothing from the motion"
 
 
