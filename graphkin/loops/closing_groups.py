@@ -306,7 +306,8 @@ def led_together(part: Equations, unknowns: Reals) -> Reals:
         led.setdefault((guide.on, guide.point), []).append(j)
     for first, *others in (each for (_, point), each in led.items() if point):
         guide = part.guides[first]
-        foot = guide.through + (found[0, part.turning_count + first] + 1j * guide.offset) * guide.along
+        here = found[0, part.turning_count + first] + 1j * guide.offset
+        foot = guide.through + here * guide.along
         for j in others:
             other = part.guides[j]
             way = (foot - other.through) * np.conj(other.along)
