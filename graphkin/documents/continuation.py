@@ -25,19 +25,22 @@ LEADING = 4.6
 """Distance of the lines of data in mm."""
 GAP, HEAD = 8.0, 6.0
 """Room above the heading of a part, and below it, in mm."""
+INSIDE = 3.0
+"""How far the numbers of sentences stay clear of the centring mark at the left, in mm."""
 MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
 
 
-def rest(drawing: Drawing, view: str, moved: Set[Moved]) -> list[list[Mark]]:
-    """What is on the sheets that go on: one, or where it has no room there as many as it takes.
+def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[list[Mark]]:
+    """What is on the sheets that go on, behind so many sentences.
 
-    Raises PageError where data or tables have no room on a sheet without the sentences.
+    One sheet, or where it has no room there as many as it takes. Raises PageError where data or
+    tables have no room on a sheet without the sentences.
     """
     if not moved:
         return []
     try:
-        return [one_sheet(drawing, view, moved)]
+        return [one_sheet(drawing, view, moved, said)]
     except PageError:
         if Moved.CONSTRUCTION not in moved:
             raise
@@ -45,13 +48,13 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved]) -> list[list[Mark]]:
     sheets = [one_sheet(drawing, view, others)] if others else []
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     top, low = y + GAP, BELOW[3] - 3.5
-    left: Rect = (x, top + HEAD, MIDDLE, low)
+    left: Rect = (x + INSIDE, top + HEAD, MIDDLE, low)
     right: Rect = (MIDDLE + 6, top + HEAD, AREA[2], A3_TITLE_BLOCK[1] - 4)
     head = [*head, construction_head(drawing, x, top)]
-    return [*sheets, *([*head, *marks] for marks in on_sheets(drawing, [left, right]))]
+    return [*sheets, *([*head, *marks] for marks in on_sheets(drawing, [left, right], said))]
 
 
-def one_sheet(drawing: Drawing, view: str, moved: Set[Moved]) -> list[Mark]:
+def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[Mark]:
     """What is on a sheet that goes on alone. Raises PageError where not even it holds the rest."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if Moved.DATA in moved:
@@ -63,9 +66,10 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved]) -> list[Mark]:
     top = y + GAP
     right: Rect = (MIDDLE + 6, top, AREA[2], A3_TITLE_BLOCK[1] - 4)
     if Moved.CONSTRUCTION in moved:
-        left: Rect = (x, top + HEAD, MIDDLE, BELOW[3] - 3.5)
+        left: Rect = (x + INSIDE, top + HEAD, MIDDLE, BELOW[3] - 3.5)
         beside = [] if Moved.TABLES in moved else [(right[0], left[1], *right[2:])]
-        marks += [construction_head(drawing, x, top), *in_columns(drawing, [left, *beside])]
+        marks.append(construction_head(drawing, x, top))
+        marks += in_columns(drawing, [left, *beside], said)
     if Moved.TABLES in moved:
         alone = Moved.CONSTRUCTION not in moved
         marks += tables(drawing, (x, *right[1:]) if alone else right, empty=view == "task")

@@ -68,7 +68,7 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
         from graphkin.documents.sheet import sheet, writing
 
         every = [(drawing, writing(drawing, view)) for drawing in drawings]
-        more = [rest(drawing, view, written.moved) for drawing, written in every]
+        more = [rest(drawing, view, written.moved, written.said) for drawing, written in every]
         total = sum(1 + len(sheets) for sheets in more)
         found, number = [], 0
         for (drawing, written), sheets in zip(every, more, strict=True):

@@ -19,6 +19,7 @@ from msgspec import Struct
 
 from graphkin.loops.equations import Equations, equations, tied_by
 from graphkin.loops.poses import setting_of
+from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
 

@@ -222,7 +222,7 @@ def whole_turns(drawing: Drawing) -> Iterator[str]:
 def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     """Words for where a wheel touches a straight track at the start, and how it then stands.
 
-    On a moving track the angle is that to the track's link, whose own angle is told if it is stated.
+    On a moving track the angle is that to the track's link; its own is told if it is stated.
     """
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
