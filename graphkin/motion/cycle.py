@@ -126,7 +126,8 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         if swept and driver.against == FRAME and driver.of is None:
             return np.radians(self.at)
         target = "axis", link
-        return np.angle(columns_at(self.sweep, self.path, self.at, [target]).columns[target])
+        axes = columns_at(self.sweep, self.path, self.at, [target]).columns[target]
+        return np.asarray(np.angle(axes))
 
     def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
         """The same cycle at other places u, those that have no motion left out.
