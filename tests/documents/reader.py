@@ -210,8 +210,10 @@ class Reader:
     def sense(self, turning: str) -> int:
         """The sense of ω or ε: given with the data, or seen in the velocity plan."""
         name = turning.partition(" = ")[0]
-        if quotient := re.search(rf" = ({VECTOR})/", turning):
-            q, p = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
+        if quotient := re.search(rf" = ({VECTOR})/({NAME})({NAME})", turning):
+            q, *others = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
+            ends = [canonical(quotient[2]), canonical(quotient[3])]
+            p = others[0] if others else next(end for end in ends if end != q)
             turned = cross(self.at(q) - self.at(p), self.set_off(quotient[1]))
             self.senses[name] = 1 if turned > 0 else -1
         if name in self.senses:
@@ -723,13 +725,48 @@ class Reader:
         side = re.search(r"on its (right|left)-hand side", rolls)
         if side is None:
             raise DefectError(f"nothing tells on which side of its track wheel {k} lies")
-        track = self.positive(self.track(k), rolls)
+        track = self.track(k)
+        track = self.positive(track, rolls) if "(positive" in rolls else track
         laid = Line.of(
             track.point, cmath.rect(1, self.angle(re.search(rf"at ({NUMBER}°)", rolls)[1]))
         )  # type: ignore[index]
         away = laid.along * (1j if side[1] == "left" else -1j)
         radius = number(size[1]) * MILLIMETRES[size[2]] / self.scale
         self.ray = Line(track.point + away * radius, track.along)
+
+    @says(
+        "on it, halfway between the points at which both tracks were touched at the start, for it "
+        "has rolled as far on the one as on the other: ⟨name⟩"
+    )
+    def halfway(self, name: str) -> None:
+        """Between where each track was touched, as far along as the wheel's centre lies."""
+        wheel = next(
+            match[1]
+            for item in self.items
+            if (match := re.match(rf"wheel (\w+): centre {re.escape(name)},", item))
+        )
+        touched = []
+        for item in self.items:
+            if re.match(rf"wheel {wheel} rolls", item):
+                place = re.search(
+                    rf"(?:through the point \(({NUMBER})[;,] ({NUMBER})\) (mm|cm|m) from ({NAME})"
+                    " at .*)?"
+                    rf"touching it at (?:that point|({NAME}))",
+                    item,
+                )
+                assert place
+                if place[5]:
+                    touched.append(self.at(place[5]))
+                else:
+                    link = re.search(r"on the line of link (\w+)", item)
+                    assert link
+                    way = complex(number(place[1]), number(place[2])) * MILLIMETRES[place[3]]
+                    along = self.guide(link[1]).along
+                    touched.append(self.at(place[4]) + along * way / self.scale)
+        if len(touched) != 2 or self.ray is None:
+            raise DefectError(f"nothing tells where the tracks of wheel {wheel} were touched")
+        middle = sum(touched) / 2 - self.ray.point
+        self.put(name, self.ray.point + self.ray.along * dot(self.ray.along, middle))
 
     @says(r"on it lay off (?:s(?:_\{.*?\})? \()?⟨drawn:number⟩ mm\)? from its zero: ⟨name⟩")
     def set_at(self, drawn: str, name: str) -> None:
@@ -754,6 +791,14 @@ class Reader:
         if own and g in self.lies and (through := re.findall(NAME, self.links[g])):
             way = self.lies[g] * complex(number(own[1]), number(own[2]))
             self.loci.append(Line(self.at(through[0]) + way, self.lies[g]))
+            return
+        beside = re.search(
+            rf"through the point \(({NUMBER})[;,] ({NUMBER})\) mm from ({NAME}) at", line
+        )
+        if beside:
+            along = self.guide(g).along
+            way = complex(number(beside[1]), number(beside[2])) * along
+            self.loci.append(Line.of(self.at(beside[3]) + way, along))
             return
         through = re.search(rf"through ({NAME})", line)
         assert through
@@ -1003,8 +1048,16 @@ class Reader:
         self.one_of(name, crossings(*self.loci))
         self.loci = []
 
-    @says("⟨name⟩ by similarity: it divides ⟨a⟩⟨b⟩(?: \\(.*?\\))? as ⟨r⟩ divides ⟨p⟩⟨q⟩")
-    def similar_in_line(self, name: str, a: str, b: str, r: str, p: str, q: str) -> None:
+    @says(
+        "⟨name⟩ by similarity: it divides ⟨a⟩⟨b⟩(?: \\((?:= ⟨t⟩⟨u⟩, )?.*?\\))? as ⟨r⟩ divides "
+        "⟨p⟩⟨q⟩"
+    )
+    def similar_in_line(
+        self, name: str, a: str, b: str, r: str, p: str, q: str, t: str | None, u: str | None
+    ) -> None:
+        for image, other in ((t, a), (u, b)):
+            if image:
+                self.place.setdefault(canonical(image), self.at(other))
         self.similar(name, (a, b), r, (p, q))
 
     @says("⟨name⟩ by similarity: triangle ⟨x⟩⟨y⟩⟨z⟩ similar to ⟨p⟩⟨q⟩⟨r⟩, in the same sense")
