@@ -19,6 +19,7 @@ from msgspec import Struct
 
 from graphkin.loops.equations import Equations, equations, tied_by
 from graphkin.loops.poses import setting_of
+from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
 
@@ -306,7 +307,8 @@ def led_together(part: Equations, unknowns: Reals) -> Reals:
         led.setdefault((guide.on, guide.point), []).append(j)
     for first, *others in (each for (_, point), each in led.items() if point):
         guide = part.guides[first]
-        foot = guide.through + (found[0, part.turning_count + first] + 1j * guide.offset) * guide.along
+        here = found[0, part.turning_count + first] + 1j * guide.offset
+        foot = guide.through + here * guide.along
         for j in others:
             other = part.guides[j]
             way = (foot - other.through) * np.conj(other.along)

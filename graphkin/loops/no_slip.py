@@ -232,9 +232,7 @@ def slips_of(
         turned, weights = counted_at(rolling, numbers), {wheel: size, on: -size}
         if wheel == FRAME:
             turned.setdefault(on, near[on])
-        found.append(
-            NoSlip((wheel, on), weights, starts, turned, near, track, side=rolling.side)
-        )
+        found.append(NoSlip((wheel, on), weights, starts, turned, near, track, side=rolling.side))
     for gear in gears:
         (wheel, on), (own, other) = gear.links, gear.radii
         weights = {wheel: own, on: gear.sense * other, gear.arm: -own - gear.sense * other}

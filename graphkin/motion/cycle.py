@@ -122,11 +122,12 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
     def turned(self, link: str) -> Reals:
         """The angle of a link's x axis at every position (N,), radians."""
         driver = self.scene.drivers[(self.sweep.number or 1) - 1]
-        if self.sweep.what == "turn" and driver.link == link:
-            if driver.against == FRAME and driver.of is None:
-                return np.radians(self.at)
+        swept = self.sweep.what == "turn" and driver.link == link
+        if swept and driver.against == FRAME and driver.of is None:
+            return np.radians(self.at)
         target = "axis", link
-        return np.angle(columns_at(self.sweep, self.path, self.at, [target]).columns[target])
+        axes = columns_at(self.sweep, self.path, self.at, [target]).columns[target]
+        return np.asarray(np.angle(axes))
 
     def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
         """The same cycle at other places u, those that have no motion left out.

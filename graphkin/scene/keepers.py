@@ -63,9 +63,7 @@ def laid_on_rollers(written: Mapping[str, Link], measures: Measures) -> dict[str
     return found
 
 
-def roller_guide(
-    written: Mapping[str, Link], plank: Link, measures: Measures
-) -> Slide | None:
+def roller_guide(written: Mapping[str, Link], plank: Link, measures: Measures) -> Slide | None:
     """The guide along which rollers of one size keep a plank, twice their radius from their track.
 
     None where they do not: each rolls on one line of the plank and on one of another link.

@@ -8,13 +8,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from graphkin.construction.core.batch import made_ready, run_batch
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
+from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import FLOAT, batch_kind, least
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
-from graphkin.text.errors import ClosureError
+from graphkin.scene.model import Way
+from graphkin.text.errors import ClosureError, StructureError
+from tests.chosen import FOLDER
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 
 EARLY = {Part.SHAPE, Part.POSITION}
@@ -430,3 +434,17 @@ def test_at_a_dead_point_the_two_lines_are_parallel():
         "at this dead point, or so near to one that doubles cannot tell (solve --digits can), "
         "the driver's speed determines no other: change the driver's position"
     )
+
+
+def test_missing_and_superfluous_branches_are_told_at_once():
+    """A branch of a driven link, while that of another group is missing; none is told twice."""
+    scene = load(FOLDER / "six-bar.toml").scene
+    branches = {"1": Way(1), "D": scene.branches["D"]}
+    with pytest.raises(StructureError) as told:
+        Mechanism(replace(scene, branches=branches)).solve()
+    places = [problem.place for problem in told.value.problems]
+    assert places == ["branches.B", "branches.1"]
+    stray = {"2": Way(1), "D": scene.branches["D"]}
+    with pytest.raises(StructureError, match='while 2 = "forward" chooses nothing') as told:
+        Mechanism(replace(scene, branches=stray)).solve()
+    assert len(told.value.problems) == 1

@@ -32,6 +32,8 @@ from tests.documents.ruler_and_compass import (
 
 VECTOR = r"[av]_\{[^}]*\}(?:\^\{[^}]*\})?"
 TURNING = r"[ωε]_\{[^}]*\}"
+STEPS = 14_400
+"""At how many angles a link is drawn where a locus is sought: each fortieth of a degree."""
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
 
 
@@ -143,6 +145,8 @@ class Reader:
     """Whether the page has said of which link a point with an index is."""
     image_of: dict[str, str] = field(default_factory=dict)
     """Names of images that the page tells because they are not the small letter."""
+    drawn: dict[str, dict[str, complex]] = field(default_factory=dict)
+    """The points of links that were moved in steps until they closed."""
     frame: dict[str, complex] = field(default_factory=dict)
     """The fixed points of the data, in mm of the mechanism."""
 
@@ -206,8 +210,10 @@ class Reader:
     def sense(self, turning: str) -> int:
         """The sense of ω or ε: given with the data, or seen in the velocity plan."""
         name = turning.partition(" = ")[0]
-        if quotient := re.search(rf" = ({VECTOR})/", turning):
-            q, p = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
+        if quotient := re.search(rf" = ({VECTOR})/({NAME})({NAME})", turning):
+            q, *others = re.findall(r"[A-Z]\d*", quotient[1][3:-1])
+            ends = [canonical(quotient[2]), canonical(quotient[3])]
+            p = others[0] if others else next(end for end in ends if end != q)
             turned = cross(self.at(q) - self.at(p), self.set_off(quotient[1]))
             self.senses[name] = 1 if turned > 0 else -1
         if name in self.senses:
@@ -466,6 +472,119 @@ class Reader:
             along *= -1 if beyond else 1
         self.ray = Line.of(self.at(p), along)
 
+    @says(
+        "cut pin ⟨pin⟩: move link ⟨k:number⟩ in steps, draw it each time and mark the locus of "
+        "⟨p2⟩; where it cuts the arc of radius ⟨p⟩⟨q⟩ about ⟨c⟩ they close: closure ⟨n:number⟩"
+    )
+    def cut(self, pin: str, k: str, p: str, q: str, c: str, n: str, **_: str) -> None:
+        """The link is drawn at ten thousand angles; between two of them the locus cuts the arc."""
+        drawn, low = self.moved_link(k), math.inf
+        radius, about = self.length(p, q), self.at(c)
+        found = []
+        for step in range(STEPS + 1):
+            angle = -math.pi + 2 * math.pi * step / STEPS
+            places, counted = drawn(angle)
+            off = abs(places[pin] - about) - radius
+            if low * off <= 0 and math.isfinite(low):
+                found.append((math.degrees(counted) % 360, angle))
+            low = off
+        if int(n) > len(found):
+            raise DefectError(f"the locus of {pin} cuts the arc {len(found)} times")
+        _, angle = sorted(found)[int(n) - 1]
+        self.drawn[k], counted = drawn(angle)
+        if self.told_of_rim(k):
+            self.lies[k] = cmath.rect(1, counted)
+
+    def told_of_rim(self, k: str) -> str | None:
+        """What the data say of a straight link on the rim of a wheel, if it is one."""
+        form = rf"wheel \w+ rolls in {NAME} on the line of link {k} through"
+        return next((item for item in self.items if re.match(form, item)), None)
+
+    def moved_link(self, k: str) -> Callable[[float], tuple[dict[str, complex], float]]:
+        """A link by how far it has turned since the start: its points, the angle that counts."""
+        for form, move in (
+            (rf"link {k} rolls in {NAME} on the fixed wheel by the line", self.on_drum),
+            (rf"wheel {k} rolls in {NAME} on the fixed wheel", self.on_wheel),
+        ):
+            if item := next((item for item in self.items if re.match(form, item)), None):
+                return move(k, item)
+        if item := self.told_of_rim(k):
+            return self.on_rim(k, item)
+        raise DefectError(f"nothing tells how link {k} moves")
+
+    def on_drum(self, k: str, item: str) -> Callable[[float], tuple[dict[str, complex], float]]:
+        """A bar that rolls on a drum of the frame, along itself."""
+        told = re.search(
+            rf"through ({NAME}) at 0° to ({NAME})({NAME}), on its (left|right)-hand side, .* is at "
+            rf"({NUMBER}°)",
+            item,
+        )
+        assert told
+        mark, p, q = told[1], told[2], told[3]
+        drum = self.told_of("wheel of the frame: centre")
+        about = re.search(rf"centre ({NAME})", drum)
+        assert about
+        centre, radius = self.at(about[1]), self.wheel_about(about[1])[1]
+        left, start = (1 if told[4] == "left" else -1), self.angle(told[5])
+
+        def drawn(turned: float) -> tuple[dict[str, complex], float]:
+            along = cmath.rect(1, start + turned)
+            where = centre - left * along * (1j * radius + turned * radius)
+            own = self.length(p, mark) if mark != p else 0.0
+            first = where - along * own
+            return {mark: where, p: first, q: first + along * self.length(p, q)}, start + turned
+
+        return drawn
+
+    def on_wheel(self, k: str, item: str) -> Callable[[float], tuple[dict[str, complex], float]]:
+        """A wheel that rolls on or in a wheel of the frame: its centre goes round that one's."""
+        told = re.search(rf": ({NAME})({NAME}) is at ({NUMBER}°), .* is at ({NUMBER}°)\)", item)
+        assert told
+        p, q = told[1], told[2]
+        fixed = re.search(rf"of the frame: centre ({NAME})", self.told_of(r"(?:ring|wheel) of the"))
+        assert fixed
+        (kind, large), (_, own) = self.wheel_about(fixed[1]), self.wheel_about(p)
+        times = 1 - large / own if kind.startswith("ring") else 1 + large / own
+        centre, apart = self.at(fixed[1]), self.apart(fixed[1], p)
+
+        def drawn(turned: float) -> tuple[dict[str, complex], float]:
+            where = centre + cmath.rect(apart, self.angle(told[4]) + turned)
+            counted = self.angle(told[3]) + times * turned
+            return {p: where, q: where + cmath.rect(self.length(p, q), counted)}, counted
+
+        return drawn
+
+    def on_rim(self, k: str, item: str) -> Callable[[float], tuple[dict[str, complex], float]]:
+        """A straight link on the rim of a wheel that stands: as far along it as both turned."""
+        told = re.search(
+            rf"wheel (\w+) rolls .* through (?:({NAME})|\(({NUMBER})[;,] 0\) (mm|cm|m))"
+            rf"(?: at 0° to .*?)?, on its (left|right)-hand side, touching it .* when .*? is at "
+            rf"({NUMBER}°) to (?:the x axis of link {k}|({NAME})({NAME}))",
+            item,
+        )
+        if told is None:
+            raise DefectError(f"nothing tells where link {k} touched the wheel at the start")
+        disc = self.told_of(rf"wheel {told[1]}: centre")
+        about = re.search(rf"centre ({NAME})", disc)
+        assert about
+        centre, radius = self.at(about[1]), self.wheel_about(about[1])[1]
+        left, start, wheel = (1 if told[5] == "left" else -1), self.angle(told[6]), self.angle("φ")
+        p = told[7] or re.findall(NAME, self.links[k])[0]
+        begun = re.search(rf", (?:the x axis of link {k}|{p}{NAME}) is at ({NUMBER}°)", item)
+        stood = self.angle(begun[1]) if begun else 0.0
+        ahead = number(told[3]) * MILLIMETRES[told[4]] / self.scale if told[3] else 0.0
+
+        def drawn(turned: float) -> tuple[dict[str, complex], float]:
+            bar = stood + turned
+            along = cmath.rect(1, bar)
+            way = ahead - left * radius * (wheel - bar - start)
+            places = {p: centre - along * (left * 1j * radius + way)}
+            if told[8]:
+                places[told[8]] = places[p] + along * self.length(p, told[8])
+            return places, bar
+
+        return drawn
+
     @says("set link ⟨k:number⟩ at its angle about ⟨p⟩: (?P<names>[^;]*)")
     def set_link(self, k: str, p: str, names: str) -> None:
         """A plate whose own axes the data give: its x axis at the driver's angle."""
@@ -606,13 +725,48 @@ class Reader:
         side = re.search(r"on its (right|left)-hand side", rolls)
         if side is None:
             raise DefectError(f"nothing tells on which side of its track wheel {k} lies")
-        track = self.positive(self.track(k), rolls)
+        track = self.track(k)
+        track = self.positive(track, rolls) if "(positive" in rolls else track
         laid = Line.of(
             track.point, cmath.rect(1, self.angle(re.search(rf"at ({NUMBER}°)", rolls)[1]))
         )  # type: ignore[index]
         away = laid.along * (1j if side[1] == "left" else -1j)
         radius = number(size[1]) * MILLIMETRES[size[2]] / self.scale
         self.ray = Line(track.point + away * radius, track.along)
+
+    @says(
+        "on it, halfway between the points at which both tracks were touched at the start, for it "
+        "has rolled as far on the one as on the other: ⟨name⟩"
+    )
+    def halfway(self, name: str) -> None:
+        """Between where each track was touched, as far along as the wheel's centre lies."""
+        wheel = next(
+            match[1]
+            for item in self.items
+            if (match := re.match(rf"wheel (\w+): centre {re.escape(name)},", item))
+        )
+        touched = []
+        for item in self.items:
+            if re.match(rf"wheel {wheel} rolls", item):
+                place = re.search(
+                    rf"(?:through the point \(({NUMBER})[;,] ({NUMBER})\) (mm|cm|m) from ({NAME})"
+                    " at .*)?"
+                    rf"touching it at (?:that point|({NAME}))",
+                    item,
+                )
+                assert place
+                if place[5]:
+                    touched.append(self.at(place[5]))
+                else:
+                    link = re.search(r"on the line of link (\w+)", item)
+                    assert link
+                    way = complex(number(place[1]), number(place[2])) * MILLIMETRES[place[3]]
+                    along = self.guide(link[1]).along
+                    touched.append(self.at(place[4]) + along * way / self.scale)
+        if len(touched) != 2 or self.ray is None:
+            raise DefectError(f"nothing tells where the tracks of wheel {wheel} were touched")
+        middle = sum(touched) / 2 - self.ray.point
+        self.put(name, self.ray.point + self.ray.along * dot(self.ray.along, middle))
 
     @says(r"on it lay off (?:s(?:_\{.*?\})? \()?⟨drawn:number⟩ mm\)? from its zero: ⟨name⟩")
     def set_at(self, drawn: str, name: str) -> None:
@@ -633,6 +787,19 @@ class Reader:
 
     @says("draw the track of wheel ⟨k:number⟩ on link ⟨g:number⟩: (?P<line>the line .*?)(?=;)")
     def draw_track_of(self, k: str, g: str, line: str) -> None:
+        own = re.search(rf"through \(({NUMBER})[;,] ({NUMBER})\) mm", line)
+        if own and g in self.lies and (through := re.findall(NAME, self.links[g])):
+            way = self.lies[g] * complex(number(own[1]), number(own[2]))
+            self.loci.append(Line(self.at(through[0]) + way, self.lies[g]))
+            return
+        beside = re.search(
+            rf"through the point \(({NUMBER})[;,] ({NUMBER})\) mm from ({NAME}) at", line
+        )
+        if beside:
+            along = self.guide(g).along
+            way = complex(number(beside[1]), number(beside[2])) * along
+            self.loci.append(Line.of(self.at(beside[3]) + way, along))
+            return
         through = re.search(rf"through ({NAME})", line)
         assert through
         drawn = self.told_line(line, through[1])
@@ -665,7 +832,17 @@ class Reader:
     )
     def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(1, math.radians(number(angle)))
+        if found := next((each for each in self.drawn.values() if name in each), None):
+            self.put(name, found[name])  # as it was found; the page tells its angle to a tenth
+            self.drawn_at(p, along, name)
+            return
         self.put(name, self.at(p) + along * self.length(s, t))
+
+    def drawn_at(self, p: str, along: complex, name: str) -> None:
+        """Raises DefectError where a bar that was found does not lie as the page tells."""
+        off = math.degrees(cmath.phase((self.at(name) - self.at(p)) / along))
+        if abs(off) > 0.1:
+            raise DefectError(f"{p}{name} was found {off:.2f}° from where it is told to be")
 
     @says(
         "link ⟨k:number⟩ has rolled on the fixed wheel, from where it touched it at the start, by "
@@ -673,6 +850,9 @@ class Reader:
     )
     def rolled_bar(self, k: str, arc: str, name: str) -> None:
         """A bar turned about a drum touches it at its side, the arc from where it did at first."""
+        if k in self.drawn:
+            self.put(name, self.drawn[k][name])
+            return
         item = self.told_of(rf"link {k} rolls in {NAME} on the fixed wheel by the line of link {k}")
         told = re.search(
             rf"through ({NAME}) at ({NUMBER}°) to {NAME}{NAME}, on its (left|right)-hand side, "
@@ -690,6 +870,15 @@ class Reader:
         touched = self.at(about[1]) - left * 1j * along * self.wheel_about(about[1])[1]
         turned = math.copysign(1, bar - self.angle(told[5]))
         self.put(name, touched - left * turned * along * number(arc))
+
+    @says(
+        "link ⟨k:number⟩ has moved with the rim, from where it touched the wheel at the start, by "
+        "the arc that the wheel has turned through since, ⟨arc:number⟩ mm: ⟨name⟩"
+    )
+    def moved_with_rim(self, k: str, name: str, **_: str) -> None:
+        if k not in self.drawn:
+            raise DefectError(f"nothing tells where link {k} lies")
+        self.put(name, self.drawn[k][name])
 
     @says(
         "draw the rolling line of link ⟨g:number⟩: (?P<line>the line .*?); from the centre of the "
@@ -859,8 +1048,16 @@ class Reader:
         self.one_of(name, crossings(*self.loci))
         self.loci = []
 
-    @says("⟨name⟩ by similarity: it divides ⟨a⟩⟨b⟩(?: \\(.*?\\))? as ⟨r⟩ divides ⟨p⟩⟨q⟩")
-    def similar_in_line(self, name: str, a: str, b: str, r: str, p: str, q: str) -> None:
+    @says(
+        "⟨name⟩ by similarity: it divides ⟨a⟩⟨b⟩(?: \\((?:= ⟨t⟩⟨u⟩, )?.*?\\))? as ⟨r⟩ divides "
+        "⟨p⟩⟨q⟩"
+    )
+    def similar_in_line(
+        self, name: str, a: str, b: str, r: str, p: str, q: str, t: str | None, u: str | None
+    ) -> None:
+        for image, other in ((t, a), (u, b)):
+            if image:
+                self.place.setdefault(canonical(image), self.at(other))
         self.similar(name, (a, b), r, (p, q))
 
     @says("⟨name⟩ by similarity: triangle ⟨x⟩⟨y⟩⟨z⟩ similar to ⟨p⟩⟨q⟩⟨r⟩, in the same sense")
@@ -949,7 +1146,7 @@ class Reader:
 
     @says(
         r"from ⟨s⟩ lay off (?:⟨s2⟩⟨foot⟩ = )?⟨a:vector⟩"
-        r"(?: = ⟨w:turning⟩\^\{2\}·⟨m⟩⟨n⟩(?:·⟨far⟩⟨far2⟩/⟨near⟩⟨near2⟩)?)? ∥ ⟨p⟩⟨q⟩, "
+        r"(?: = (?:⟨w:turning⟩|\([^)]*\))\^\{2\}·⟨m⟩⟨n⟩(?:·⟨far⟩⟨far2⟩/⟨near⟩⟨near2⟩)?)? ∥ ⟨p⟩⟨q⟩, "
         r"from ⟨from_⟩ towards ⟨to⟩(?:, ⟨drawn:number⟩ mm)?"
         r"(?:, for rolling gives the point of contact no other acceleration relative to [^,;(]*)?"
     )

@@ -22,7 +22,6 @@ CLOSE = 0.3
 """How near to the key, in mm, the hand must land."""
 LABS = ("pump", "pump-collinear", "slotted-lever")
 APART = {
-    "bar-on-drum-rod": "a locus",
     "cam-flat": "the face of a follower, told by its guide",
     "cam-lever": "the face of a lever, told by its bar",
     "gears-double-planet": "trials",
@@ -39,12 +38,10 @@ APART = {
     "platform-six": "loci and trials",
     "rapid-return": "loci and trials",
     "rod-and-wheel": "a locus",
-    "plank-rollers": "halfway between two tracks",
-    "roller-plates": "halfway between two tracks",
+    "roller-plates": "halfway between two moving tracks",
     "stephenson-2-binary": "loci and trials",
     "stephenson-2-ternary": "loci and trials",
     "stephenson-3-crank": "loci and trials",
-    "wheel-in-ring-rod": "a locus",
 }
 """What the reader has no rule for, by the scenes that need it."""
 ALIKE = {name for name in SCENES if name.startswith("four-bar-")} - {

@@ -222,7 +222,7 @@ def whole_turns(drawing: Drawing) -> Iterator[str]:
 def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     """Words for where a wheel touches a straight track at the start, and how it then stands.
 
-    On a moving track the angle is that to the track's link.
+    On a moving track the angle is that to the track's link; its own is told if it is stated.
     """
     named, words = rolling.through, drawing.words
     through = symbol(named) if isinstance(named, str) else words("page.that_point")
@@ -231,6 +231,9 @@ def start_on_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     if FRAME not in (link.name, rolling.on):
         to = axis_of(drawing, drawing.scene.link(rolling.on))
         angles = words("page.stands_to", stands=angles, axis=to)
+        if rolling.on in rolling.start:
+            own = stands(drawing, drawing.scene.link(rolling.on), rolling)
+            angles = words("list_mark").join((angles, own))
     return words("page.start", through=through, angles=angles)
 
 
