@@ -87,8 +87,8 @@ def in_lines(drawing: Drawing, found: Sequence[Datum], x: float, y: float) -> li
     width = AREA[2] - x - 3
     for height, leading, room, near in LINES:
         lines = flowed(pieces, "; ", width, height)
-        low = y + (len(lines) - 1) * leading
-        if low <= LOWEST and len(lines) <= room and not (near and not are_clear(lines, height, leading)):
+        fits = len(lines) <= room and y + (len(lines) - 1) * leading <= LOWEST
+        if fits and not (near and not are_clear(lines, height, leading)):
             return [
                 Text(x, y + i * leading, line, "caption", height, name=NAME)
                 for i, line in enumerate(lines)

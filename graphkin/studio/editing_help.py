@@ -17,6 +17,7 @@ EVERY = """
 O = { from = 0 }
 [links.1]
 A = [0, 0]
+P = { from = 0 }
 wheel = {}
 slides = {}
 rolls = {}

@@ -236,6 +236,7 @@ class MoveFinder:
                     for image, place in zip(step.args, ratio.args, strict=False):
                         if image in self.values and place not in found.setdefault(image, []):
                             found[image].append(place)
+                    found.setdefault(number, [ratio.args[2]])
         return {number: tuple(places) for number, places in found.items()}
 
     # --- moves -----------------------------------------------------------------------------------

@@ -575,6 +575,16 @@ def test_one_mistake_is_one_error(old, new, place):
     assert place in {problem.place for problem in error.value.problems}
 
 
+def test_a_cam_that_slides_or_stands_still_is_told_what_to_write():
+    """Laws are of discs on a pin of the frame; a flank is a guide, an arc its centre."""
+    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
+    standing = text.replace("on = 1\n", "on = 0\n")
+    carried = text.replace("slides = { on = 0,", "slides = { on = 1,")
+    for wrong in (standing, carried):
+        with pytest.raises(SceneError, match="a straight flank as a guide on it, an arc with"):
+            read_text(wrong, "cam")
+
+
 def test_where_the_pitch_curve_is_straight_the_centre_lies_at_infinity():
     """Between hollow and hump r² + 2r'² = r r", where K runs to infinity: told, never made up."""
     text = TEXT.format(

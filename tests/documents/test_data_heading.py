@@ -42,3 +42,13 @@ def test_data_stay_clear_of_captions_and_of_the_frame(which):
             for head in heads:
                 beside = box[2] < head[0] or head[2] < box[0]
                 assert beside or box[3] < head[1] + 0.4, which
+
+
+@pytest.mark.parametrize("which", [("gears-planet", None), ("locomotive", None), ("pump", 7)])
+def test_below_a_title_of_two_lines_data_leave_room_for_captions_of_two(which):
+    """The first caption's foot is 3.4 mm above the field, its letters and theirs 4.0 mm high."""
+    for drawing in drawings(*which):
+        lowest = max(
+            mark.y for mark in data_heading(drawing, "key", 24, 23.4) if isinstance(mark, Text)
+        )
+        assert lowest <= AREA[1] - 3.4 - 4.0

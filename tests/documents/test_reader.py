@@ -28,7 +28,6 @@ APART = {
     "gears-kutzbach": "Kutzbach’s plan, which stands where the hand likes on its axis",
     "gears-ravigneaux": "trials",
     "gears-simpson": "trials",
-    "gears-three-planets": "a planet between two wheels on a free arm",
     "hoist-differential": "strands as racks",
     "inflection-cardan": "inflection circles",
     "klein-engine": "Klein’s construction",

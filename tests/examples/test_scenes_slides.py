@@ -401,8 +401,8 @@ def test_the_ram_of_a_shaper(q: int) -> None:
 def test_a_shaper_cuts_longer_than_it_returns() -> None:
     """The lever rests where it is square to the crank: time ratio (180° + 2γ)/(180° - 2γ)."""
     dead = math.degrees(math.asin(120 / 300))
-    for angle in (-dead, 180 + dead):
-        text = ("angle = { value = 50", f"angle = {{ value = {angle!r}"), (", step = 5 }", " }")
+    for turn in (-dead, 180 + dead):
+        text = ("angle = { value = 50", f"angle = {{ value = {turn!r}"), (", step = 5 }", " }")
         text += (("min = 0", "min = -90"),)
         assert abs(omega(proved(varied("shaper", *text)), 3)) < 1e-12
     assert (180 + 2 * dead) / (180 - 2 * dead) == pytest.approx(1.71, abs=5e-3)

@@ -35,6 +35,8 @@ def kind_of(place: str) -> str:
     parts = place.split(".")
     if parts[0] in ("links", "parameters") and len(parts) > 1:
         parts[1] = {"links": "1", "parameters": "n"}[parts[0]]
+    if parts[0] == "links" and parts[-1][:1].isupper():
+        parts[-1] = "P"
     return ".".join(parts)
 
 

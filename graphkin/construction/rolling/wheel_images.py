@@ -169,7 +169,7 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     """Second image of a planet's centre: normal about the arm's pin, and as the contacts move.
 
     Along the arm the wheels push the planet as they like; across it the contacts' second images
-    say how its centre moves.
+    say how its centre moves: as m, which divides their line as the centre divides the contacts'.
     """
     link, centre, pivot = group.wheel, group.centre.point, group.pivot.point
     names = [contact_name(contact) for contact in group.contacts]
@@ -180,7 +180,8 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     corner, line = known_and_free(pen, pivot, centre)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         letters = letter(names[0]), letter(names[1]), centre
-        across = image_of_link(pen, on_line_of(pen, names, others, centre), letters)
+        divided = on_line_of(pen, names, others, centre)
+        across = image_of_link(pen, divided, letters, name=f"m_{centre}")
         along = common_normal(pen, across, (pivot, centre))
         found = crossed_image(pen, line, along, name=second_image(centre), of=centre)
         component_arrow(pen, corner, found, "τ", centre, pivot)

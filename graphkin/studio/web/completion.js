@@ -31,9 +31,11 @@ function keysOf(place) {
   const same = plain.filter(([name]) => name === place).flatMap(([, keys]) => keys);
   if (same.length) return same;
   const [depth, first, last] = [place.split(".").length, place.split(".")[0], place.split(".").at(-1)];
+  const isPoint = (name) => /^[A-Z]/.test(name);
   const alike = plain.filter(([name]) => {
     const parts = name.split(".");
-    return parts.length === depth && parts[0] === first && (depth < 3 || parts.at(-1) === last);
+    const own = parts.at(-1) === last || (isPoint(parts.at(-1)) && isPoint(last));
+    return parts.length === depth && parts[0] === first && (depth < 3 || own);
   });
   return alike.flatMap(([, keys]) => keys).filter((key) => /^[a-z]+$/.test(key));
 }
