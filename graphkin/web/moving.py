@@ -190,10 +190,9 @@ def followed(
                 seen.append([len(records), *half(marks[k])])
             if following.keeps_off(k, record):
                 off.append(len(records))
-            if record[0] in "tb" and isinstance(marks[k], Text):
-                own = [len(records), *half(marks[k]), following.sides(k, record)]
-                step = marks[k].step
-                labels.append((-marks[k].height, -1 if step is None else step, own))
+            if record[0] in "tb" and isinstance(mark := marks[k], Text):
+                own = [len(records), *half(mark), following.sides(k, record)]
+                labels.append((-mark.height, -1 if mark.step is None else mark.step, own))
                 if with_it := following.going_before(k, bound):
                     led[len(records)] = with_it
             bound[k] = len(records)

@@ -27,6 +27,9 @@ PLAIN = {
     "browser.display.document_color_use": 0,
     "ui.prefersReducedMotion": 0,
 }
+PAINTED = """const done = arguments[arguments.length - 1];
+requestAnimationFrame(() => requestAnimationFrame(() => done()));"""
+"""What follows a pointer follows it before the window is painted next."""
 ERRORS = """return Services.console.getMessageArray()
   .filter(said => said instanceof Ci.nsIScriptError)
   .filter(said => !(said.flags & Ci.nsIScriptError.warningFlag))
@@ -83,6 +86,7 @@ class Firefox:
             x, y = (a + (b - a) * part / 5 for a, b in zip(start, end, strict=True))
             hand = hand.pointer_move(round(x), round(y), duration=40)
         hand.pointer_up().perform()
+        self.later(PAINTED)
 
     def errors(self) -> list[str]:
         """What pages have logged as errors."""
