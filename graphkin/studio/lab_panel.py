@@ -55,7 +55,8 @@ class StudentRow(Struct, frozen=True):
 class LabReport(Struct, frozen=True):
     """A lab as it was tried: how many are fair, tables in tags, the students, and of each two the
     percent that one's right values earn on the other's sheet, a row for each sheet (-1 for itself);
-    more than ``apart`` is too much. ``exact`` says how many fair ones a pencil draws exactly enough.
+    more than ``apart`` is too much. ``exact`` tells how many of the fair ones a pencil draws
+    exactly enough.
     """
 
     fair: int = 0

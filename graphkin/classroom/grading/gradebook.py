@@ -247,8 +247,8 @@ def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counte
 
 
 def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:
-    """The column for the marks: the one that is named, else the only empty one but feedback and what
-    Canvas computes; of several that of Moodle's own name."""
+    """The column for the marks: the one that is named, else the only empty one but feedback and
+    what Canvas computes; of several that of Moodle's own name."""
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
