@@ -42,7 +42,7 @@ class Neighbours(Struct, frozen=True):
     pencil: Array
 
     def closest(self) -> tuple[int, int]:
-        """The sheet on which a neighbour's key earns most, and that neighbour: the first of equals."""
+        """The first of those pairs of whom a neighbour's key earns most: the sheet, the neighbour."""
         import numpy as np
 
         rounded = np.round(self.exact, 9)
