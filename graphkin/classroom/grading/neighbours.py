@@ -42,7 +42,7 @@ class Neighbours(Struct, frozen=True):
     pencil: Array
 
     def closest(self) -> tuple[int, int]:
-        """The first of those pairs of whom a neighbour's key earns most: the sheet, the neighbour."""
+        """The sheet on which a neighbour's key earns most, the first of several; that neighbour."""
         import numpy as np
 
         rounded = np.round(self.exact, 9)
