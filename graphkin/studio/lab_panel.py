@@ -85,8 +85,8 @@ def lab_report(trial: LabTrial, words: Words) -> LabReport:
     apart = percent(APART if limit is None else limit)
     exact = ""
     if trial.pencilled:
-        gaps = {"count": trial.pencilled - len(trial.coarse), "of": trial.pencilled}
-        exact = words("studio.exact_of", **gaps)
+        drawn = trial.pencilled - len(trial.coarse)
+        exact = words("studio.exact_of", count=drawn, of=trial.pencilled)
     return LabReport(count - trial.unfair, count, tables, rows, shares, apart, closest, exact)
 
 
