@@ -55,7 +55,8 @@ class StudentRow(Struct, frozen=True):
 class LabReport(Struct, frozen=True):
     """A lab as it was tried: how many are fair, tables in tags, the students, and of each two the
     percent that one's right values earn on the other's sheet, a row for each sheet (-1 for itself);
-    more than ``apart`` is too much.
+    more than ``apart`` is too much. ``exact`` tells how many of the fair ones a pencil draws
+    exactly enough.
     """
 
     fair: int = 0
@@ -65,6 +66,7 @@ class LabReport(Struct, frozen=True):
     shares: list[list[int]] = field(default_factory=list)
     apart: int = 0
     closest: str = ""
+    exact: str = ""
 
 
 def lab_report(outcome: LabTrial, words: Words) -> LabReport:
@@ -81,7 +83,11 @@ def lab_report(outcome: LabTrial, words: Words) -> LabReport:
     tables = "".join(trial_tables(outcome, words))
     limit = outcome.lab.fair.apart
     apart = percent(APART if limit is None else limit)
-    return LabReport(count - outcome.unfair, count, tables, rows, shares, apart, closest)
+    exact = ""
+    if outcome.pencilled:
+        drawn = outcome.pencilled - len(outcome.coarse)
+        exact = words("studio.exact_of", count=drawn, of=outcome.pencilled)
+    return LabReport(count - outcome.unfair, count, tables, rows, shares, apart, closest, exact)
 
 
 def percent(share: float) -> int:
@@ -138,7 +144,8 @@ def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:
     for broken in found.values():
         _, worst = max(broken, key=lambda one: abs(one[1].value - one[1].bound))
         names = [name for name, _ in broken]
-        yield Row((fault_words(worst, words, symbol), str(len(names)), some(names)))
+        told = fault_words(worst, words, lambda name: outcome.symbols.get(name) or symbol(name))
+        yield Row((told, str(len(names)), some(names)))
 
 
 def spread_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:

@@ -37,6 +37,8 @@ MAXIMA = {
 """Heads of the column in which Moodle's grading worksheet says what an assignment is worth."""
 GRADES = {folded(name) for name in ("grade", "notă", "valutazione", "voto")}
 """Heads of the column in which it wants the points."""
+COMPUTED = "(read only)"
+"""What that row says of a column that Canvas computes."""
 NOBODY = Signs()
 
 
@@ -194,13 +196,18 @@ def is_other(text: str, mark: Fraction) -> bool:
 def worth_of(book: GradebookTable, column: int) -> Fraction | None:
     """The points that a column is worth: Canvas has a row for them, Moodle's grading worksheet a
     column; None where nothing says so."""
-    row = next((row for row in book.rows[1:4] if is_possible(row)), ())
+    row = points_row(book)
     texts = {text_at(row, column)}
     for i, head in enumerate(book.rows[0]):
         if folded(head.text) in MAXIMA:
             texts = {text_at(row, i) for row in book.rows[1:] if text_at(row, i)}
     text = texts.pop().replace(",", ".") if len(texts) == 1 else ""
     return Fraction(text) if DECIMAL.fullmatch(text) else None
+
+
+def points_row(book: GradebookTable) -> Sequence[Cell]:
+    """Canvas's row of what each column is worth; nothing where there is none."""
+    return next((row for row in book.rows[1:4] if is_possible(row)), ())
 
 
 def is_possible(row: Sequence[Cell]) -> bool:
@@ -240,14 +247,15 @@ def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counte
 
 
 def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:
-    """The column for the marks: the one that is named, else the only empty one but feedback; of
-    several that of Moodle's own name."""
+    """The column for the marks: the one that is named, else the only empty one but feedback and
+    what Canvas computes; of several that of Moodle's own name."""
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
         found = [i for i in found if not is_comment(head[i])] or found
     else:
-        full = marked_columns(book, ids)
+        computed = {i for i, each in enumerate(points_row(book)) if each.text == COMPUTED}
+        full = marked_columns(book, ids) | computed
         found = [
             i for i, name in enumerate(head) if name and i not in full and not is_comment(name)
         ]

@@ -42,10 +42,11 @@ class Neighbours(Struct, frozen=True):
     pencil: Array
 
     def closest(self) -> tuple[int, int]:
-        """The sheet on which a neighbour's key earns most, and that neighbour."""
+        """The sheet on which a neighbour's key earns most, the first of several; that neighbour."""
         import numpy as np
 
-        own, other = np.unravel_index(np.nanargmax(self.exact), self.exact.shape)
+        rounded = np.round(self.exact, 9)
+        own, other = np.unravel_index(np.nanargmax(rounded), rounded.shape)
         return int(own), int(other)
 
 

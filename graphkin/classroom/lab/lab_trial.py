@@ -34,7 +34,8 @@ class LabTrial(Struct, frozen=True):
     draws, ``unmarked`` fields that are asked and earn nothing. ``compared`` are those of one class,
     as far as they can be drawn, with the data that such a class would get, ``neighbours`` what they
     have in common. ``coarse`` are those of the first ``pencilled`` fair variants of which a pencil
-    draws something less exactly than the lab allows, by name.
+    draws something less exactly than the lab allows, by name. ``symbols`` are the markup of fields,
+    with their units.
     """
 
     lab: Lab
@@ -47,6 +48,7 @@ class LabTrial(Struct, frozen=True):
     neighbours: Neighbours | None = None
     pencilled: int = 0
     coarse: Mapping[str, Fault] = {}
+    symbols: Mapping[str, str] = {}
 
     @property
     def unfair(self) -> int:
@@ -123,6 +125,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         neighbours_of(lab, drawn_at_all),
         pencilled,
         coarse,
+        {item.field: f"{item.symbol}, {item.unit.replace('²', '^2')}" for item in form},
     )
 
 

@@ -93,7 +93,8 @@ async function attempt() {
   if (!report) return;
   tried = now;
   room.classList.remove("old");
-  fairness(say("studio.fair_of", report), report.fair < report.count);
+  const told = [say("studio.fair_of", report), report.exact].filter(Boolean).join(" ");
+  fairness(told, report.fair < report.count);
   find("class-tables").innerHTML = report.tables;
   students = report.students;
   map(report);

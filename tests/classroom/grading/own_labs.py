@@ -1,13 +1,16 @@
 """Labs of one's own, with the formulas of a hand for each: no lab of ours, drawn small, at 1:5.
 
-``python -m tests.classroom.grading.own_labs`` prints, for ten classes of 120 of each kind, how many
-fields of honest drawings are not found right, and who is named.
+``python -m tests.classroom.grading.own_labs [CLASSES]`` prints, for ten classes of 120 of each
+kind, how many fields of honest drawings are not found right, and how many are named; of careful
+hands for labs of ours, too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+import sys
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 
@@ -18,7 +21,7 @@ from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
-from tests.classroom.grading import hand
+from tests.classroom.grading import classes, hand
 from tests.classroom.grading.classes import HONEST, Kind, Row, drawn_row, named
 from tests.scene_files import FOLDER
 
@@ -106,18 +109,26 @@ def not_right(result: Result) -> list[str]:
     ]
 
 
+def told(name: str, kind: Kind, results: Iterable[Result]) -> str:
+    """How many fields of some honest classes are not found right, and how many are named."""
+    missed = named_ones = fields = 0
+    for result in results:
+        missed += len(not_right(result))
+        named_ones += len(named(result))
+        fields += sum(mark.points > 0 for each in result.graded for mark in each.marks)
+    share = f"not right {100 * missed / fields:5.2f} % of {fields}"
+    return f"{name:20} {kind.name:30} {share}, named {named_ones}"
+
+
 def main() -> None:
     """Print what becomes of honest classes."""
-    for name in DRAW:
-        for kind in HONEST:
-            missed = told = fields = 0
-            for seed in range(10):
-                result = marked(name, honest_class(name, kind, seed))
-                missed += len(not_right(result))
-                told += len(named(result))
-                fields += sum(mark.points > 0 for each in result.graded for mark in each.marks)
-            share = 100 * missed / fields
-            print(f"{name:14} {kind.name:30} not right {share:5.2f} %, named {told}", flush=True)
+    careful, seeds = HONEST[0], range(int(sys.argv[1]) if len(sys.argv) > 1 else 10)
+    for lab in classes.LABS:
+        own = ((seed, classes.honest_class(lab, careful, seed)) for seed in seeds)
+        print(told(lab, careful, (classes.marked(lab, careful, *each) for each in own)), flush=True)
+    for name, kind in product(DRAW, HONEST):
+        rows = (honest_class(name, kind, seed) for seed in seeds)
+        print(told(name, kind, (marked(name, each) for each in rows)), flush=True)
 
 
 if __name__ == "__main__":

@@ -8,17 +8,18 @@ are found. What is right by all of a sheet is tried field by field.
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from graphkin.classroom.grading.feedback_rows import why
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker, is_right
 from graphkin.classroom.grading.neighbours import RightValues, is_within, neighbours, standards_of
 from graphkin.classroom.grading.one_drawing import is_near
 from graphkin.mechanism import load
 from graphkin.text import Words
-from graphkin.classroom.grading.feedback_rows import why
 from tests.chosen import EVERY
 from tests.classroom.grading import own_labs
 from tests.classroom.grading.classes import HONEST, is_found, named, written
@@ -96,7 +97,7 @@ def test_another_s_careful_drawing_earns_in_the_mean_no_more_than_the_lab_allows
     """From right values alone, of each on the next one's sheet."""
     answers, everybody = honest_class(name, CAREFUL, 3, COUNT), takers_of(name, COUNT)
     shares = []
-    for own, other in zip(everybody, everybody[1:], strict=False):
+    for own, other in pairwise(everybody):
         graded = book_of(name).marker(own.settings).mark(own, answers[other.student.id])
         right = sum(mark.earned for mark in graded.marks if mark.status is Status.RIGHT)
         shares.append(float(right / graded.points))

@@ -152,6 +152,8 @@ def test_canvas_keeps_its_row_of_points_and_its_quotes(tmp_path):
     expected = CANVAS.replace("A,,88.5", "A,8.5,88.5").replace("stefan,A,,", "stefan,A,12,")
     assert found.data.decode("utf-8") == expected
     assert found.column == "Lab 3 (4711)"
+    bare = CANVAS.replace("88.5", "")  # nothing is marked yet: what Canvas computes is empty, too
+    assert filled(book(tmp_path, bare), MARKS).column == found.column
 
 
 @pytest.mark.parametrize(
