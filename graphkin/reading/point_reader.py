@@ -32,7 +32,7 @@ VAGUE, MEET, BESIDE = 4.0, 3, 2.5
 lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
 than so many mm.
 """
-ELSEWHERE = 0.6
+ELSEWHERE = 0.8
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
 WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
@@ -90,7 +90,9 @@ class PointReader(PointSearch):
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
         away = np.inf if best is None else where.away(best.place, best.error)
         off = away > FITS and (
-            best is None or best.count < 2 or max(self.covers(number, best.place, False), default=0.0) < DRAWN
+            best is None
+            or best.count < 2
+            or max(self.covers(number, best.place, False), default=0.0) < DRAWN
         )
         if best is None or best.cover < DRAWN or off:
             self.unread.add(number)
@@ -128,8 +130,9 @@ class PointReader(PointSearch):
         if far is not None:
             there = self.likely(number, far.place, own)
             here = self.likely(number, best.place, own) if best is not None else 0.0
+            seen = best is not None and (best.count > 1 or best.ends)
             close = best is not None and own.away(best.place, best.error) <= SURE
-            if there > here + AS_EXPECTED * (fits + close + stands):
+            if there > here + AS_EXPECTED * (seen * (fits + close) + stands):
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
 
@@ -177,7 +180,13 @@ class PointReader(PointSearch):
             ended = ended and self.is_single(number, best.place)
             vague = (own.radius > VAGUE and not met) or untried  # by a trial plan nobody saw
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            ask = away > SURE or (best.count < 2 and not ended) or best.cover < WHOLE or fresh or doubtful
+            ask = (
+                away > SURE
+                or (best.count < 2 and not ended)
+                or best.cover < WHOLE
+                or fresh
+                or doubtful
+            )
             ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
