@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
-from graphkin.reading.lettered_points import LetteredSheet
+from graphkin.reading.lettered_points import SHORT, LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
@@ -25,6 +25,10 @@ from graphkin.reading.point_search import (
     PointSearch,
 )
 
+OUTSIDE, APART = 8.0, 3.0
+"""The squared distance from the key, in deviations, and that in mm, from which it may follow from a
+mistake that nobody saw.
+"""
 OFF = 16.0
 """The squared distance from what is not expected, in deviations, from which a place is off it."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
@@ -130,9 +134,10 @@ class PointReader(PointSearch):
         if far is not None:
             there = self.likely(number, far.place, own)
             here = self.likely(number, best.place, own) if best is not None else 0.0
-            seen = best is not None and (best.count > 1 or best.ends)
             close = best is not None and own.away(best.place, best.error) <= SURE
-            if there > here + AS_EXPECTED * (seen * (fits + close) + stands):
+            if best is not None and fits and close and abs(far.place - best.place) < 2 * SHORT:
+                there = 0.0  # the same line runs on a little
+            if there > here + AS_EXPECTED * (fits + close + stands):
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
 
@@ -192,7 +197,7 @@ class PointReader(PointSearch):
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OFF or abs(best.place - key.middle) > BESIDE
+                ask = ask or from_key > OUTSIDE or abs(best.place - key.middle) > APART
                 ask = ask or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"

@@ -218,10 +218,12 @@ class PointSearch:
         return not self.is_open(number) and not are_crossing(ends, place)
 
     def is_open(self, number: int) -> bool:
-        """Whether nobody knows where some line begins that leads to a point."""
+        """Whether nobody knows where some line begins by which a hand finds a point."""
+        later = self.sheet.exact.program.descendants(number)
         return any(
             not (each.after or each.given or each.bow or self.is_known(each))
             for each in self.sheet.leading[number]
+            if each.far not in later
         )
 
     def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
