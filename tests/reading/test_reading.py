@@ -426,7 +426,7 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     number = next(n for n in reader.sheet.points if reader.sheet.exact.program.steps[n].name == "a")
     read = LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0)
     own = ExpectedPlace(300.2 + 100j, np.eye(2) * 0.2)
-    for off, asked in ((1.0, False), (3.0, True)):
+    for off, asked in ((1.0, False), (3.2, True)):
         key = ExpectedPlace(300 + off + 100j, np.eye(2) * 4.0)
         told = reader.told(number, key, own, read)
         assert (told.verdict, told.ask) == ("right", asked)
