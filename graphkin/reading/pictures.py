@@ -147,13 +147,25 @@ def grey_of(photograph: Photograph) -> Any:
             warnings.simplefilter("ignore")
             image = scanned(data, photograph.page) if photograph.page is not None else opened(data)
             refuse_size(*image.size)
-            return np.ascontiguousarray(np.asarray(ImageOps.exif_transpose(image).convert("L")))
+            return np.ascontiguousarray(np.asarray(darkest(ImageOps.exif_transpose(image))))
     except UnidentifiedImageError:
         raise Unreadable(f"is no picture: {EXPECTED} is expected") from None
     except Image.DecompressionBombError:
         raise Unreadable(f"has more than {MOST_PIXELS // 10**6} million pixels") from None
     except (OSError, ValueError, SyntaxError, EOFError, MemoryError, RuntimeError):
         raise Unreadable("is cut short or damaged") from None
+
+
+def darkest(image: Any) -> Any:
+    """The darkest of a picture's colours at each place, as greys: a coloured pencil is as dark
+    there as a grey one.
+    """
+    from PIL import ImageChops
+
+    if image.mode in ("1", "L"):
+        return image.convert("L")
+    red, green, blue = image.convert("RGB").split()
+    return ImageChops.darker(ImageChops.darker(red, green), blue)
 
 
 def opened(data: bytes) -> Any:

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
-from graphkin.reading.lettered_points import LetteredSheet
+from graphkin.reading.lettered_points import SHORT, LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
@@ -25,6 +25,10 @@ from graphkin.reading.point_search import (
     PointSearch,
 )
 
+OUTSIDE, APART = 8.0, 3.0
+"""The squared distance from the key, in deviations, and that in mm, from which it may follow from a
+mistake that nobody saw.
+"""
 OFF = 16.0
 """The squared distance from what is not expected, in deviations, from which a place is off it."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
@@ -32,7 +36,7 @@ VAGUE, MEET, BESIDE = 4.0, 3, 2.5
 lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
 than so many mm.
 """
-ELSEWHERE = 0.6
+ELSEWHERE = 0.8
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
 WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
@@ -90,7 +94,9 @@ class PointReader(PointSearch):
         best = self.best_near(number, where) if np.isfinite(where.middle) else None
         away = np.inf if best is None else where.away(best.place, best.error)
         off = away > FITS and (
-            best is None or best.count < 2 or max(self.covers(number, best.place, False), default=0.0) < DRAWN
+            best is None
+            or best.count < 2
+            or max(self.covers(number, best.place, False), default=0.0) < DRAWN
         )
         if best is None or best.cover < DRAWN or off:
             self.unread.add(number)
@@ -129,6 +135,8 @@ class PointReader(PointSearch):
             there = self.likely(number, far.place, own)
             here = self.likely(number, best.place, own) if best is not None else 0.0
             close = best is not None and own.away(best.place, best.error) <= SURE
+            if best is not None and fits and close and abs(far.place - best.place) < 2 * SHORT:
+                there = 0.0  # the same line runs on a little
             if there > here + AS_EXPECTED * (fits + close + stands):
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
@@ -177,13 +185,19 @@ class PointReader(PointSearch):
             ended = ended and self.is_single(number, best.place)
             vague = (own.radius > VAGUE and not met) or untried  # by an auxiliary plan nobody saw
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
-            ask = away > SURE or (best.count < 2 and not ended) or best.cover < WHOLE or fresh or doubtful
+            ask = (
+                away > SURE
+                or (best.count < 2 and not ended)
+                or best.cover < WHOLE
+                or fresh
+                or doubtful
+            )
             ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OFF or abs(best.place - key.middle) > BESIDE
+                ask = ask or from_key > OUTSIDE or abs(best.place - key.middle) > APART
                 ask = ask or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"

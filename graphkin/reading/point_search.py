@@ -75,7 +75,7 @@ ENOUGH, AS_EXPECTED = 1.8, 0.3
 """
 APART = 1.5
 """Nearer to a known point, in mm, another cannot be told from it."""
-TRIED = 24
+TRIED = 16
 """Places that are tried with what would follow from them."""
 
 
@@ -89,6 +89,7 @@ class PointSearch:
         self.guessed: set[int] = set()
         self.next: Mapping[int, Any] = {}
         self.drawings: Mapping[int, Any] = {}
+        self.fans: dict[complex, list[tuple[complex, float]]] = {}
 
     # --- what is expected -------------------------------------------------------------------------
 
@@ -152,7 +153,8 @@ class PointSearch:
         """Whether what was found of a point fits, and all is there that leads to it."""
         if best is None or where.away(best.place, best.error) > FITS:
             return False
-        return self.agreement(number, best.place) >= AGREED or self.stands(number, best, where)
+        agreed = self.agreement(number, best.place, read=best.count > 1)
+        return agreed >= AGREED or self.stands(number, best, where)
 
     def stands(self, number: int, best: LinesCrossing | None, where: ExpectedPlace) -> bool:
         """Whether lines cross so well where a point is expected that a vector may be lacking."""
@@ -216,10 +218,12 @@ class PointSearch:
         return not self.is_open(number) and not are_crossing(ends, place)
 
     def is_open(self, number: int) -> bool:
-        """Whether nobody knows where some line begins that leads to a point."""
+        """Whether nobody knows where some line begins by which a hand finds a point."""
+        later = self.sheet.exact.program.descendants(number)
         return any(
             not (each.after or each.given or each.bow or self.is_known(each))
             for each in self.sheet.leading[number]
+            if each.far not in later
         )
 
     def cover_of(self, number: int, leading: Leading, place: complex) -> float | None:
@@ -229,7 +233,7 @@ class PointSearch:
             return None
         if self.begins(leading) & self.guessed:
             found = self.ink.lines(far, place, GUESSED, 0.5)
-            return max((line.cover for line in found), default=0.0)
+            return max((line.cover for line in found), default=None)
         if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
             return self.ink.cover(far, place, 0.4, hidden=1.0, arrives=True)
         value = self.sheet.exact.trace.values[leading.far]
@@ -384,23 +388,28 @@ class PointSearch:
             ((self.led_to(number, place, ends, crossed), place) for place in plausible),
             key=lambda each: -each[0] + 0.002 * abs(each[1] - where.middle),
         )
-        tried: list[tuple[float, complex]] = []
-        for led, place in first[:TRIED]:
-            if led < DRAWN:
+        tried: list[tuple[float, LinesCrossing]] = []
+        for roughly, rough in first[:TRIED]:
+            if roughly < DRAWN:
                 break
+            found = self.settled(number, rough)
+            place = found.place
             if self.agreement(number, place, read=True) < AGREED:
                 continue
-            follows = self.followed(number, place)
-            if len(ends) >= WAYS and self.agreement(number, place, read=True) >= SURELY:
-                follows = max(follows, ALONE)
-            score = led + follows - 0.003 * abs(place - where.middle)
+            if any(abs(place - other) < APART for other in taken):
+                continue
+            led = self.led_to(number, place, ends, crossed)
+            score = led + self.follows(number, place, ends) - 0.003 * abs(place - where.middle)
             if score > ENOUGH:
-                tried.append((score, place))
-        for _, place in sorted(tried, key=lambda each: -each[0]):
-            found = self.settled(number, place)
-            if all(abs(found.place - other) > APART for other in taken):
-                return found
-        return None
+                tried.append((score, found))
+        return max(tried, key=lambda each: each[0])[1] if tried else None
+
+    def follows(self, number: int, place: complex, ends: Sequence[complex]) -> float:
+        """How well what would follow from a place is drawn; a place to which all ways are drawn
+        needs none of that.
+        """
+        sure = len(ends) >= WAYS and self.agreement(number, place, read=True) >= SURELY
+        return max(self.followed(number, place), ALONE * sure)
 
     def likely(self, number: int, place: complex, where: ExpectedPlace) -> float:
         """How much of what leads to a place and of what would follow from it is drawn, and of all
@@ -408,10 +417,7 @@ class PointSearch:
         """
         ends = self.known_ends(number)
         led = self.led_to(number, place, ends, are_crossing(ends, where.middle))
-        follows, agreed = self.followed(number, place), self.agreement(number, place)
-        if len(ends) >= WAYS and agreed >= SURELY:
-            follows = max(follows, ALONE)
-        return led + follows + agreed
+        return led + self.follows(number, place, ends) + self.agreement(number, place)
 
     def led_to(self, number: int, place: complex, ends: Sequence[complex], crossed: bool) -> float:
         """How well what leads to a place is drawn, ends there, and runs as it should."""
@@ -454,6 +460,12 @@ class PointSearch:
 
     def rays(self, start: complex) -> list[tuple[complex, float]]:
         """The drawn lines that leave a place: unit direction, and how far each goes."""
+        if start not in self.fans:
+            self.fans[start] = self.fan(start)
+        return self.fans[start]
+
+    def fan(self, start: complex) -> list[tuple[complex, float]]:
+        """The directions about a place in which something is drawn, and how far it goes there."""
         angles = np.radians(np.arange(0, 360, TURN))
         radii = np.arange(BEGIN, 230.0, PACE)
         ways = np.exp(1j * angles)
@@ -525,9 +537,7 @@ class PointSearch:
         beyond = self.beyond(number, place)
         return STOPS * (1 - float(np.mean(beyond))) if beyond else STOPS / 2
 
-    def beyond(
-        self, number: int, place: complex, to: complex | None = None
-    ) -> list[float]:
+    def beyond(self, number: int, place: complex, to: complex | None = None) -> list[float]:
         """How much is drawn beyond a place of each vector that comes to it from a known end, of
         all or of those that run on to another place.
         """
@@ -562,9 +572,9 @@ class PointSearch:
         for leading in self.sheet.leading[number]:
             far = self.far_place(leading, values)
             if not leading.bow and np.isfinite(far) and abs(far - place) > 2 * SHORT:
-                some = self.ink.lines(far, place, 0.8, 1.2)
+                some = self.ink.lines(far, place, 0.8, GUESSED)
                 lines += [some] if some else []
-        found = through(place, distinct(lines, place), 1.2)
+        found = through(place, distinct(lines, place), GUESSED)
         return found or LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
 
 

@@ -225,9 +225,7 @@ class SheetSearch:
         return float((measured.found & measured.seen).sum() / max(measured.seen.sum(), 1))
 
 
-def followed(
-    smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float
-) -> PaperMap:
+def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: float) -> PaperMap:
     """The map that printed lines give, followed ring by ring, bending fitted from some ring on."""
     height, width = smooth.shape
     fit = MapFit(start(width, height, square, np.asarray(corners, dtype=float)), square, corners)

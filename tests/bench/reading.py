@@ -6,7 +6,9 @@ Without labs, of those below. A scene becomes a lab whose students have its firs
 
 A third of the sheets have a mistake, a twelfth lacks a point; every fourth picture is hard, every
 eighth a flatbed scan. Prints how far the map is off, where points are placed, how much is decided,
-and how much of it wrongly. A folder keeps the pictures with their truth: they are read again.
+and how much of it wrongly, twice: by definition, where *right* is what lies within the student's
+pencil of the key, and with what comes after a mistake counted as wrong wherever it lies. A folder
+keeps the pictures with their truth: they are read again.
 """
 
 from __future__ import annotations
@@ -25,12 +27,17 @@ import numpy as np
 from click.testing import CliRunner
 from msgspec import Struct
 
+from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
+from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import HALF
 from graphkin.reading.pictures import Photograph
+from graphkin.reading.point_reader import forecast_points
+from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_run import read_order
-from graphkin.reading.read_sheet import Grid, SheetRecord, read_one
+from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRecord, read_one, task_pages
+from graphkin.reading.read_sheet import sheets_of as key_sheets
 from tests.reading.camera import Shot, photograph, scan
 from tests.reading.hand import Habits, TruePoint, drawn_sheet, sheets_of
 
@@ -155,7 +162,11 @@ def take(classes: dict[str, Path], where: Path, seed: int, i: int) -> None:
     truth.write_bytes(msgspec.json.encode(Taken(lab, drawing.points, grid)))
 
 
-def read_again(classes: dict[str, Path], where: Path, i: int) -> tuple[str, Taken, Any] | None:
+Again = tuple[str, Taken, SheetRecord, dict[int, float]]
+"""A picture's name, what is true of it, what was read, and how far off the key is right, in mm."""
+
+
+def read_again(classes: dict[str, Path], where: Path, i: int) -> Again | None:
     """What is read of the i-th picture, with what is true of it."""
     import cv2
 
@@ -166,7 +177,19 @@ def read_again(classes: dict[str, Path], where: Path, i: int) -> tuple[str, Take
     taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
     order = read_order(open_class(classes[taken.lab]), Grid(XS, YS))
     record = read_one(order, Photograph(path.stem, path), "").record
-    return path.stem, taken, record
+    return path.stem, taken, record, tolerances(order, record)
+
+
+def tolerances(order: ReadOrder, record: SheetRecord) -> dict[int, float]:
+    """Within so many mm of the key the student's pencil has 95 of 100 drawings of each point."""
+    if record.refused is not None:
+        return {}
+    variant = order.variants[record.code]
+    sheets = key_sheets(order.order, variant, variant.spoken or order.order.language)
+    drawing = next(each for each in sheets.drawings if each.kind == record.kind)
+    sheet = LetteredSheet(drawing, dict(task_pages(sheets))[record.kind])
+    pencil = Pencil(sheets.lab.rubric.point, sheets.lab.rubric.line)
+    return {point.step: point.error for point in forecast_points(sheet, pencil)}
 
 
 class Tally:
@@ -180,10 +203,11 @@ class Tally:
         self.decided, self.clean = 0, 0
         self.refused: list[str] = []
         self.wrongly: list[str] = []
+        self.after: list[str] = []
         self.missed: list[str] = []
         self.untold: list[str] = []
 
-    def add(self, name: str, taken: Taken, record: SheetRecord) -> None:
+    def add(self, name: str, taken: Taken, record: SheetRecord, within: dict[int, float]) -> None:
         """Hold what was read of a picture to what is true of it."""
         if record.refused is not None:
             self.refused.append(f"{name}: {record.refused}")
@@ -221,16 +245,18 @@ class Tally:
                         f"{where}: {point.verdict}, {read.verdict}{asked}, {off:.1f}"
                     )
             if not read.ask and read.verdict != point.verdict:
-                self.wrongly.append(f"{where}: {point.verdict}, said {read.verdict}")
+                told = f"{where}: {point.verdict}, said {read.verdict}"
+                (self.after if is_right(point, read, within) else self.wrongly).append(told)
             elif clean and read.ask and point.at is not None and off < 1:
                 self.missed.append(f"{where}: asked, {read.verdict} at {read.off} of {read.error}")
 
     def report(self) -> None:
         """Print it."""
-        off, every = np.array(self.placed), np.concatenate(self.maps)
+        off, residuals = np.array(self.placed), np.concatenate(self.maps)
         near = off[off < 1]
         print(f"refused  {len(self.refused)}, read {len(self.maps)}", *self.refused, sep="\n")
-        print(f"map      median {np.median(every):.3f} mm, 95 % {np.percentile(every, 95):.3f} mm")
+        print(f"map      median {np.median(residuals):.3f} mm,", end=" ")
+        print(f"95 % {np.percentile(residuals, 95):.3f} mm")
         print(f"points   {len(off)}, within 1 mm {np.mean(off < 1):.1%},", end=" ")
         print(f"95 % of them within {np.percentile(near, 95):.2f} mm")
         for lab in sorted({lab for lab, _ in self.labs}):
@@ -238,14 +264,24 @@ class Tally:
             print(f"         {lab}: {right} of {right + off_it}")
         share = self.decided / max(self.clean, 1)
         print(f"decided  {self.decided} of {self.clean} on sheets without a mistake, {share:.1%}")
+        every = sum(self.count.values())
+        print(f"wrongly  {len(self.wrongly)} of {every} by definition", *self.wrongly, sep="\n")
+        both = len(self.wrongly) + len(self.after)
         print(
-            f"wrongly  {len(self.wrongly)} of {sum(self.count.values())}", *self.wrongly, sep="\n"
+            f"         {both} where a mistake before it makes a point wrong", *self.after, sep="\n"
         )
         print(f"seconds  median {np.median(self.spent):.2f}, most {np.max(self.spent):.2f}")
         for name, times in sorted(self.count.items()):
             print(*name[:3], "asked" if name[3] else "decided", times)
         print(f"not told of  {len(self.untold)}, counted as beside", *self.untold, sep="\n")
         print("beside or asked:", *self.missed, sep="\n")
+
+
+def is_right(true: TruePoint, read: PointReading, within: dict[int, float]) -> bool:
+    """Whether a point that was drawn after a mistake lies so near the key that it is right."""
+    if true.at is None or read.verdict != "right":
+        return False
+    return float(np.hypot(true.at[0] - read.key[0], true.at[1] - read.key[1])) <= within[true.step]
 
 
 def main(count: int, labs: list[str], seed: int, keep: Path | None, jobs: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import json
 from pathlib import Path
 from wsgiref.util import setup_testing_defaults
@@ -23,11 +24,12 @@ from graphkin.reading import registration
 from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.expected_place import expected
+from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing, along_way
 from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
+from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import PointSearch
 from graphkin.reading.read_run import read_order
@@ -381,6 +383,55 @@ def test_a_letter_beside_the_end_of_a_line_does_not_hide_it() -> None:
     assert end.end == pytest.approx(0.5, abs=0.5)
 
 
+def ring_of(place: complex, radius: float) -> list[tuple[complex, complex]]:
+    """A ring as short lines."""
+    turns = place + radius * np.exp(1j * np.linspace(0, 2 * np.pi, 13))
+    return list(itertools.pairwise(turns.tolist()))
+
+
+MARKS = {
+    "ring": ring_of(230 + 100j, 0.9),
+    "dot": ring_of(230 + 100j, 0.4),
+    "cross": [(230 + 98.8j, 230 + 101.2j)],
+}
+
+
+@pytest.mark.parametrize("mark", MARKS)
+def test_a_point_is_seen_by_its_mark_on_a_line(mark: str) -> None:
+    line = (200 + 100j, 260 + 100j)
+    places = np.arange(226, 234, 0.2) + 100j
+    found = ink_of(line, *MARKS[mark]).spot(places, 1 + 0j)
+    assert found is not None
+    assert abs(found - (230 + 100j)) < 0.4
+    assert ink_of(line).spot(places, 1 + 0j) is None
+    through = ink_of(line, (230 + 90j, 230 + 110j))  # a line that crosses it marks nothing
+    assert through.spot(places, 1 + 0j) is None
+
+
+def test_a_line_that_ends_before_a_place_does_not_arrive_there() -> None:
+    ink = ink_of((200 + 100j, 260 + 100j))
+    assert ink.cover(200 + 100j, 260 + 100j, arrives=True) == pytest.approx(1)
+    assert ink.cover(200 + 100j, 270 + 100j) > 0.8
+    assert ink.cover(200 + 100j, 270 + 100j, arrives=True) < 0.5
+    assert ink.cover(200 + 100j, 266 + 100j, hidden=1.0, arrives=True) < 0.8
+
+
+def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) -> None:
+    """Right and what follows from an unseen mistake are both possible there."""
+    sheets = sheets_of(a_class, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    reader = PointReader(LetteredSheet(drawing, page), ink_of(), Pencil(0.4, 0.4))
+    reader.next = reader.ahead({})
+    number = next(n for n in reader.sheet.points if reader.sheet.exact.program.steps[n].name == "a")
+    read = LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0)
+    own = ExpectedPlace(300.2 + 100j, np.eye(2) * 0.2)
+    for off, asked in ((1.0, False), (3.2, True)):
+        key = ExpectedPlace(300 + off + 100j, np.eye(2) * 4.0)
+        told = reader.told(number, key, own, read)
+        assert (told.verdict, told.ask) == ("right", asked)
+
+
 def test_rays_end_where_the_field_does(a_class: Path, code: str) -> None:
     sheets = sheets_of(a_class, code)
     drawing = next(each for each in sheets.drawings if each.kind == "velocity")
@@ -434,15 +485,63 @@ def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None
     height, width = image.shape
     corners = registration.square_of(page) * 10 - 0.5
     corners[:, 1] += 48  # as if all lay 4.8 mm lower, where the border is the frame's neighbour
-    fit = registration.MapFit(width, height, registration.square_of(page), corners)
-    about = registration.sides_off(image, fit.map, lines)
+    over = registration.start(width, height, registration.square_of(page), corners)
+    about = registration.sides_off(image, over, lines)
     _, y = lines.places.T
     level = abs(lines.normals[:, 1]) > 0.5
     shift = lines.normals[:, 1] * about
     assert shift[level & (y < 14)] == pytest.approx(-4.8, abs=0.9)  # the fit does the rest
     assert not about[level & (y > 20) & (y < 270)].any()
-    right = registration.MapFit(width, height, registration.square_of(page), corners - [0, 48])
-    assert not registration.sides_off(image, right.map, lines).any()
+    right = registration.start(width, height, registration.square_of(page), corners - [0, 48])
+    assert not registration.sides_off(image, right, lines).any()
+
+
+def test_the_frame_is_followed_once_for_all_sheets_and_each_is_told(
+    a_class: Path, code: str
+) -> None:
+    """The sheet whose own lines are on the picture is likelier than the other, by one map."""
+    pages = {each.kind: each.pages[0] for each in sheets_of(a_class, code).of("task")[:2]}
+    assert len(pages) == 2
+    for kind, page in pages.items():
+        image = printed(a_class, code, kind)
+        corners = registration.square_of(page) * 10 - 0.5
+        search = registration.SheetSearch(image, corners)
+        likely = {
+            name: search.likeness(each, [other for other in pages.values() if other is not each])
+            for name, each in pages.items()
+        }
+        assert max(likely, key=lambda name: likely[name]) == kind
+        found = search.registered(page)
+        assert found is not None
+        assert not found.refused
+        assert len(search.frames) == 1
+        off = found.map(grid_places()) - (grid_places() * 10 - 0.5)
+        assert np.hypot(*off.T).max() < 2  # pixels, of ten a mm
+
+
+PENCILS = {"red": (0.15, 0.9, 0.9), "green": (0.85, 0.2, 0.8), "blue": (0.9, 0.7, 0.1)}
+"""How much of red, green and blue light a coloured pencil takes."""
+
+
+@pytest.mark.parametrize("colour", PENCILS)
+def test_a_coloured_pencil_is_read_like_a_grey_one(
+    a_class: Path, code: str, tmp_path: Path, colour: str
+) -> None:
+    blank = printed(a_class, code, "velocity").astype(np.float32)
+    drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
+    taken = (blank - drawing.image)[..., None] * np.array(PENCILS[colour])
+    image = np.clip(blank[..., None] - taken, 0, 255).astype(np.uint8)
+    Image.fromarray(image).resize((3150, 2228), Image.Resampling.BOX).save(tmp_path / "one.png")
+    found = call(
+        "read", a_class, tmp_path / "one.png", "-o", tmp_path / "read", "--json", "--jobs", "1"
+    )
+    assert found.exit_code == 0, found.output
+    read = json.loads((tmp_path / "one.points.json").read_text(encoding="utf-8"))
+    by_step = {point["step"]: point for point in read["points"]}
+    for point in drawing.points:
+        told = by_step[point.step]
+        assert told["verdict"] == "right", point.name
+        assert np.hypot(*(np.array(told["at"]) - point.at)) < 1, point.name
 
 
 def test_a_single_line_leaves_a_cloud_open_along_itself() -> None:

@@ -1,0 +1,74 @@
+"""The marking desk at its first doubtful point, and a marked drawing, as pictures for the README.
+
+    python -m tests.reading.desk_pictures FOLDER -o examples
+
+FOLDER is what ``python -m tests.bench.reading N -o FOLDER`` keeps.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import msgspec
+
+from graphkin.classroom.grading.class_folder import open_class
+from graphkin.reading.marked_drawing import drawings_of_class
+from graphkin.reading.pictures import Photograph
+from graphkin.reading.read_run import read_class, read_order
+from graphkin.reading.read_sheet import Grid
+from graphkin.reading.settled_points import PointDecision, SettledPoints
+from graphkin.text import words
+from tests.bench.desk import desk_of
+from tests.bench.reading import Taken
+
+
+def settle(folder: Path, name: str, taken: Taken, steps: set[int]) -> None:
+    """Decide what is asked as one who knows what was drawn."""
+    settled = SettledPoints(folder)
+    for each in taken.points:
+        if each.step in steps:
+            settled.add(PointDecision(name, each.step, each.verdict, each.at))
+
+
+def main(folder: Path, name: str, out: Path) -> None:
+    """Read one photograph of a bench, open the desk on it, then mark it and give it back."""
+    from playwright.sync_api import sync_playwright
+
+    path = folder / f"{name}.jpg"
+    taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
+    opened = open_class(folder / Path(taken.lab).stem)
+    with sync_playwright() as driver, TemporaryDirectory() as kept:
+        browser = driver.chromium.launch(
+            executable_path=shutil.which("chromium"), args=["--no-sandbox"]
+        )
+        read = Path(kept) / "read"
+        photograph = Photograph(name, path)
+        outcome = read_class(
+            opened, [photograph], read, read_order(opened, Grid()), 1, lambda done, of: None
+        )
+        page = browser.new_page(viewport={"width": 1440, "height": 900})
+        with desk_of(read) as (address, _):
+            page.goto(address)
+            page.wait_for_selector("body[data-ready=yes]")
+            page.wait_for_function("document.querySelector('#paper image') !== null")
+            page.screenshot(path=out / "marking-desk.png")
+        asked = {point.step for point in outcome.records[0].points if point.ask}
+        settle(read, name, taken, asked)
+        (marked,) = drawings_of_class(opened, read, words("en"), ["html"]).values()
+        (Path(kept) / "marked.html").write_bytes(marked)
+        page.set_viewport_size({"width": 1100, "height": 1080})
+        page.goto((Path(kept) / "marked.html").as_uri())
+        page.screenshot(path=out / "marked-drawing.png")
+        browser.close()
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("name", nargs="?", default="p004")
+    parser.add_argument("-o", type=Path, required=True)
+    said = parser.parse_args()
+    main(said.folder, said.name, said.o)
