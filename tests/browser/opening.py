@@ -55,6 +55,15 @@ def barred(page: Any) -> list[tuple[str, list[str]]]:
     return [(rule["id"], [node["html"][:120] for node in rule["nodes"]]) for rule in found]
 
 
+LOOK = {
+    "viewport": {"width": 1280, "height": 720},
+    "color_scheme": "light",
+    "reduced_motion": "no-preference",
+    "forced_colors": "none",
+}
+"""What a tab may be opened with in another way than before; Playwright's own values."""
+
+
 class Watch:
     """What a page tells on its console at some levels, and asks for beyond some addresses."""
 
@@ -89,32 +98,27 @@ class Tab:
 
     def __init__(self, chromium: Any, stopped: bool, **options: Any) -> None:
         self.page = chromium.new_context(**options).new_page()
-        self.options, self.stopped, self.hours = options, stopped, 0
+        self.stopped, self.hours = stopped, 0
         self.watch = Watch(self.page)
         if stopped:
             self.page.clock.install(time=0)
 
-    def open(self, address: str) -> Any:
+    def open(self, address: str, **look: Any) -> Any:
         """Open an address; a page's clock that is stopped stands still once it is there."""
         self.hours += 1
+        self.page.set_viewport_size(look.pop("viewport"))
+        self.page.emulate_media(media="null", **look)
         self.page.goto(address)
         if self.stopped:
             self.page.clock.pause_at(HOUR * self.hours)
         return self.page
 
     def forget(self) -> None:
-        """Leave the page, and what a test kept, pressed, and made of the window."""
-        page, options = self.page, self.options
+        """Leave the page, and what a test kept and pressed."""
+        page = self.page
         page.evaluate("localStorage.clear(); sessionStorage.clear()")
         page.mouse.up()
         page.mouse.move(0, 0)
-        page.emulate_media(
-            media="null",
-            color_scheme=options.get("color_scheme", "light"),
-            reduced_motion=options.get("reduced_motion", "no-preference"),
-            forced_colors=options.get("forced_colors", "none"),
-        )
-        page.set_viewport_size(options.get("viewport", {"width": 1280, "height": 720}))
         if self.stopped:
             page.clock.resume()
         page.goto("about:blank")
@@ -141,12 +145,13 @@ def watched(
     taken: dict[str, Tab] = {}
 
     def page(address: str, *, stopped: bool = False, **options: Any) -> Any:
+        look = {name: options.pop(name, usual) for name, usual in LOOK.items()}
         key = repr((stopped, sorted(options.items())))
         while key in taken:
             key += "'"
         taken[key] = tab = tabs.pop(key, None) or Tab(chromium, stopped, **options)
         tab.watch.begin(own, levels)
-        return tab.open(address)
+        return tab.open(address, **look)
 
     yield page
     wrong = [line for tab in taken.values() for line in tab.watch.wrong]
