@@ -1,10 +1,10 @@
 """Which small mistakes no test finds: ``python -m tests.bench.mutants 12 --seed 1``.
 
 A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
-Each is tried in a copy by the tests of its room and by those of what is kept of all outputs, until
-the first that fails. ``--only PATH…`` takes the mutants from some modules. What survives is printed
-with its line; a survivor wants a test, or is equivalent: ``survivors.txt`` keeps those of the last
-run with a word each.
+Each is tried in a copy by the tests that import its module, by those of its room and by those of
+what is kept of all outputs, until the first that fails. ``--only PATH…`` takes the mutants from
+some modules. What survives is printed with its line; a survivor wants a test, or is equivalent:
+``survivors.txt`` keeps those of the last run with a word each.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import ast
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -112,6 +113,19 @@ def mutants(path: Path) -> Iterator[Mutant]:
         yield Mutant(path.relative_to(ROOT), node.lineno, node.col_offset, before, after)
 
 
+def nearest(path: Path) -> Iterator[list[str]]:
+    """What tries a module: the tests that import it, those of its room, what is kept of all."""
+    *packages, name = path.with_suffix("").parts
+    told = re.compile(
+        rf"\b{'.'.join((*packages, name))}\b|from {'.'.join(packages)} import [^\n]*\b{name}\b"
+    )
+    texts = {each: each.read_text(encoding="utf-8") for each in ROOT.glob("tests/**/test_*.py")}
+    yield [str(each.relative_to(ROOT)) for each, text in texts.items() if told.search(text)]
+    room = Path("tests") / path.parts[1]
+    yield [str(room)] if (ROOT / room).is_dir() else []
+    yield ["tests/golden"]
+
+
 def survives(mutant: Mutant) -> bool:
     """Whether no test of the mutant's room, and no kept output, changes."""
     with TemporaryDirectory() as name:
@@ -121,16 +135,17 @@ def survives(mutant: Mutant) -> bool:
             (copy / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / path, copy / path)
         (copy / mutant.path).write_text(mutant.source, encoding="utf-8")
-        room = Path("tests") / mutant.path.parts[1]
-        rooms = [str(room)] if (copy / room).is_dir() else []
-        command = [sys.executable, "-m", "pytest", "-q", "-x", "tests/golden", *rooms]
-        try:
-            ran = subprocess.run(
-                command, cwd=copy, capture_output=True, timeout=ENDLESS, check=False
-            )
-        except subprocess.TimeoutExpired:
-            return False
-        return ran.returncode == 0
+        return not any(fails(copy, tests) for tests in nearest(mutant.path) if tests)
+
+
+def fails(copy: Path, tests: Sequence[str]) -> bool:
+    """Whether one of some tests fails in a copy."""
+    command = [sys.executable, "-m", "pytest", "-q", "-x", *tests]
+    try:
+        ran = subprocess.run(command, cwd=copy, capture_output=True, timeout=ENDLESS, check=False)
+    except subprocess.TimeoutExpired:
+        return True
+    return ran.returncode != 0
 
 
 def main(words: Sequence[str] | None = None) -> None:

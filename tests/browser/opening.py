@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any, NoReturn
 
 import pytest
@@ -21,8 +20,6 @@ LONG = 300_000
 """Milliseconds after which nothing more is waited for, on however slow a machine."""
 HOUR = 3600
 """Seconds after which the clock of a page stands still, for every page that a tab opens."""
-FILES = ("file:", "blob:", "data:")
-"""With what the addresses begin that a page from a file may ask for."""
 
 
 @pytest.fixture(scope="module")
@@ -58,16 +55,30 @@ def barred(page: Any) -> list[tuple[str, list[str]]]:
     return [(rule["id"], [node["html"][:120] for node in rule["nodes"]]) for rule in found]
 
 
+LOOK = {
+    "viewport": {"width": 1280, "height": 720},
+    "color_scheme": "light",
+    "reduced_motion": "no-preference",
+    "forced_colors": "none",
+}
+"""What a tab may be opened with in another way than before; Playwright's own values."""
+
+
 class Watch:
     """What a page tells on its console at some levels, and asks for beyond some addresses."""
 
-    def __init__(self, page: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> None:
-        self.page, self.own, self.levels = page, own, levels
-        self.wrong: list[str] = []
+    def __init__(self, page: Any) -> None:
+        self.page = page
+        self.begin((), ())
         page.set_default_timeout(LONG)
         page.on("console", self.told)
         page.on("pageerror", self.failed)
         page.on("request", self.asked)
+
+    def begin(self, own: tuple[str, ...], levels: tuple[str, ...]) -> None:
+        """Forget what was before."""
+        self.own, self.levels = own, levels
+        self.wrong: list[str] = []
 
     def told(self, said: Any) -> None:
         if said.type in self.levels:
@@ -82,69 +93,32 @@ class Watch:
         self.wrong.append(f"uncaught: {error} {error.stack or ''} (page {self.page.url})")
 
 
-def judge(watches: Iterable[Watch]) -> None:
-    """Fail for all that pages told or asked for."""
-    if wrong := [line for watch in watches for line in watch.wrong]:
-        pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
-
-
-@contextmanager
-def watched(chromium: Any, own: tuple[str, ...], levels: tuple[str, ...]) -> Iterator[Opened]:
-    """New pages, each in a context of its own: page(color_scheme="dark").
-
-    Fails at the end for what any of them told on the console at one of the levels,
-    for its uncaught errors, and for what it asked for but addresses that begin with one of own.
-    """
-    contexts, watches = [], []
-
-    def page(**options: Any) -> Any:
-        context = chromium.new_context(**options)
-        contexts.append(context)
-        found = context.new_page()
-        watches.append(Watch(found, own, levels))
-        return found
-
-    yield page
-    for context in contexts:
-        context.close()
-    judge(watches)
-
-
 class Tab:
-    """A page of a context of its own, which opens one file after another as if it were new."""
+    """A page of a context of its own, which opens one address after another as if it were new."""
 
     def __init__(self, chromium: Any, stopped: bool, **options: Any) -> None:
         self.page = chromium.new_context(**options).new_page()
-        self.watch = Watch(self.page, FILES, ("error",))
-        self.options, self.stopped, self.hours = options, stopped, 0
+        self.stopped, self.hours = stopped, 0
+        self.watch = Watch(self.page)
         if stopped:
             self.page.clock.install(time=0)
 
-    def open(self, address: str) -> Any:
-        """Forget what was before, and open an address."""
-        page = self.page
-        if self.hours:
-            self.forget()
+    def open(self, address: str, **look: Any) -> Any:
+        """Open an address; a page's clock that is stopped stands still once it is there."""
         self.hours += 1
-        page.goto(address)
+        self.page.set_viewport_size(look.pop("viewport"))
+        self.page.emulate_media(media="null", **look)
+        self.page.goto(address)
         if self.stopped:
-            page.clock.pause_at(HOUR * self.hours)
-        return page
+            self.page.clock.pause_at(HOUR * self.hours)
+        return self.page
 
     def forget(self) -> None:
-        """What a test kept, pressed, and made of the window."""
-        page, options = self.page, self.options
-        self.watch.wrong.clear()
+        """Leave the page, and what a test kept and pressed."""
+        page = self.page
         page.evaluate("localStorage.clear(); sessionStorage.clear()")
         page.mouse.up()
         page.mouse.move(0, 0)
-        page.emulate_media(
-            media="null",
-            color_scheme=options.get("color_scheme", "light"),
-            reduced_motion=options.get("reduced_motion", "no-preference"),
-            forced_colors=options.get("forced_colors", "none"),
-        )
-        page.set_viewport_size(options.get("viewport", {"width": 1280, "height": 720}))
         if self.stopped:
             page.clock.resume()
         page.goto("about:blank")
@@ -159,6 +133,35 @@ def tabs(chromium: Any) -> Iterator[dict[str, Tab]]:
         tab.page.context.close()
 
 
+@contextmanager
+def watched(
+    chromium: Any, tabs: dict[str, Tab], own: tuple[str, ...], levels: tuple[str, ...]
+) -> Iterator[Opened]:
+    """Addresses opened in tabs, each in another: page(address, color_scheme="dark").
+
+    Fails at the end for what any of them told on the console at one of the levels,
+    for its uncaught errors, and for what it asked for but addresses that begin with one of own.
+    """
+    taken: dict[str, Tab] = {}
+
+    def page(address: str, *, stopped: bool = False, **options: Any) -> Any:
+        look = {name: options.pop(name, usual) for name, usual in LOOK.items()}
+        key = repr((stopped, sorted(options.items())))
+        while key in taken:
+            key += "'"
+        taken[key] = tab = tabs.pop(key, None) or Tab(chromium, stopped, **options)
+        tab.watch.begin(own, levels)
+        return tab.open(address, **look)
+
+    yield page
+    wrong = [line for tab in taken.values() for line in tab.watch.wrong]
+    for tab in taken.values():
+        tab.forget()
+    tabs |= taken
+    if wrong:
+        pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
+
+
 @pytest.fixture
 def opened(chromium: Any, tabs: dict[str, Tab]) -> Iterator[Opened]:
     """Open a page: opened(path, "#step=3", color_scheme="dark").
@@ -166,15 +169,5 @@ def opened(chromium: Any, tabs: dict[str, Tab]) -> Iterator[Opened]:
     Where it is stopped its clock stands still but for page.clock.run_for(milliseconds), so that
     what it does after a while comes then, however slow the machine is.
     """
-    taken: dict[str, Tab] = {}
-
-    def told(path: Path, place: str = "", *, stopped: bool = False, **options: Any) -> Any:
-        key = repr((stopped, sorted(options.items())))
-        while key in taken:
-            key += "'"
-        taken[key] = tabs.pop(key, None) or Tab(chromium, stopped, **options)
-        return taken[key].open(path.as_uri() + place)
-
-    yield told
-    judge(tab.watch for tab in taken.values())
-    tabs |= taken
+    with watched(chromium, tabs, ("file:", "blob:", "data:"), ("error",)) as page:
+        yield lambda path, place="", **options: page(path.as_uri() + place, **options)

@@ -29,14 +29,13 @@ def place(tmp_path) -> Path:
 
 
 @pytest.fixture
-def studio(chromium: Any, place: Path, served: Served) -> Iterator[Studio]:
+def studio(chromium: Any, tabs: Any, place: Path, served: Served) -> Iterator[Studio]:
     """Open the page: studio("?lab=pump", color_scheme="dark"); fails on any error it tells."""
     own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
-    with watched(chromium, own, ("error", "warning")) as new_page:
+    with watched(chromium, tabs, own, ("error", "warning")) as new_page:
 
         def opened(query: str = "?scene=mine.toml", **options: Any) -> Any:
-            page = new_page(**{**DESKTOP, **options})
-            page.goto(served.address + query)
+            page = new_page(served.address + query, **{**DESKTOP, **options})
             at_rest(page)
             return page
 
@@ -288,8 +287,8 @@ def test_values_of_sliders_are_saved_or_not_as_it_is_answered(studio, place):
     text = (place / "moved.toml").read_text(encoding="utf-8")
     assert text == PUMP.replace("value = 7", "value = 12")
     assert page.input_value("#text") == text
-    page.keyboard.press("Control+s")
-    page.wait_for_timeout(100)
+    with page.expect_response("**/save"):
+        page.keyboard.press("Control+s")
     assert not page.is_visible("#asking")
 
 

@@ -23,12 +23,11 @@ from tests.browser.opening import barred, watched
 
 
 @pytest.fixture
-def hand(chromium: Any, served: Served) -> Iterator[Hand]:
+def hand(chromium: Any, tabs: Any, served: Served) -> Iterator[Hand]:
     """A hand at an empty field; fails on any error that the page tells."""
     own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
-    with watched(chromium, own, ("error", "warning")) as new_page:
-        page = new_page(viewport={"width": 1440, "height": 900})
-        page.goto(f"{served.address}?empty=yes")
+    with watched(chromium, tabs, own, ("error", "warning")) as new_page:
+        page = new_page(f"{served.address}?empty=yes", viewport={"width": 1440, "height": 900})
         page.wait_for_selector("#canvas svg[viewBox]")
         yield Hand(page)
 
@@ -47,7 +46,7 @@ def test_a_newcomer_builds_the_offset_slider_crank(hand):
     assert not barred(hand.page)
     crank = 0.5 * hand.place("A")
     hand.click("driver", crank)
-    hand.page.wait_for_selector("#told:not([hidden])", timeout=20_000)
+    hand.page.wait_for_selector("#told:not([hidden])")
     assert "is driven already" in hand.told
     hand.take("bar")
     assert hand.page.locator("#told").is_hidden()

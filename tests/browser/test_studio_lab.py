@@ -14,12 +14,12 @@ from tests.browser.opening import barred, watched
 
 
 @pytest.fixture
-def page(chromium: Any, served: Served) -> Iterator[Any]:
+def page(chromium: Any, tabs: Any, served: Served) -> Iterator[Any]:
     """The pump's class; fails on any error that the page tells."""
     own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
-    with watched(chromium, own, ("error", "warning")) as new_page:
-        page = new_page(viewport={"width": 1440, "height": 900})
-        page.goto(f"{served.address}?lab=pump&rules=yes")
+    with watched(chromium, tabs, own, ("error", "warning")) as new_page:
+        address = f"{served.address}?lab=pump&rules=yes"
+        page = new_page(address, viewport={"width": 1440, "height": 900})
         fairness(page, 29)
         page.click("#lab")
         yield page

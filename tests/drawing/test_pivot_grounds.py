@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.drawing.marks import Polyline
-from tests.chosen import SCENES
+from tests.chosen import CHOSEN
 from tests.documents.made_up import made_up
 from tests.documents.sheet_tools import VARIANTS, drawn, kind_of, kinds_of, outline
 
@@ -45,7 +45,7 @@ def test_the_ground_stays_where_it_was_chosen_while_the_mechanism_moves():
     assert ground_ways(replace(crank(270), chosen=first), 1000.0) == ground_ways(first, 1000.0)
 
 
-@pytest.mark.parametrize(("name", "n"), [*((name, None) for name in SCENES), *VARIANTS])
+@pytest.mark.parametrize(("name", "n"), [*((name, None) for name in CHOSEN), *VARIANTS])
 def test_no_bar_runs_through_the_ground_of_a_pivot(name, n):
     marks = drawn(name, n, kinds_of(name, n)[0]).marks["mechanism"]
     bars = [outline(mark) for mark in marks if kind_of(mark) in ("link", "guide-bar")]

@@ -102,6 +102,11 @@ def test_a_pin_on_the_line_of_a_bar_is_written_so():
     assert abs(places_of(after)["E"] - at) < 1e-9
 
 
+def test_the_slot_of_a_link_lies_along_two_of_its_pins():
+    """Of link 3 with A, B and C along A-B."""
+    assert 'slides = {on = 3, along = "A-B"}' in done(PUMP, "block", "O2", "3")
+
+
 LOOSE = """graphkin = 1
 title = "Loose"
 units = { length = "mm", angle = "deg", speed = "rev/min" }

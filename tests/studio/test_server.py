@@ -22,7 +22,7 @@ from graphkin.studio.app import WORK
 from graphkin.studio.guard import HEADERS
 from graphkin.studio.page_requests import MOST_BYTES
 from graphkin.studio.server import HOME, Served, serve
-from tests.studio.pump import PUMP, desk_in, ordered, running
+from tests.studio.pump import LONG, PUMP, desk_in, ordered, running
 
 JSON = {"Content-Type": "application/json"}
 
@@ -38,7 +38,7 @@ def asked(
     served: Served, method: str, path: str, body: Any = None, **headers: str
 ) -> tuple[HTTPResponse, bytes]:
     """The answer to a request; a path without a slash before it is the page's own."""
-    line = HTTPConnection(HOME, served.port, timeout=30)
+    line = HTTPConnection(HOME, served.port, timeout=LONG)
     whole = path if path.startswith("/") else urlsplit(served.address).path + path
     given = {key.replace("_", "-"): value for key, value in headers.items()}
     line.request(method, whole, body, given)
@@ -206,7 +206,7 @@ def test_a_page_that_moves_stands_within_the_page_and_reaches_nothing(served, pa
 
 
 def test_a_request_that_is_too_large_is_refused(served):
-    line = HTTPConnection(HOME, served.port, timeout=30)
+    line = HTTPConnection(HOME, served.port, timeout=LONG)
     line.putrequest("POST", urlsplit(served.address).path + "look")
     line.putheader("Content-Type", "application/json")
     line.putheader("Content-Length", str(MOST_BYTES + 1))
