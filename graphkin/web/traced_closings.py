@@ -183,7 +183,9 @@ class Solver(Struct, frozen=True):
             if each.count > 1:
                 own = slice(place, place + each.count)
                 steps = [STEP * size for size in each.sizes]
-                several = closed_together(self.missed_all(k, at, found), found[own], steps, self.size)
+                several = closed_together(
+                    self.missed_all(k, at, found), found[own], steps, self.size
+                )
                 if several is None:
                     return None
                 found[own] = several
@@ -206,12 +208,11 @@ class Solver(Struct, frozen=True):
         place = [place for place, _ in self.placed()][k]
         near = [float(angle) for angle in self.near(at).values()]
 
-        def missed(value: float) -> tuple[float, float]:
+        def missed(value: float) -> tuple[float, ...]:
             state[place] = value
             return self.misses[k](at, *state, *near)
 
         return missed
-
 
     def missed_all(
         self, k: int, at: float, state: list[float]
@@ -242,7 +243,7 @@ def solver(
 
 
 def closed_near(
-    miss: Callable[[float], tuple[float, float]], start: float, step: float, size: float
+    miss: Callable[[float], tuple[float, ...]], start: float, step: float, size: float
 ) -> float | None:
     """Where a misfit vanishes near a start; None where it does not, or where it faces wrongly."""
     for way in (step, -step):
@@ -279,7 +280,7 @@ def closed_together(
     return here if good else None
 
 
-def secant(miss: Callable[[float], tuple[float, float]], start: float, step: float) -> float:
+def secant(miss: Callable[[float], tuple[float, ...]], start: float, step: float) -> float:
     """The last step along the secant through two trials."""
     old, new = start + step, start
     before, after = miss(old)[0], miss(new)[0]

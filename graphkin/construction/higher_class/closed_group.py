@@ -27,7 +27,6 @@ class ClosedGroup(Construction, frozen=True):
     loci a hand draws.
     """
 
-
     group: Higher
     number: int
     counted: str

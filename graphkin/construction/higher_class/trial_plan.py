@@ -129,7 +129,9 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             if number == named[-1]:
                 full = self.first is None
                 told = (self.told_in_full if full else self.told_again)(drawing, named)
-                markup = self.introduced(drawing, "; ".join(told), first=self.begins(drawing, named))
+                markup = self.introduced(
+                    drawing, "; ".join(told), first=self.begins(drawing, named)
+                )
                 yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
     def runs(self, drawing: Drawing) -> list[list[int]]:
