@@ -23,7 +23,6 @@ from graphkin.structure.next_group import (
 )
 from graphkin.structure.pairs import Joint, Pin, turned_by_smaller
 
-
 MOST_TRIED = 4
 """Links of a group that are tried together at most."""
 

@@ -94,8 +94,8 @@ def taken_over(
     """
     for k, (place, each) in enumerate(solve.placed()):
         if each.count > 1:
-            if found := turned_over(solve, at, states, step, place, each):
-                return found
+            if over := turned_over(solve, at, states, step, place, each):
+                return over
             continue
         if last_value(solve.missed(k, at[-1], list(states[-1])), states[-1][place], each) is None:
             continue

@@ -208,7 +208,7 @@ class Solver(Struct, frozen=True):
         place = [place for place, _ in self.placed()][k]
         near = [float(angle) for angle in self.near(at).values()]
 
-        def missed(value: float) -> tuple[float, float]:
+        def missed(value: float) -> tuple[float, ...]:
             state[place] = value
             return self.misses[k](at, *state, *near)
 
@@ -243,7 +243,7 @@ def solver(
 
 
 def closed_near(
-    miss: Callable[[float], tuple[float, float]], start: float, step: float, size: float
+    miss: Callable[[float], tuple[float, ...]], start: float, step: float, size: float
 ) -> float | None:
     """Where a misfit vanishes near a start; None where it does not, or where it faces wrongly."""
     for way in (step, -step):
@@ -280,7 +280,7 @@ def closed_together(
     return here if good else None
 
 
-def secant(miss: Callable[[float], tuple[float, float]], start: float, step: float) -> float:
+def secant(miss: Callable[[float], tuple[float, ...]], start: float, step: float) -> float:
     """The last step along the secant through two values."""
     old, new = start + step, start
     before, after = miss(old)[0], miss(new)[0]

@@ -124,7 +124,7 @@ class Tracing(Struct, frozen=True, dict=True):
 
     def near(self, at: Any) -> dict[str, Any]:
         """The angles near which links count at places of the driver, by their inputs."""
-        every = {} if self.turned is None else self.turned.values(at)
+        every = self.turned.values(at) if self.counting and self.turned is not None else {}
         return {name: every[name] for name in self.counting}
 
     def beside(self, at: Any) -> dict[str, Any]:

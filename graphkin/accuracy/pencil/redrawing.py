@@ -119,7 +119,9 @@ def followed(
         with np.errstate(all="ignore"):
             tried = tried - quotients(slopes, left)
     turned = [one.turns for one in trying.unknowns]
-    values = (np.exp(1j * each) if turns else each for turns, each in zip(turned, tried.T, strict=True))
+    values = (
+        np.exp(1j * each) if turns else each for turns, each in zip(turned, tried.T, strict=True)
+    )
     return (*values, *signs, sine)
 
 

@@ -252,8 +252,8 @@ def geared_base(scene: Scene, group: Geared) -> Base:
 def no_construction(group: Group) -> StructureError:
     """The error for links that hold together in a way for which there is no construction.
 
-    It names the limit: several driven guides in one group, a track that wheels alone hold, two
-    links to be tried at once.
+    It names the limit: several driven guides in one group, a track that wheels alone hold, more
+    links to be tried than are looked at.
     """
     place = "links." + ", ".join(group.links)
     if not isinstance(group, Unresolved):
@@ -272,7 +272,7 @@ def no_construction(group: Group) -> StructureError:
             wheels = f"wheels {', '.join(group.wedged)}"
         found = f"hold {wheels} between two tracks that are not parallel"
         return StructureError(Problem(place, found, "parallel tracks", SLIPPING))
-    found = "close only when two of them are tried at once"
+    found = "do not close after four of them are tried at once"
     hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
     return StructureError(Problem(place, found, CLOSING, hint))
 
@@ -280,4 +280,4 @@ def no_construction(group: Group) -> StructureError:
 HELD = "a track that slides, is driven, or belongs to the frame"
 LEVEL = "wheels of one size on one track keep it parallel to that: write slides = { … } for it"
 SLIPPING = "where a wheel slips on one of them, a block at its centre slides beside that instead"
-CLOSING = "links that close on known ones, two at a time or after one of them has been tried"
+CLOSING = "links that close on known ones, two at a time or after some of them have been tried"

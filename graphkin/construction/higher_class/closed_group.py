@@ -26,7 +26,6 @@ class ClosedGroup(Construction, frozen=True):
     loci a hand draws.
     """
 
-
     group: Higher
     number: int
     counted: str

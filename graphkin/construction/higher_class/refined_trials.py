@@ -28,7 +28,9 @@ WIDENED = 3
 Rows = Sequence[Sequence[Any]]
 
 
-def refined(trying: Any, known: Sequence[Any], closed: Sequence[Any], kind: Kind) -> tuple[Any, ...]:
+def refined(
+    trying: Any, known: Sequence[Any], closed: Sequence[Any], kind: Kind
+) -> tuple[Any, ...]:
     """A closure in doubles, ``closed``, in the kind of what is known: values, signs and sine.
 
     Raises ValueError where a ball does not tell that the group closes.
@@ -83,7 +85,8 @@ def solved(rows: Rows, right: Sequence[Any]) -> list[Any]:
     whole = determinant(rows)
     sides = range(len(rows))
     with_right = (
-        [[*row[:k], end, *row[k + 1 :]] for row, end in zip(rows, right, strict=True)] for k in sides
+        [[*row[:k], end, *row[k + 1 :]] for row, end in zip(rows, right, strict=True)]
+        for k in sides
     )
     return [determinant(each) / whole for each in with_right]
 
@@ -144,7 +147,7 @@ def proved(chain: SeveralChain, near: Sequence[Any]) -> list[Any]:
     steps = [size_of(each) * APART for each in near]
     rows = slopes(chain.middles, near, chain.middles(near), steps)
     inverse = [*zip(*(solved(rows, [int(i == k) for i in sides]) for k in sides), strict=True)]
-    inverse = [[middle(each) for each in row] for row in inverse]
+    inverse = [tuple(middle(each) for each in row) for row in inverse]
 
     def grown(tried: Sequence[Any]) -> list[Any]:
         """The combinations of misfits that grow each along one unknown."""

@@ -86,7 +86,8 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         here = [np.broadcast_to(np.atleast_1d(each), 2) for each in known]
         signs = np.tile(start[size:-1], (2, 1))
         tried = np.tile(start[:size], (2, 1))
-        ways, places = np.array([-1.0, 1.0]), [[], []]
+        ways = np.array([-1.0, 1.0])
+        places: list[list[list[Any]]] = [[], []]
         step = TRACED * np.where(self.unknowns[0].turns, 1.0, self.scales(here, 2)[:, 0])
         rise = np.zeros((2, size))
         rise[:, 0] = 1.0
@@ -212,8 +213,13 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         import numpy as np
 
         size = len(self.unknowns)
-        step = STEP * np.where([one.turns for one in self.unknowns], 1.0, np.maximum(abs(tried), 1e-3))
-        misfits, ways = np.zeros((len(tried), size, size)), np.zeros((len(tried), size, size), complex)
+        step = STEP * np.where(
+            [one.turns for one in self.unknowns], 1.0, np.maximum(abs(tried), 1e-3)
+        )
+        misfits, ways = (
+            np.zeros((len(tried), size, size)),
+            np.zeros((len(tried), size, size), complex),
+        )
         here = self.found(known, tried, signs)
         for k in range(size):
             away = np.zeros_like(tried)
@@ -241,7 +247,9 @@ def crossing_sines(misfits: Array, ways: Array) -> Array:
             way[:, k] = 1
             if k + 1 < size:
                 inner = misfits[:, k + 1 :, k + 1 :]
-                good = np.isfinite(inner).all(axis=(1, 2)) & (abs(np.linalg.det(np.where(np.isfinite(inner), inner, 0))) > 0)
+                good = np.isfinite(inner).all(axis=(1, 2)) & (
+                    abs(np.linalg.det(np.where(np.isfinite(inner), inner, 0))) > 0
+                )
                 inner = np.where(good[:, None, None], inner, np.eye(size - k - 1))
                 led = np.linalg.solve(inner, -misfits[:, k + 1 :, k, None])[..., 0]
                 way[:, k + 1 :] = np.where(good[:, None], led, np.nan)
@@ -500,8 +508,12 @@ class FlatDyad(NamedTuple):
         near = NEAR * half
         near[j] = BESIDE
         start = np.tile(middle, (len(STARTS), 1))
-        start[:, j] = np.repeat(STARTS, row.size) * np.tile(np.where(row & self.bit, -1, 1), len(STARTS))
-        which, share = closed_in(missed, np.tile(np.arange(row.size), len(STARTS)), start, near, ranges[row])
+        start[:, j] = np.repeat(STARTS, row.size) * np.tile(
+            np.where(row & self.bit, -1, 1), len(STARTS)
+        )
+        which, share = closed_in(
+            missed, np.tile(np.arange(row.size), len(STARTS)), start, near, ranges[row]
+        )
         return placed(which, share)
 
 
@@ -525,7 +537,7 @@ def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
         lost = ~np.isfinite(there).all(axis=1)
         there[lost], way[lost] = missed(row[lost], share[lost] - away), -STEP
         slope[:, :, k] = (there - value) / way[:, None]
-    good = np.isfinite(slope).all(axis=(1, 2))
+    good: Array = np.isfinite(slope).all(axis=(1, 2))
     good &= abs(np.linalg.det(np.where(good[:, None, None], slope, 0))) > 0
     slope = np.where(good[:, None, None], slope, np.eye(size))
     found = np.linalg.solve(slope, -value[..., None])[..., 0]

@@ -69,9 +69,9 @@ def relative_arrows(pen: Pen, name: str) -> None:
 def components(pen: Pen, group: CoupledTrain | Higher, tried: range) -> None:
     """The arrows of the components in the right plan, and of the velocities that they start from.
 
-    What is laid off there is what the second trial, at the steps ``tried``, has laid off, for it does not hang on what is
-    tried: components that follow from velocities. What closes the way to a point is its tangential
-    component, or the acceleration along a guide.
+    What is laid off there is what the second trial, at the steps ``tried``, has laid off, for it
+    does not hang on what is tried: components that follow from velocities. What closes the way to a
+    point is its tangential component, or the acceleration along a guide.
     """
     right = {
         number: pen.targets[target]

@@ -197,7 +197,9 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             return begins or before is None or bool(self.falls_on(drawing, before))
 
         for new, run in groupby(named, is_new):
-            if new:
+            if new and self.whole is not None:
+                yield from self.told_in_full(drawing, [*run])
+            elif new:
                 for number in run:
                     yield turned_again(drawing, number) or point_told(drawing, number)
             else:

@@ -170,7 +170,11 @@ class TwoTrials(Construction, frozen=True):
         one, two, name = (symbol(steps[n].name) for n in (lead.first, lead.second, lead.value))
         ratio = f"{one}{name}/{one}{two}"
         others = [symbol(steps[point.value].name) for point in points if point not in crossed]
-        fields = {"ratio": ratio, "list": drawing.words("list_mark").join(others)}
+        fields = {
+            "share": self.symbol,
+            "ratio": ratio,
+            "list": drawing.words("list_mark").join(others),
+        }
         found = float(values[self.share]) if self.gaps[0].amount(drawing) else 0.0
         result = answer(drawing, found)
         if crossed:

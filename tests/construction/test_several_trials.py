@@ -1,0 +1,181 @@
+"""Groups that close only when two links are tried at once: closures, motion, digits, sentences."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from functools import cache
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.run import run
+from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.construction.higher_class.refined_trials import determinant, refined, solved
+from graphkin.construction.higher_class.refining import in_doubles
+from graphkin.construction.higher_class.two_trials import TwoTrials
+from graphkin.mechanism import Mechanism
+from graphkin.numbers.kinds import ball_kind, decimal_kind
+from graphkin.scene.read_scene import read_text
+from graphkin.structure.groups import Higher
+from tests.structure.test_unresolved import CYLINDERS
+
+SCENES = Path(__file__).resolve().parents[1] / "scenes" / "construction"
+NAMES = ("double-triad", "quadrilateral-of-plates")
+FIXED = ("O", "B", "C", "D")
+LINKS = {
+    "quad": ("OA", "AE", "BF", "CG", "DH", "NKE", "KLF", "LMG", "MNH"),
+    "plates": ("OA", "Ap", "Bq", "pqrs", "Ct", "Du", "tuvw", "rv", "sw"),
+}
+"""The points of each link: a loop of four plates, a leg on each; two plates joined by two bars."""
+
+
+@cache
+def mechanism(name: str) -> Mechanism:
+    """A scene of this room."""
+    return Mechanism(read_text((SCENES / f"{name}.toml").read_text(encoding="utf-8"), name))
+
+
+def placed(kind: str, seed: int, size: float = 1.0) -> dict[str, complex]:
+    """Where the points of a mechanism made at random stand, A at 60 degrees (mm)."""
+    rng, points = Random(seed), dict[str, complex]()
+    for point in "".join(LINKS[kind]):
+        if point not in points:
+            x, y = round(rng.uniform(0, 500)), round(rng.uniform(0, 500))
+            points[point] = size * complex(x, y)
+    return points | {"O": 0j, "A": size * cmath.rect(60, math.radians(60))}
+
+
+def written(kind: str, points: dict[str, complex], closure: int = 1) -> str:
+    """The scene of such a mechanism, with exact lengths."""
+    lines = ['graphkin = 1\ntitle = "random"']
+    lines += ['units = { length = "mm", angle = "deg", speed = "rad/s" }\n[frame]']
+    lines += [f"{p} = [{points[p].real!r}, {points[p].imag!r}]" for p in FIXED]
+    for number, (a, b, *rest) in enumerate(LINKS[kind], 1):
+        lines += [f"[links.{number}]", f"{a}-{b} = {abs(points[b] - points[a])!r}"]
+        for c in rest:
+            lines += [f"{p}-{c} = {abs(points[c] - points[p])!r}" for p in (a, b)]
+            turn = ((points[b] - points[a]).conjugate() * (points[c] - points[a])).imag
+            lines += [f'{c} = "{"left" if turn > 0 else "right"} of {a}-{b}"']
+    lines += ["[[drivers]]\nturn = 1\nangle = 60\nspeed = 10\nacceleration = 7"]
+    return "\n".join([*lines, f'[branches]\n2 = "closure {closure}"\n'])
+
+
+def closer(found: Mechanism, kind=None):
+    """What closes the group, and what it takes as known."""
+    program = found.program
+    step = next(step for step in program.steps if closer_of(step))
+    values = found.scene.values if kind is None else found.scene.values_in(kind)
+    from graphkin.numbers.arithmetic import FLOAT
+
+    trace = run(program, program.behind(step.args), values, kind or FLOAT)
+    return closer_of(step).trying, [trace.values[arg] for arg in step.args]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_trial_lies_within_a_trial(name):
+    group = mechanism(name).groups[1]
+    assert isinstance(group, Higher)
+    outer, inner = group.nested
+    assert {*inner.links} < {*outer.links}
+    assert outer.trial.link not in inner.links
+    assert group.order == (4, 4)
+    assert len({*group.links}) == len(group.links) == 8
+    twice = [*constructions(mechanism(name).program, TwoTrials)]
+    assert len(twice) == 2 * 3, "two trials in each of two trial plans, and these, in both plans"
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("closure", [1, 2])
+def test_both_routes_agree_in_every_closure(name, closure):
+    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    found = Mechanism(read_text(text.replace("closure 1", f"closure {closure}"), name))
+    verdict = found.witness(found.solve())
+    assert verdict.agrees
+    assert verdict.largest_difference < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed", "count"),
+    [("quad", 6, 6), ("quad", 8, 2), ("quad", 13, 6), ("quad", 15, 4)],
+)
+def test_every_closure_is_found(kind, seed, count):
+    """Counts by Newton's method on the lengths of bars from 6000 random places of all points.
+
+    In seeds 13 and 15 a closure lies within a tenth of a degree of a flat dyad.
+    """
+    points = placed(kind, seed)
+    trying, known = closer(Mechanism(read_text(written(kind, points), "random")))
+    assert trying.closures_of(known).ways() == count
+
+
+@pytest.mark.parametrize("kind", ["quad", "plates"])
+@pytest.mark.parametrize("power", [-3, 0, 4])
+def test_the_place_from_which_lengths_are_taken_is_a_closure(kind, power):
+    """Of sizes from micrometres to kilometres."""
+    size = 10.0**power
+    points = placed(kind, 3, size)
+    trying, known = closer(Mechanism(read_text(written(kind, points), "random")))
+    table = trying.closures_of(known).table
+    bars = (points[links[1]] - points[links[0]] for links in (LINKS[kind][1],))
+    assert min(abs(np.exp(1j * table[:, 1]) - bar / abs(bar)).min() for bar in bars) < 1e-9
+
+
+@pytest.mark.parametrize("seed", [8, 14])
+def test_random_mechanisms_move_as_the_loops_say(seed):
+    for closure in (1, 2):
+        found = Mechanism(read_text(written("quad", placed("quad", seed), closure), "random"))
+        assert found.witness(found.solve()).agrees
+
+
+def test_six_cylinders_in_one_group_are_constructed():
+    """Two plates, each on two cylinders, with two between them: two drivers wait at once."""
+    found = Mechanism(read_text(CYLINDERS + '[branches]\n1 = "closure 1"\n', "six"))
+    (group,) = found.groups
+    assert len(group.nested) == 2
+    assert found.witness(found.solve()).agrees
+
+
+# --- other kinds of numbers ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_balls_hold_what_decimals_find(name):
+    fine = decimal_kind(80)
+    trying, known = closer(mechanism(name), fine)
+    closed = trying.closed([in_doubles(value) for value in known], 1)
+    right = refined(trying, known, closed, fine)
+    kind = ball_kind(160)
+    with kind.working():
+        trying, known = closer(mechanism(name), kind)
+        proved = refined(trying, known, closed, kind)
+        for ball, value in zip(proved[:2], right[:2], strict=True):
+            from flint import acb, arb
+
+            exact = acb(arb(str(value.real)), arb(str(value.imag)))
+            assert ball.overlaps(exact)
+            assert ball.rad() < arb("1e-38")
+
+
+def test_a_closure_that_is_none_is_not_proved():
+    kind = ball_kind(120)
+    trying, doubles = closer(mechanism("double-triad"))
+    closed = trying.closed(doubles, 1)
+    with kind.working():
+        trying, known = closer(mechanism("double-triad"), kind)
+        longer = [
+            value * kind.number(1.01) if abs(in_doubles(value)) > 0.29 else value for value in known
+        ]
+        away = (closed[0] * cmath.rect(1, 2.0), closed[1] * cmath.rect(1, 2.5), *closed[2:])
+        with pytest.raises(ValueError, match=r"ball|drawn"):
+            refined(trying, longer, away, kind)
+
+
+def test_cramers_rule():
+    rows, right = [[2, 1, 0], [1, 3, 1], [0, 1, 4]], [1, 2, 3]
+    assert determinant(rows) == 18
+    found = solved(rows, right)
+    assert np.allclose(np.array(rows) @ np.array(found), right)
