@@ -83,7 +83,7 @@ def drawn_state(closer: Any, drawn: Sequence[Any]) -> State:
 
 
 def tried(names: Sequence[str], graph: Graph, closer: Any) -> tuple[Any, ...]:
-    """The value of such a step for a traced trial: what it tries, the signs, no sine yet."""
+    """The value of such a step for traced numbers: what is tried, the signs, no sine yet."""
     numbers = [TracedNumber(graph, graph.input(name)) for name in names]
     unknowns = closer.trying.unknowns
     pairs = zip(unknowns, numbers[: len(unknowns)], strict=True)
@@ -104,7 +104,7 @@ def closing(
     numbers = [TracedNumber(tape.graph, tape.graph.input(name)) for name in names]
     unknowns = trying.unknowns
     tried, signs = numbers[: len(unknowns)], numbers[len(unknowns) :]
-    here = trial(trying, known, tried, signs)
+    here = result(trying, known, tried, signs)
     facings = [lift(here[one.facing]) for one in unknowns if one.facing is not None]
     facing = lift(1.0) if not facings else facings[0]
     for each in facings[1:]:
@@ -129,7 +129,7 @@ def crossing_sine(
     misfits, loci = [], []
     for k, size in enumerate(own.sizes):
         ends = (
-            trial(trying, known, [*tried[:k], tried[k] + way * STEP * size, *tried[k + 1 :]], signs)
+            result(trying, known, [*tried[:k], tried[k] + way * STEP * size, *tried[k + 1 :]], signs)
             for way in (-1, 1)
         )
         low, high = ends
@@ -147,10 +147,10 @@ def crossing_sine(
     return least
 
 
-def trial(
+def result(
     trying: Any, known: Sequence[Any], at: Sequence[Any], signs: Sequence[Any]
 ) -> Mapping[int, Any]:
-    """The results of a trial for traced numbers."""
+    """The results of what is tried, for traced numbers."""
     kind = traced_kind()
     overrides = dict(zip(trying.inputs, known, strict=True))
     for one, each in zip(trying.unknowns, at, strict=True):
