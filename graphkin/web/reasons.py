@@ -11,9 +11,11 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.divided_point import DividedRate
 from graphkin.construction.higher_class.trial_plan import TrialPlan
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
+from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
 from graphkin.drawing.symbol_markup import symbol
@@ -29,6 +31,8 @@ AGAIN = {
 """What is said of the second and each further one of a kind."""
 LAST, LAST_OF_MANY = "why.meet", "why.meet_many"
 """The reason that is given at the end, for all points at once."""
+TURNS = {"velocity": "why.omega", "acceleration": "why.epsilon"}
+"""Why the turning of links is read off as each sheet says."""
 VECTORS_APART = "vectors"
 """The name of a sentence that draws vectors between images that the one before has found."""
 BY_NAME = {
@@ -79,12 +83,11 @@ def reasons(
 
 
 def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int]]:
-    """Why a sentence says what is of no step, reads a rate off, or begins an auxiliary plan."""
+    """Why what a sentence says that is of no step, reads a rate off, or begins a trial plan."""
     steps, words = drawing.trace.program.steps, drawing.words
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
-        kind = construction(steps[sentence.step])
-        yield words(kind.rate_reason(drawing) if kind else "why.rate"), NO_STEP
+        yield words(of_rate(drawing, steps[sentence.step])), NO_STEP
     elif sentence.name.startswith(IDLE):
         yield words("why.idle"), NO_STEP
     elif sentence.name in BY_NAME:
@@ -93,8 +96,18 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
         yield words("why.trial_again" if plan.repeats else "why.trial"), NO_STEP
 
 
+def of_rate(drawing: Drawing, step: Step) -> str:
+    """Why a rate is found as it is: from a bar and its image, between trials, or from others."""
+    match construction(step):
+        case TurningOfLink():
+            return TURNS[drawing.kind]
+        case DividedRate():
+            return "why.trials"
+    return "why.rate"
+
+
 def is_nothing(drawing: Drawing, number: int) -> bool:
-    """Whether a point of such a plan falls on what it is drawn from, or a line finds only such."""
+    """Whether a point of a trial plan falls on what it is drawn from, or a line finds only such."""
     plan, step = auxiliary_plan(drawing, number), drawing.trace.program.steps[number]
     if not isinstance(plan, TrialPlan):
         return False

@@ -108,10 +108,6 @@ class Construction(Roles, frozen=True):
         """How the rate of a link that it gives is found: with result, unit and sense at the end."""
         return None
 
-    def rate_reason(self, drawing: Drawing) -> str:
-        """The key of why a rate that it gives is found as it is."""
-        return "why.rate"
-
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that are told before the step of a role."""
         return ()

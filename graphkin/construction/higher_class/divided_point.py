@@ -67,10 +67,6 @@ class Divided(Construction, frozen=True, kw_only=True):
 class DividedRate(Divided, frozen=True, kw_only=True):
     """The rate of the tried link itself."""
 
-    def rate_reason(self, drawing: Drawing) -> str:
-        """It is divided as every line of the two trials is."""
-        return "why.trials"
-
     def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
         """It is divided as every line of the two trials is."""
         numbers = (self.first, self.second, self.share)

@@ -44,8 +44,6 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("rate",)
     vectors: ClassVar[Mapping[str, str]] = {OMEGA: "v_{}", EPSILON: "a_{}^τ"}
 
-    turns: ClassVar[Mapping[str, str]] = {"velocity": "why.omega", "acceleration": "why.epsilon"}
-
     quantity: str
     link: str
     p: str
@@ -58,10 +56,6 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
     def vector(self, index: str) -> str:
         """The symbol of the relative vector that is perpendicular to the bar."""
         return self.vectors[self.quantity].format(index)
-
-    def rate_reason(self, drawing: Drawing) -> str:
-        """It is read off the bar and its image, as each sheet says."""
-        return self.turns[drawing.kind]
 
     def source_of_rate(self, drawing: Drawing) -> str:
         """The relative vector over the bar."""
