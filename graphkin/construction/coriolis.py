@@ -25,7 +25,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.too_short import laid_off
@@ -345,14 +345,6 @@ def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
         kind = construction(step)
         if isinstance(kind, CoriolisComponent) and kind.lean == number:
             yield kind
-
-
-def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
-    """The component of what slides that a step lays off; None for other steps."""
-    laid = step.of
-    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
-        return None
-    return laid, laid.component
 
 
 # --- why it is needed ----------------------------------------------------------------------------

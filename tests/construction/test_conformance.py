@@ -37,7 +37,7 @@ from graphkin.text import words
 from graphkin.web.page_sentences import parted_sentences
 from graphkin.web.palette_moves import your_turn
 from graphkin.web.protocol import telling
-from graphkin.web.reasons import reasons
+from graphkin.web.reasons import of_sentence, reasons
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.your_turn import record as turn_record
 from tests.chosen import CHOSEN, FOLDER
@@ -174,8 +174,9 @@ def said(name: str, language: int) -> object:
     """Sentences, reasons and relations in a language."""
     some = materials(name)[language]
     why = [reasons(drawing, list(drawing.trace.values), {}) for drawing in some]
+    told = [[list(of_sentence(each, one)) for one in sentences(each)] for each in some]
     parts = [parted_sentences(drawing) for drawing in some]
-    return [sentences(drawing) for drawing in some], parts, why, relations(some)
+    return [sentences(drawing) for drawing in some], parts, why, told, relations(some)
 
 
 def marked(name: str) -> object:

@@ -5,15 +5,21 @@ That is the acceleration of the point under it, and where the guide turns the co
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from graphkin.construction.core.arrows import slide_arrow
+from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import part_along
 from graphkin.construction.guides.coincident_points import image_under, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint
+
+if TYPE_CHECKING:
+    from graphkin.construction.coriolis import CoriolisComponent
 
 
 def turning_component(pen: Pen, pair: Joint, link: str, name: str, point: str) -> int | None:
@@ -68,6 +74,16 @@ def end_on_driven(
     vector = coriolis_of(pen, link, *images, point, block, index=index)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         return end_of(pen, pen.the("acceleration", point), vector)
+
+
+def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
+    """The component of what slides that a step lays off; None for other steps."""
+    from graphkin.construction.coriolis import CoriolisComponent
+
+    laid = step.of
+    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
+        return None
+    return laid, laid.component
 
 
 def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:

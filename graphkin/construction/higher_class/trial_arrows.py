@@ -9,7 +9,7 @@ from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action
-from graphkin.construction.coriolis import slid
+from graphkin.construction.guides.sliding import slid
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Vector
 from graphkin.structure.groups import CoupledTrain, Higher

@@ -158,14 +158,9 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         """ω²·r of own values; none against a track that turns, for own rates have no sense."""
         if any(track.size for track in own.turnings(self.omega_track)):
             return
-        radius, length = self.measured(own)
-        for omega in own.turnings(self.omega):
-            yield Size((omega, omega), omega.size**2 * length, radius)
-
-    def measured(self, own: OwnSizes) -> tuple[float, float]:
-        """The bar that is measured for it, and the length that its square rate is multiplied by."""
         radius = own.length(self.foot, self.head)
-        return radius, radius
+        for omega in own.turnings(self.omega):
+            yield Size((omega, omega), omega.size**2 * radius, radius)
 
     def power_of(self, args: tuple[int, ...]) -> int:
         """It follows by itself: it is computed from the steps of the rates."""
@@ -196,10 +191,11 @@ class RollingOnWheel(RollingNormal, frozen=True, kw_only=True):
         key = "step.lay-off-rolling-on" if first else "step.lay-off-named"
         return self.told(drawing, key, formula=self.formula(drawing))
 
-    def measured(self, own: OwnSizes) -> tuple[float, float]:
-        """Its radius, and r·R/(R ± r)."""
-        radius = own.length(self.foot, self.head)
-        return radius, radius * own.length(self.hub, self.foot) / own.length(self.hub, self.head)
+    def sizes(self, own: OwnSizes) -> Iterator[Size]:
+        """That on a straight track, in the ratio of the distances of the other centre."""
+        ratio = own.length(self.hub, self.foot) / own.length(self.hub, self.head)
+        for size in super().sizes(own):
+            yield Size(size.factors, size.size * ratio, size.bar)
 
 
 # --- planning it ---------------------------------------------------------------------------------
