@@ -16,6 +16,9 @@ from graphkin.classroom.grading.keys import Keys, coarseness
 from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.standard import Expectation
 
+FEW = 3
+"""Fewer values tell nothing of a drawing together."""
+
 
 def of_one_drawing(
     expected: Expectation, answers: Mapping[str, Answer], beyond: Sequence[str]
@@ -56,7 +59,7 @@ def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:
 
     spread = key.spread + np.diag(key.computed**2 + rounded**2 / 3)
     scale, count = np.sqrt(np.diag(spread)), len(spread)
-    if not count or not (scale > 0).all():
+    if count < FEW or not (scale > 0).all():
         return np.zeros(np.shape(off)[:-1], dtype=bool)
     shared = spread / np.outer(scale, scale) + 1e-9 * np.eye(count)
     apart = off / scale
