@@ -37,7 +37,8 @@ def settle(folder: Path, name: str, taken: Taken, steps: set[int]) -> None:
 
 def keep(data: bytes, out: Path) -> None:
     """Write a picture of a page in few colours."""
-    Image.open(io.BytesIO(data)).convert("RGB").quantize(96).save(out, optimize=True)
+    coloured = Image.open(io.BytesIO(data)).convert("RGB")
+    coloured.quantize(255, Image.Quantize.MAXCOVERAGE).save(out, optimize=True)
 
 
 def main(folder: Path, name: str, out: Path) -> None:
