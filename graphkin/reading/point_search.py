@@ -75,7 +75,7 @@ ENOUGH, AS_EXPECTED = 1.8, 0.3
 """
 APART = 1.5
 """Nearer to a known point, in mm, another cannot be told from it."""
-TRIED = 16
+TRIED = 10
 """Places that are tried with what would follow from them."""
 
 

@@ -8,11 +8,13 @@ FOLDER is what ``python -m tests.bench.reading N -o FOLDER`` keeps.
 from __future__ import annotations
 
 import argparse
+import io
 import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import msgspec
+from PIL import Image
 
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.reading.marked_drawing import drawings_of_class
@@ -31,6 +33,12 @@ def settle(folder: Path, name: str, taken: Taken, steps: set[int]) -> None:
     for each in taken.points:
         if each.step in steps:
             settled.add(PointDecision(name, each.step, each.verdict, each.at))
+
+
+def keep(data: bytes, out: Path) -> None:
+    """Write a picture of a page in few colours."""
+    coloured = Image.open(io.BytesIO(data)).convert("RGB")
+    coloured.quantize(255, Image.Quantize.MAXCOVERAGE).save(out, optimize=True)
 
 
 def main(folder: Path, name: str, out: Path) -> None:
@@ -54,14 +62,14 @@ def main(folder: Path, name: str, out: Path) -> None:
             page.goto(address)
             page.wait_for_selector("body[data-ready=yes]")
             page.wait_for_function("document.querySelector('#paper image') !== null")
-            page.screenshot(path=out / "marking-desk.png")
+            keep(page.screenshot(), out / "marking-desk.png")
         asked = {point.step for point in outcome.records[0].points if point.ask}
         settle(read, name, taken, asked)
         (marked,) = drawings_of_class(opened, read, words("en"), ["html"]).values()
         (Path(kept) / "marked.html").write_bytes(marked)
-        page.set_viewport_size({"width": 1100, "height": 1080})
+        page.set_viewport_size({"width": 900, "height": 960})
         page.goto((Path(kept) / "marked.html").as_uri())
-        page.screenshot(path=out / "marked-drawing.png")
+        keep(page.screenshot(), out / "marked-drawing.png")
         browser.close()
 
 
