@@ -176,3 +176,17 @@ def test_it_is_told_which_share_of_a_proposal_a_pencil_draws(language):
     for exact, told in ((1.0, False), (0.4, True)):
         advice = lab_advice(LabProposal(found, replace(new, exact=exact), None), texts, said)
         assert (sentence in advice.kept) == told
+
+
+def test_the_parameter_that_decides_most_comes_first(monkeypatch):
+    lab = "offset-slider-crank"
+    found = fair_ranges(read_lab(lab))
+    decides = {"n": 0.1, "r": 0.6}
+    monkeypatch.setattr(type(found.tried), "guilt", lambda tried, name: decides[name])
+    texts = LabTexts(SLIDER, shipped_rules(lab), lab)
+    for _ in range(2):
+        shares = lab_advice(LabProposal(found, None, None), texts, words("en")).shares
+        told = {each.name: each.decides for each in shares}
+        assert list(told.items()) == sorted(told.items(), key=lambda each: -each[1])
+        assert told == {name: round(100 * share) for name, share in decides.items()}
+        decides = dict(zip(decides, [*decides.values()][::-1], strict=True))
