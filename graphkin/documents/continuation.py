@@ -24,12 +24,14 @@ LEADING = 4.6
 """Distance of the lines of data in mm."""
 GAP, HEAD = 8.0, 6.0
 """Room above the heading of a part, and below it, in mm."""
+INSIDE = 3.0
+"""How far the numbers of sentences stay clear of the centring mark at the left, in mm."""
 MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
 
 
-def continuation(drawing: Drawing, view: str, number: str, moved: Set[Moved]) -> Page:
-    """The sheet that goes on. Raises PageError where not even it holds the rest."""
+def continuation(drawing: Drawing, view: str, number: str, moved: Set[Moved], said: int = 0) -> Page:
+    """The sheet that goes on, behind so many sentences. Raises PageError where it is full."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if Moved.DATA in moved:
         pieces = given(drawing, solved=view != "task")
@@ -40,9 +42,10 @@ def continuation(drawing: Drawing, view: str, number: str, moved: Set[Moved]) ->
     top = y + GAP
     right: Rect = (MIDDLE + 6, top, AREA[2], A3_TITLE_BLOCK[1] - 4)
     if Moved.CONSTRUCTION in moved:
-        left: Rect = (x, top + HEAD, MIDDLE, BELOW[3] - 3.5)
+        left: Rect = (x + INSIDE, top + HEAD, MIDDLE, BELOW[3] - 3.5)
         beside = [] if Moved.TABLES in moved else [(right[0], left[1], *right[2:])]
-        marks += [construction_head(drawing, x, top), *in_columns(drawing, [left, *beside])]
+        marks.append(construction_head(drawing, x, top))
+        marks += in_columns(drawing, [left, *beside], said)
     if Moved.TABLES in moved:
         alone = Moved.CONSTRUCTION not in moved
         marks += tables(drawing, (x, *right[1:]) if alone else right, empty=view == "task")

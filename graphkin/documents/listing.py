@@ -15,6 +15,8 @@ LOOKS = ((2.5, 5.6, 3.6), (2.2, 4.9, 3.4), (1.8, 4.0, 3.4))
 """Heights of lettering, each with the largest and the least distance of its lines, in mm."""
 FINE = 0.05
 """By how much, in mm, lines are set closer until they fit."""
+PARTED = 4.6
+"""Distance of the lines of a construction that goes on on another sheet, in mm."""
 INDENT = 7.0
 """Where sentences begin, behind their numbers, in mm."""
 
@@ -28,14 +30,10 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
     In small lettering where signs of large lines would touch. Raises PageError where even small
     lines are too many.
     """
-    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     for height, most, least in LOOKS:
-        wide, narrow = (
-            [flowed(words, " ", across - INDENT, height) for words in said]
-            for across in (width, MARKED[0] - x)
-        )
+        flown = both_ways(drawing, x, width, height)
         for leading in distances(most, least):
-            lines = lined(wide, narrow, int((MARKED[1] - y) / leading + 1))
+            lines = lined(*flown, int((MARKED[1] - y) / leading + 1))
             if y + (len(lines) - 1) * leading <= bottom:
                 break
         else:
@@ -44,6 +42,45 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
             break
     else:
         raise too_long(len(lines), "ask for less on one sheet")
+    return written(lines, x, y, height, leading)
+
+
+def begun(
+    drawing: Drawing, x: float, y: float, width: float, bottom: float
+) -> tuple[list[Mark], int]:
+    """As many whole sentences from a place on as leave a line below them, and how many these are.
+
+    Their lettering is the largest; the line says that the rest is on the continuation sheet.
+    """
+    height, leading = LOOKS[0][0], PARTED
+    wide, narrow = both_ways(drawing, x, width, height)
+    above = int((MARKED[1] - y) / leading + 1)
+    room = int((bottom - y) / leading)
+    said = max(
+        number
+        for number in range(len(wide))
+        if len(lined(wide[:number], narrow[:number], above)) <= room
+    )
+    lines = lined(wide[:said], narrow[:said], above)
+    lines.append(("", drawing.words("page.goes_on" if said else "page.moved")))
+    return written(lines, x, y, height, leading), said
+
+
+def both_ways(
+    drawing: Drawing, x: float, width: float, height: float
+) -> tuple[list[list[str]], list[list[str]]]:
+    """The lines of each sentence across a width, and clear of the centring mark."""
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    return (
+        [flowed(words, " ", width - INDENT, height) for words in said],
+        [flowed(words, " ", MARKED[0] - x - INDENT, height) for words in said],
+    )
+
+
+def written(
+    lines: Sequence[Numbered], x: float, y: float, height: float, leading: float
+) -> list[Mark]:
+    """Lines of sentences with their numbers before them, from a place on."""
     marks: list[Mark] = []
     for i, (number, line) in enumerate(lines):
         if number:
@@ -52,26 +89,30 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
     return marks
 
 
-def in_columns(drawing: Drawing, columns: Sequence[Rect]) -> list[Mark]:
-    """The sentences of a sheet of their own, from one column to the next, none of them parted.
+def in_columns(drawing: Drawing, columns: Sequence[Rect], said: int) -> list[Mark]:
+    """The sentences of a continuation sheet, from one column to the next, none of them parted.
 
-    Raises PageError where there are too many.
+    So many as are said before are left out. Raises PageError where there are too many.
     """
-    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    rest = [words_of(sentence.markup) for sentence in sentences(drawing)][said:]
     for height, most, least in LOOKS:
         sets = [
-            [flowed(words, " ", right - left - INDENT, height) for words in said]
+            [flowed(words, " ", right - left - INDENT, height) for words in rest]
             for left, _, right, _ in columns
         ]
         for leading in distances(most, least):
-            marks = filled(sets, columns, height, leading)
+            marks = filled(sets, columns, height, leading, said)
             if marks:
                 return marks
     raise too_long(sum(map(len, sets[0])), "view the steps, a sentence on each page: --view steps")
 
 
 def filled(
-    sets: Sequence[list[list[str]]], columns: Sequence[Rect], height: float, leading: float
+    sets: Sequence[list[list[str]]],
+    columns: Sequence[Rect],
+    height: float,
+    leading: float,
+    said: int,
 ) -> list[Mark]:
     """Columns with the lines of sentences, broken for each; nothing where they are too many."""
     marks: list[Mark] = []
@@ -83,7 +124,7 @@ def filled(
                 return []
             y = columns[place][1]
         x = columns[place][0]
-        marks.append(Text(x + 5, y, f"{number + 1}.", "caption", height, "end"))
+        marks.append(Text(x + 5, y, f"{said + number + 1}.", "caption", height, "end"))
         for line in sets[place][number]:
             marks.append(Text(x + INDENT, y, line, "caption", height))
             y += leading

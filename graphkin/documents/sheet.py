@@ -28,7 +28,7 @@ from graphkin.documents.data_heading import data_heading
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
-from graphkin.documents.listing import listed
+from graphkin.documents.listing import begun, listed
 from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
 from graphkin.documents.signs import mechanism_signs, plan_signs
@@ -61,11 +61,15 @@ class Moved(Enum):
 
 
 class Writing(Struct, frozen=True):
-    """What is written above and below the drawings of a sheet, and what of it has no room."""
+    """What is written above and below the drawings of a sheet, and what of it has no room.
+
+    Of a construction that has no room, so many sentences are ``said`` here, the others moved.
+    """
 
     head: list[Mark]
     foot: list[Mark]
     moved: frozenset[Moved]
+    said: int = 0
 
 
 def sheet(
@@ -180,17 +184,15 @@ def with_room(
     try:
         return list(made()), set()
     except PageError:
-        where = drawing.words("page.moved")
-        if part is not Moved.CONSTRUCTION:
-            where = f"{drawing.words(f'page.{part.value}')}: {where}"
+        where = f"{drawing.words(f'page.{part.value}')}: {drawing.words('page.moved')}"
         return [Text(x, y, where, "caption", 2.5, name="moved")], {part}
 
 
 def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
     head, moved = heading(drawing, view)
-    foot, more = below(drawing, view)
-    return Writing(head, foot, frozenset(moved | more))
+    foot, more, said = below(drawing, view)
+    return Writing(head, foot, frozenset(moved | more), said)
 
 
 def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
@@ -257,22 +259,19 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     return board
 
 
-def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved]]:
+def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     """The construction in words, the tables, the check bar and the witness's verdict; what of them
-    has no room."""
-    words, moved = drawing.words, set[Moved]()
+    has no room, and how many sentences have some where not all have."""
+    words, moved, said = drawing.words, set[Moved](), 0
     left, top = BELOW[0] + 2, BELOW[1]
-    width = TABLES[0] - left - 5
-    bottom = BELOW[3] - 3.5
     if view == "key":
-        said, moved = with_room(
-            drawing,
-            Moved.CONSTRUCTION,
-            lambda: listed(drawing, left, top + 10.5, width, bottom),
-            left,
-            top + 10.5,
-        )
-        marks = [construction_head(drawing, left, top + 4.5), *said]
+        place = drawing, left, top + 10.5, TABLES[0] - left - 5, BELOW[3] - 3.5
+        try:
+            told = listed(*place)
+        except PageError:
+            told, said = begun(*place)
+            moved.add(Moved.CONSTRUCTION)
+        marks = [construction_head(drawing, left, top + 4.5), *told]
     else:
         marks = list(wanted(drawing, left, top))
     found, more = with_room(
@@ -285,11 +284,11 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved]]:
     marks += found
     moved |= more
     if view == "task":
-        return marks, moved
+        return marks, moved, said
     worst = words.significant(drawing.verdict.largest_difference, 2)
     text = words("page.verified", difference=worst)
     marks.append(Text(left, BELOW[3] + 0.8, text, "caption", 1.8, name="witness"))
-    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])], moved
+    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])], moved, said
 
 
 def construction_head(drawing: Drawing, x: float, y: float) -> Text:

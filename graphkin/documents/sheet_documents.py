@@ -75,7 +75,8 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
             pages = [sheet(drawing, view, f"{number}/{total}", written=written)]
             if written.moved:
                 number += 1
-                pages.append(continuation(drawing, view, f"{number}/{total}", written.moved))
+                rest = written.moved, written.said
+                pages.append(continuation(drawing, view, f"{number}/{total}", *rest))
             found.append(SheetDocument(drawing.kind, tuple(pages)))
         return found
     total = len(drawings)

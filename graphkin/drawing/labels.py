@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from msgspec import Struct, field
@@ -150,27 +150,37 @@ class FieldContent(Struct):
         return [spot for _, spot in sorted((kept | found).items())]
 
     def footed(self, notes: Sequence[str]) -> list[Mark]:
-        """Notes in lines at the foot of the field, where they cross the fewest lines."""
-        across = self.rect[2] - self.rect[0] - 6
-        lines = flowed(notes, "; ", across, 2.5)
-        if not lines:
+        """Notes at the foot of the field, where they cross the fewest lines.
+
+        Where whole lines would stand on something drawn, shorter ones beside it are tried.
+        """
+        if not notes:
             return []
-        if max(extent(line, 2.5)[0] for line in lines) > across:
-            lines = flowed(words_of("; ".join(notes)), " ", across, 2.5)
+        across = self.rect[2] - self.rect[0] - 6
+        found: list[tuple[int, list[Text]]] = []
+        for width in (across, across / 2, across / 3):
+            places = [*self.foot_places(note_lines(notes, width))]
+            found += zip(self.lines_crossed(places), places, strict=True)
+            if not (fewest := min(crossed for crossed, _ in found)):
+                break
+        return [*next(texts for crossed, texts in found if crossed == fewest)]
+
+    def lines_crossed(self, places: Sequence[Sequence[Text]]) -> list[int]:
+        """How many drawn lines texts would cross in each of some places for them."""
+        boxes = [reach(text) for texts in places for text in texts]
+        crossed = shapes.met(boxes, shapes.segments(pieces_of(self.marks)))
+        return [int(of_one) for of_one in crossed.reshape(len(places), -1).sum(axis=1)]
+
+    def foot_places(self, lines: Sequence[str]) -> Iterator[list[Text]]:
+        """The places, from left to right, in which lines may stand at the foot of the field."""
         y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
-        room = self.rect[2] - self.rect[0] - 6 - max(extent(line, 2.5)[0] for line in lines)
-        tried: list[list[Text]] = [
-            [
+        widest = max(extent(line, 2.5)[0] for line in lines)
+        room = self.rect[2] - self.rect[0] - 6 - widest
+        for away in range(0, max(1, int(room)), ASIDE):
+            yield [
                 Text(self.rect[0] + 3 + away, y + LEADING * i, line, "caption", 2.5, name="note")
                 for i, line in enumerate(lines)
             ]
-            for away in range(0, max(1, int(room)), ASIDE)
-        ]
-        if len(tried) == 1:
-            return [*tried[0]]
-        boxes = [reach(text) for texts in tried for text in texts]
-        crossed = shapes.met(boxes, shapes.segments(pieces_of(self.marks)))
-        return [*tried[int(crossed.reshape(len(tried), -1).sum(axis=1).argmin())]]
 
     def spots(self, more: Sequence[Mark] = (), some: Sequence[Label] | None = None) -> list[Spot]:
         """The places of all labels, or of some, clear of marks, taken boxes and each other."""
@@ -184,6 +194,14 @@ class FieldContent(Struct):
         marks = [*self.marks, *more]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
         return pieces_of(marks), boxes
+
+
+def note_lines(notes: Sequence[str], width: float) -> list[str]:
+    """Notes in lines of a width in mm, cut between notes if that will do, else between words."""
+    lines = flowed(notes, "; ", width, 2.5)
+    if max(extent(line, 2.5)[0] for line in lines) > width:
+        lines = flowed(words_of("; ".join(notes)), " ", width, 2.5)
+    return lines
 
 
 def free_ones(board: FieldContent, spots: Sequence[Spot]) -> list[Mark]:
