@@ -537,8 +537,9 @@ def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
         lost = ~np.isfinite(there).all(axis=1)
         there[lost], way[lost] = missed(row[lost], share[lost] - away), -STEP
         slope[:, :, k] = (there - value) / way[:, None]
-    good: Array = np.isfinite(slope).all(axis=(1, 2))
-    good &= abs(np.linalg.det(np.where(good[:, None, None], slope, 0))) > 0
+    finite: Array = np.isfinite(slope).all(axis=(1, 2))
+    area: Array = np.linalg.det(np.where(finite[:, None, None], slope, 0))
+    good: Array = finite & (area != 0)
     slope = np.where(good[:, None, None], slope, np.eye(size))
     found = np.linalg.solve(slope, -value[..., None])[..., 0]
     return np.where(good[:, None], found, np.nan)

@@ -40,6 +40,23 @@ SECOND = tuple(TAGS)[1]
 """The tag of the second of two trial plans."""
 
 
+INTRODUCED = {
+    (False, False): "step.trial-1",
+    (False, True): "step.trial-2",
+    (True, False): "step.trial-in-1",
+    (True, True): "step.trial-in-2",
+}
+"""The words for a plan with what it assumes: whether it lies within another, whether it is the
+second of its two."""
+GOING_ON = {
+    "step.trial-1": "step.trial-1-on",
+    "step.trial-2": "step.trial-2-on",
+    "step.trial-in-1": "step.trial-in-1-on",
+    "step.trial-in-2": "step.trial-in-2-on",
+}
+"""The words for a further part of it."""
+
+
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it.
 
@@ -166,13 +183,11 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
         """A part of it after what it is; in the ``first`` one, after what it assumes too."""
-        which = "2" if self.is_second else "1"
-        within = "" if self.whole is None else "-in"
+        key = INTRODUCED[self.whole is not None, self.is_second]
         fields = {"plan": symbol(tag_words(self.whole.tag))} if self.whole is not None else {}
         if not first:
-            return drawing.words(f"step.trial{within}-{which}-on", how=how, **fields)
+            return drawing.words(GOING_ON[key], how=how, **fields)
         what, size = self.assumed(drawing, self.points(drawing))
-        key = f"step.trial{within}-{which}"
         return drawing.words(key, what=what, amount=size, how=how, **fields)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
