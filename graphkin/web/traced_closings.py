@@ -128,11 +128,10 @@ def crossing_sine(
     unknowns, sides = trying.unknowns, range(own.count)
     misfits, loci = [], []
     for k, size in enumerate(own.sizes):
-        ends = (
-            result(trying, known, [*tried[:k], tried[k] + way * STEP * size, *tried[k + 1 :]], signs)
-            for way in (-1, 1)
+        low, high = (
+            result(trying, known, [*tried[:k], at, *tried[k + 1 :]], signs)
+            for at in (tried[k] - STEP * size, tried[k] + STEP * size)
         )
-        low, high = ends
         misfits.append([high[one.misfit] - low[one.misfit] for one in unknowns])
         loci.append([high[one.locus] - low[one.locus] for one in unknowns])
     least = lift(1.0)

@@ -26,6 +26,7 @@ from graphkin.cli.report.pencil_report import pencil_lines, step_words
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import shown
 from graphkin.documents.sentences import sentences
@@ -174,8 +175,13 @@ def said(name: str, language: int) -> object:
     """Sentences, reasons and relations in a language."""
     some = materials(name)[language]
     why = [reasons(drawing, list(drawing.trace.values), {}) for drawing in some]
-    told = [[list(of_sentence(each, one)) for one in sentences(each)] for each in some]
     parts = [parted_sentences(drawing) for drawing in some]
+    told = [
+        [list(of_sentence(drawing, Sentence(part.step, part.name, part.markup)))]
+        for drawing, sheet_parts in zip(some, parts, strict=True)
+        for whole in sheet_parts
+        for part in whole.parts
+    ]
     return [sentences(drawing) for drawing in some], parts, why, told, relations(some)
 
 
