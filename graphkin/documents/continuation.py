@@ -30,9 +30,7 @@ MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
 
 
-def continuation(
-    drawing: Drawing, view: str, number: str, moved: Set[Moved], said: int = 0
-) -> Page:
+def continuation(drawing: Drawing, view: str, number: str, moved: Set[Moved], said: int = 0) -> Page:
     """The sheet that goes on, behind so many sentences. Raises PageError where it is full."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if Moved.DATA in moved:
