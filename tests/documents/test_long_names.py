@@ -31,8 +31,8 @@ def test_long_names_cross_no_line_of_a_table(text, language):
 
 
 def test_a_name_too_long_to_be_drawn_is_told_in_one_line():
-    drawings = drawings_from(NAMED.format(crank="C" * 40, rocker="R" * 40))
-    told = rf"tables: does not fit: [va]_{'R' * 40}{'C' * 40}\S* is \d+ mm .*; shorten the names"
+    drawings = drawings_from(NAMED.format(crank="C" * 90, rocker="R" * 90))
+    told = rf"tables: does not fit: [va]_{'R' * 90}{'C' * 90}\S* is \d+ mm .*; shorten the names"
     with pytest.raises(PageError, match=told):
         drawn_sheets(drawings, "key")
 

@@ -40,7 +40,7 @@ MADE = {"Line": (Line, 2, "pp"), "Circle": (Circle, 2, "pr"), "Ratio": (Ratio, 3
 PARTS = {Line: 2, Circle: 2, Ratio: 3, Vector: 2}
 EXTRA = {"way": 1, "side": -1, "sense": -1, "place": 1, "size": 1.0}
 """What a step is told beside its arguments."""
-MANY = {"higher.reach": ("rrpp", (2,))} | {
+MANY = {f"higher.{name}": ("rrpp", (2,)) for name in ("reach", "span")} | {
     f"cam_centre.{name}": ("rrrr", (-1.0, 3.0, 4.0)) for name in ("lift", "lift_rate", "lift_bend")
 }
 MANY |= {
@@ -110,11 +110,17 @@ def built(name: str) -> tuple[nk.Work, dict[int, str]]:
 
 
 def sample(shapes: dict[int, str], chance: random.Random) -> dict[int, tuple[Fraction, ...]]:
-    """Numbers between 0.2 and 1.2, points within a unit of the origin, all of three digits."""
+    """Numbers between 0.2 and 1.2, points within a unit of the origin, all of three digits.
+
+    No two numbers are equal: their difference would be zero, and its square more narrow than that.
+    """
     found: dict[int, tuple[Fraction, ...]] = {}
     for number, shape in shapes.items():
         if shape == "r":
-            found[number] = (Fraction(chance.randint(200, 1200), 1000),)
+            size = None
+            while size is None or size in found.values():
+                size = (Fraction(chance.randint(200, 1200), 1000),)
+            found[number] = size
         else:
             found[number] = tuple(Fraction(chance.randint(-1000, 1000), 1000) for _ in "xy")
     return found
