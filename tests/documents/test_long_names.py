@@ -3,8 +3,8 @@
 import pytest
 
 from graphkin.construction.result_tables import tables
+from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
-from graphkin.documents.sheet_documents import drawn_sheets
 from graphkin.drawing.areas import TABLES
 from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
@@ -31,10 +31,10 @@ def test_long_names_cross_no_line_of_a_table(text, language):
 
 
 def test_a_name_too_long_to_be_drawn_is_told_in_one_line():
-    drawings = drawings_from(NAMED.format(crank="C" * 90, rocker="R" * 90))
-    told = rf"tables: does not fit: [va]_{'R' * 90}{'C' * 90}\S* is \d+ mm .*; shorten the names"
+    drawings = drawings_from(NAMED.format(crank="C" * 40, rocker="R" * 40))
+    told = r"calculation: does not fit: C{40}R{40} = \d+ mm;.*; shorten the names"
     with pytest.raises(PageError, match=told):
-        drawn_sheets(drawings, "key")
+        calculation(drawings, "key")
 
 
 def test_the_letters_of_a_triangle_leave_the_index_of_a_point_to_their_own():
