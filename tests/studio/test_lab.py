@@ -54,13 +54,13 @@ def test_a_lab_is_tried_as_the_command_tries_it(session):
 def test_whom_a_pencil_draws_too_coarsely_is_told_by_fields(session):
     """A limit of the pencil's error: how many keep it, and the symbols of what does not."""
     rules = RULES.replace("[fair]", "[fair]\npencil = 0.1")
-    report = asked(session, "trial", rules=rules)
+    report = asked(session, "variants", rules=rules)
     trial = tried(replace(read_lab("pump"), fair=replace(read_lab("pump").fair, pencil=0.1)))
     assert trial.coarse
     exact = trial.pencilled - len(trial.coarse)
     assert report["exact"].startswith(f"A pencil draws {exact} of the first {trial.pencilled} ")
     assert "<i>ε</i><sub>4</sub>, rad/s<sup>2</sup>: " in report["tables"]
-    assert asked(session, "trial")["exact"] == ""
+    assert asked(session, "variants")["exact"] == ""
 
 
 def test_mistakes_of_both_texts_are_told_apart(session):
