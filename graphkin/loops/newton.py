@@ -261,7 +261,7 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
     if not report.closed[0]:
         spare = loops.equation_count - loops.unknown_count
         hint = (
-            f"{spare} more equations than unknowns must be met, too: what is over-constrained "
+            f"equations beyond the unknowns ({spare}) must be met, too: what is over-constrained "
             "closes only with lengths that fit"
         )
         raise WitnessError(
