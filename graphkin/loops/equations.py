@@ -26,6 +26,7 @@ from graphkin.loops.no_slip import (
     gears_of,
     packed_slips,
     slips_of,
+    standing,
     starting_angles,
     tracks_of,
 )
@@ -195,8 +196,8 @@ def equations(
     refuse_loose(links, tree)
     closing = tree.closures()
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
+    turned = standing(turned, starting_angles(written, every, numbers), numbers)
     counted = counted_turnings(written, every, turned, numbers)
-    near = starting_angles(written, every, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
     return Equations(
@@ -211,7 +212,7 @@ def equations(
         gears=gears,
         chains=chains,
         closing=tuple(closing),
-        slips=packed_slips(slips, counted, turned, guides, near, numbers),
+        slips=packed_slips(slips, counted, turned, guides, numbers),
         drives=drives_of(scene, bodies, guides, turned, numbers, whole=bool(every)),
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),

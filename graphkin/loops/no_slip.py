@@ -260,13 +260,9 @@ def packed_slips(
     counted: Mapping[int, tuple[int, Reals]],
     turned: Turnings,
     guides: Sequence[Guide],
-    near: Mapping[str, Real],
     numbers: Numbers,
 ) -> Slips:
-    """The conditions of no slip as arrays.
-
-    Links that never turn stand within half a turn of the angle that they are ``near``.
-    """
+    """The conditions of no slip as arrays."""
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
     for r, slip in enumerate(slips):
@@ -275,8 +271,6 @@ def packed_slips(
             rows[:, r, turned.count + j] += slip.side
         for link, weight in slip.weights.items():
             start, angle = numbers.reals(slip.starts[link]), numbers.reals(turned.angle[link])
-            if link != FRAME and turned.of[link] == turned.of[FRAME]:
-                angle = within_half_a_turn(angle, numbers.reals(near[link]))
             rows[:, r, turned.of[link]] += weight
             constant[:, r] += weight * (angle - start)
     links = tuple(slip.links for slip in slips)
@@ -295,6 +289,21 @@ def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> 
         for link, angle in angles.items():
             found.setdefault(link, angle)
     return found
+
+
+def standing(turned: Turnings, near: Mapping[str, Real], numbers: Numbers) -> Turnings:
+    """The turnings with each link that never turns within half a turn of where it is ``near``.
+
+    One of which nothing is said stands near the frame.
+    """
+    still = [link for link, k in turned.of.items() if k == turned.of[FRAME] and link != FRAME]
+    found = {
+        link: within_half_a_turn(
+            numbers.reals(turned.angle[link]), numbers.reals(near.get(link, 0.0))
+        )
+        for link in still
+    }
+    return replace(turned, angle={**turned.angle, **found})
 
 
 def within_half_a_turn(angle: Reals, start: Reals) -> Reals:
