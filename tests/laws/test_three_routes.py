@@ -20,6 +20,7 @@ SEEN = {
     1263: "a closure close beside the end of where the chain can be drawn",
     1495: "a wheel driven against a link turned half round, but for rounding",
     1856: "an acceleration a hundred million times the driver's",
+    2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 
