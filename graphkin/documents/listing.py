@@ -45,7 +45,7 @@ def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) ->
     return written(lines, x, y, height, leading)
 
 
-def begun(
+def first_part(
     drawing: Drawing, x: float, y: float, width: float, bottom: float
 ) -> tuple[list[Mark], int]:
     """As many whole sentences from a place on as leave a line below them, and how many these are.

@@ -28,7 +28,7 @@ from graphkin.documents.data_heading import data_heading
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
-from graphkin.documents.listing import begun, listed
+from graphkin.documents.listing import first_part, listed
 from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
 from graphkin.documents.signs import mechanism_signs, plan_signs
@@ -269,7 +269,7 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         try:
             told = listed(*place)
         except PageError:
-            told, said = begun(*place)
+            told, said = first_part(*place)
             moved.add(Moved.CONSTRUCTION)
         marks = [construction_head(drawing, left, top + 4.5), *told]
     else:
