@@ -13,7 +13,7 @@ from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, 
 from graphkin.loops.vector_chains import Turnings
 from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.model import Driver, Scene
-from graphkin.scene.whole_turns import turned as whole_turned
+from graphkin.scene.wheels import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
 
 

@@ -42,6 +42,7 @@ from graphkin.loops.rigid_bodies import (
 )
 from graphkin.loops.vector_chains import Tree, Turnings, refuse_unknown_lean, turnings
 from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.phrases import LEADING
 from graphkin.text.errors import Problem, StructureError
 
 CANCELLED = 2.0**-48
@@ -246,7 +247,7 @@ def refuse_loose(links: Sequence[str], tree: Tree) -> None:
             Problem(
                 f"links.{name}",
                 "no pin, guide or track joins this link to the frame",
-                "a point shared with another link, slides or rolls",
+                f"a point shared with another link, {LEADING}",
             )
             for name in loose
         )

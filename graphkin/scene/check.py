@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from fractions import Fraction
 
 from graphkin.scene.check_blocks import check_blocks
 from graphkin.scene.check_drivers import check_drivers
 from graphkin.scene.check_far import check_far
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known_names import known_link, known_point, named, place_of, quoted
+from graphkin.scene.known_names import check_guide, known_point, place_of
 from graphkin.scene.link_names import check_names
-from graphkin.scene.model import FRAME, Branch, Link, Rolling, Scene, Side, Slide, Way
-from graphkin.scene.quantity import shortest
+from graphkin.scene.model import Branch, Link, Scene, Side, Way
+from graphkin.scene.phrases import LEADING
 from graphkin.scene.read_profiles import check_profiles
-from graphkin.text.errors import Hint, Mend
+from graphkin.scene.wheels import check_centres, check_tracks
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -68,20 +67,11 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
 def check_link(scene: Scene, link: Link, findings: Findings) -> None:
     """Guides, tracks, wheels and profiles of a link name points and links that are there."""
     place = place_of(link.name)
-    tracks = [rolling for rolling in link.rolls if rolling.belt is None]
-    belts = [rolling for rolling in link.rolls if rolling.belt is not None]
-    for index, wheel in enumerate(link.wheels):
-        where = numbered(f"{place}.wheel", index, len(link.wheels))
-        if wheel.centre:
-            known_point(wheel.centre, link.points, "this link", f"{where}.centre", findings)
+    check_centres(link, place, findings)
     for index, slide in enumerate(link.slides):
         where = numbered(f"{place}.slides", index, len(link.slides))
         check_guide(scene, link, slide, where, findings)
-    for key, rollings in (("rolls", tracks), ("belt", belts)):
-        for index, rolling in enumerate(rollings):
-            where = numbered(f"{place}.{key}", index, len(rollings))
-            check_rolling(scene, link, rolling, where, findings)
-            check_belt(scene, link, rolling, where, findings)
+    check_tracks(scene, link, place, findings)
     check_guides(scene, link, findings)
     check_profiles(scene, link, findings)
 
@@ -113,78 +103,7 @@ def check_alone(scene: Scene, findings: Findings) -> None:
             findings.add(place, "a link without points", "points, such as P = [0, 0] or P-Q = 30")
         elif not (pinned or link.paths or link.wheels or link.name in carriers):
             found = f"link {link.name} touches no other"
-            findings.add(place, found, "a point that another link has too, slides or rolls")
-
-
-def check_guide(
-    scene: Scene, link: Link, joint: Slide | Rolling, place: str, findings: Findings
-) -> None:
-    """A guide or a track is on another link, and the points it names are that link's."""
-    if joint.on == link.name:
-        findings.add(f"{place}.on", f"link {link.name} itself", "another link")
-        return
-    on = known_link(scene, joint.on, f"{place}.on", findings)
-    if on is None:
-        return
-    where = named(joint.on)
-    if isinstance(joint.through, str):
-        known_point(joint.through, on.points, where, f"{place}.through", findings)
-    if isinstance(joint, Slide) and joint.along:
-        for point in joint.along:
-            if point in on.points or point not in link.points:
-                known_point(point, on.points, where, f"{place}.along", findings)
-            else:
-                found = f"{point} is a point of link {link.name}, not of {where}"
-                hint = f"to slide {where} along this link, write slides in {where}"
-                if joint.on != FRAME:
-                    hint += f", with on = {quoted(link.name)}"
-                findings.add(f"{place}.along", found, listed(on.points), hint)
-
-
-def check_rolling(
-    scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings
-) -> None:
-    """A wheel rolls on a line, or on a wheel of another link; its start names known links."""
-    check_guide(scene, link, rolling, place, findings)
-    if not link.wheels:
-        expected = 'wheel = { centre = "P", radius = … }'
-        findings.add(place, f"link {link.name} has no wheel", expected)
-    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
-    if rolling.through is None and on is not None and not on.wheels and on is not link:
-        expected = "a wheel there, or through and angle for a straight track"
-        if rolling.belt is not None:
-            expected = 'a wheel there: wheel = { centre = "P", radius = … }'
-        wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
-        hint: Hint = ""
-        if len(wheels) == 1:
-            hint = Mend(f"on = {quoted(rolling.on)}", f"on = {quoted(wheels[0])}")
-        findings.add(
-            place,
-            f"{named(rolling.on)} has no wheel to {'run' if rolling.belt else 'roll'} on",
-            expected,
-            hint,
-        )
-    for name in rolling.start:
-        known_link(scene, name, f"{place}.start.{name}", findings)
-    for name, count in rolling.turns.items():
-        known_link(scene, name, f"{place}.turns.{name}", findings)
-        number = count.number(scene.values)
-        if not isinstance(number, Fraction) or number.denominator != 1:
-            findings.add(count.place, f"{shortest(number)} turns", "a whole number of turns")
-
-
-def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings) -> None:
-    """A belt runs on wheels that are there, round the outside of both."""
-    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
-    if rolling.belt is None or on is None:
-        return
-    for each, index in zip((link, on), rolling.belt.wheels, strict=True):
-        if each.wheels and index >= len(each.wheels):
-            found = f"wheel {index + 1} of {named(each.name)}, which has {len(each.wheels)}"
-            findings.add(f"{place}.wheels", found, f"a number up to {len(each.wheels)}")
-        elif each.wheels and each.wheels[index].inside:
-            found = f"the wheel of {named(each.name)} is a ring"
-            findings.add(place, found, "a wheel with a rim outside, for a belt to run on")
+            findings.add(place, found, f"a point that another link has too, {LEADING}")
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:
@@ -219,7 +138,8 @@ def side_hint(scene: Scene, name: str, side: Side) -> str:
     """Where a side belongs that is written under a link: a block takes a way, a pin a side."""
     pin = side_of_pin(scene, name, side)
     if scene.links[name].paths:
-        return f'link {name} slides or rolls: {name} = "forward" or "backward"; a side is for a pin'
+        ways = f'{name} = "forward" or "backward"'
+        return f"link {name} {LEADING}: {ways}; a side is for a pin"
     return f"sides are written under the pin's name: {pin}"
 
 

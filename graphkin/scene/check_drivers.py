@@ -7,6 +7,7 @@ from collections import Counter
 from graphkin.scene.findings import Findings
 from graphkin.scene.known_names import known_link, known_point, named, place_of, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene
+from graphkin.scene.wheels import check_driven
 
 
 def check_drivers(scene: Scene, findings: Findings) -> None:
@@ -28,32 +29,31 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
         return
     for point in driver.of or ():
         known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
-    if driver.kind != "turn" and not findings.inside(place_of(link.name)):
-        check_led(scene, driver, link, place, findings)
-
-
-def check_led(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
-    """A driver that slides or rolls a link has a guide, or a straight track, to move it along."""
-    straight = [joint.on for joint in link.rolls if joint.through is not None]
-    tracks = straight if driver.kind == "roll" else [joint.on for joint in link.slides]
-    if driver.against in tracks:
+    if driver.kind == "turn" or findings.inside(place_of(link.name)):
         return
-    verb = "slides" if driver.kind == "slide" else "rolls straight"
-    if tracks:
-        found = f"link {link.name} {verb} on {named(tracks[0])}, not on {named(driver.against)}"
-        findings.add(place, found, f"against = {quoted(tracks[0])}")
+    if driver.kind == "slide":
+        check_slid(scene, driver, link, place, findings)
+    else:
+        check_driven(driver, link, place, findings)
+
+
+def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
+    """A driver that slides a link has a guide to move it along."""
+    guides = [slide.on for slide in link.slides]
+    if driver.against in guides:
+        return
+    if guides:
+        on, against = named(guides[0]), named(driver.against)
+        findings.add(
+            place,
+            f"link {link.name} slides on {on}, not on {against}",
+            f"against = {quoted(guides[0])}",
+        )
         return
     can = [quoted(each.name) for each in scene.links.values() if each.slides]
-    if driver.kind == "slide":
-        found = f"link {link.name} has no guide to slide along"
-        expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
-        findings.add(f"{place}.slide", found, expected)
-    elif link.rolls:
-        found = f"link {link.name} rolls on a wheel, which has no coordinate"
-        findings.add(f"{place}.roll", found, f"turn = {quoted(link.name)}, or a straight track")
-    else:
-        found = f"link {link.name} has no straight track to roll on"
-        findings.add(f"{place}.roll", found, "rolls = { on, through, angle } in that link")
+    found = f"link {link.name} has no guide to slide along"
+    expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
+    findings.add(f"{place}.slide", found, expected)
 
 
 def check_repeated(scene: Scene, findings: Findings) -> None:

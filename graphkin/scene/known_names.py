@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from graphkin.scene.findings import Findings, listed, nearest
-from graphkin.scene.model import FRAME, Link, Scene
+from graphkin.scene.model import FRAME, GuideOrTrack, Link, Scene, Slide
 
 
 def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
@@ -40,3 +40,28 @@ def named(link: str) -> str:
 def quoted(link: str) -> str:
     """The name of a link as a scene writes it as a value: 2, but "arm"."""
     return link if link.isdigit() else f'"{link}"'
+
+
+def check_guide(
+    scene: Scene, link: Link, joint: GuideOrTrack, place: str, findings: Findings
+) -> None:
+    """A guide or a track is on another link, and the points it names are that link's."""
+    if joint.on == link.name:
+        findings.add(f"{place}.on", f"link {link.name} itself", "another link")
+        return
+    on = known_link(scene, joint.on, f"{place}.on", findings)
+    if on is None:
+        return
+    where = named(joint.on)
+    if isinstance(joint.through, str):
+        known_point(joint.through, on.points, where, f"{place}.through", findings)
+    if isinstance(joint, Slide) and joint.along:
+        for point in joint.along:
+            if point in on.points or point not in link.points:
+                known_point(point, on.points, where, f"{place}.along", findings)
+            else:
+                found = f"{point} is a point of link {link.name}, not of {where}"
+                hint = f"to slide {where} along this link, write slides in {where}"
+                if joint.on != FRAME:
+                    hint += f", with on = {quoted(link.name)}"
+                findings.add(f"{place}.along", found, listed(on.points), hint)

@@ -13,6 +13,8 @@ from graphkin.text.errors import Hint, Mend
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
 KEYWORDS = frozenset(("slides", "rolls", "belt", "wheel", "wheels", "touches", "profiles", "cam"))
+LEADING = "slides or rolls"
+"""The keys of what leads a link along another, in words."""
 SIDES = {"left": 1, "right": -1}
 WAYS = {"forward": 1, "backward": -1}
 

@@ -8,7 +8,6 @@ from typing import ClassVar
 
 from msgspec import Struct
 
-from graphkin.scene.contact_letters import contact_letters
 from graphkin.scene.model import (
     Rolling,
     Scene,
@@ -18,6 +17,7 @@ from graphkin.scene.model import (
     link_words,
     of_one_size,
 )
+from graphkin.scene.wheels import contact_letters
 from graphkin.structure.touching_wheels import radius, touching
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.scene.contact_letters import contact_letters
 from graphkin.scene.read_scene import read_text
+from graphkin.scene.wheels import contact_letters
 from graphkin.structure.pairs import contacts
 from tests.scene_files import scene_text
 

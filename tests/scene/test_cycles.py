@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import pytest
 
-from graphkin.scene.whole_turns import cycle
+from graphkin.scene.wheels import cycle
 from tests.mechanisms import mechanism_of, scene_of
 
 EPS = 2.0**-52

@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.check import written
 from graphkin.scene.model import Closure, Scene, Side, Way
+from graphkin.scene.phrases import LEADING
 from graphkin.structure.groups import (
     Crank,
     Driven,
@@ -172,7 +173,7 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     raise StructureError(
         Problem(
             f"branches.{block}",
-            MISSING if branch is None else f"{written(branch)} for a link that slides or rolls",
+            MISSING if branch is None else f"{written(branch)} for a link that {LEADING}",
             '"forward" or "backward"',
             hint,
         )

@@ -16,9 +16,9 @@ from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.scene.contact_letters import contact_letters
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
+from graphkin.scene.wheels import contact_letters
 from graphkin.text import MINUS, Words
 
 WHEELS = {

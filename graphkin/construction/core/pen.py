@@ -30,7 +30,7 @@ from graphkin.construction.core.run import StepFailed, evaluate
 from graphkin.construction.core.vocabulary import Action, pole
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import FRAME, Driver, Scene
-from graphkin.scene.whole_turns import turned
+from graphkin.scene.wheels import turned
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Sliding, turns
 from graphkin.structure.turn_counting import counted_near
