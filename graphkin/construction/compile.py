@@ -139,10 +139,11 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
             from graphkin.construction.higher_class import coupled_train
 
             return (partial(coupled_train.position, each=place), *by_trials())
-        case Higher():
+        case Higher(at_instant=parts):
             from graphkin.construction.higher_class import higher
 
-            return (partial(higher.position, each=place), *by_trials())
+            plans = with_pinned_wheels() if parts else by_trials()
+            return (partial(higher.position, each=place), *plans)
         case Unresolved():
             raise ValueError(f"links {', '.join(group.links)} are in no group that is drawn")
 
@@ -153,6 +154,14 @@ def by_trials() -> tuple[Work, Work]:
 
     first, second = (partial(in_plan, which=which) for which in PLANS)
     return partial(two_trials.velocity, each=first), partial(two_trials.acceleration, each=second)
+
+
+def with_pinned_wheels() -> tuple[Work, Work]:
+    """What a group draws in both plans whose wheels leave nothing to try at the instant."""
+    from graphkin.construction.rolling import pinned_wheels
+
+    first, second = (partial(in_plan, which=which) for which in PLANS)
+    return partial(pinned_wheels.move, each=first), partial(pinned_wheels.accelerate, each=second)
 
 
 def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:

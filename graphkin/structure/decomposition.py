@@ -14,7 +14,7 @@ from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
-from graphkin.structure.pairs import Contact
+from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -41,7 +41,6 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
 
 def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
     """The next group of higher class; what finds these is loaded where the others end."""
-    from graphkin.structure.coupled_trains import next_coupled
     from graphkin.structure.higher_groups import next_higher
 
     return next_coupled(joints, known) or next_higher(joints, known, waiting)
@@ -51,15 +50,7 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     """What is left, and what there is in it that no construction takes."""
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
-    rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
-    keepers = (None, *joints.scene.keepers)
-    tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm in keepers)
-    straight = {
-        link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
-        for link in links
-    }
-    wedged = tuple(link for link, pairs in straight.items() if len(pairs) > 1)
-    held = tuple(dict.fromkeys(link for link in tracks if link in links))
+    held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
     return Unresolved(links, driven, held, wedged)
 
 

@@ -5,69 +5,34 @@ from __future__ import annotations
 from msgspec import Struct
 
 from graphkin.scene.findings import natural
-from graphkin.scene.model import FRAME, Driver, joined_words, link_words
+from graphkin.scene.model import Driver, joined_words
 from graphkin.structure.assur import assur_class
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Joint, Leading, Pin, Sliding
+from graphkin.structure.one_link import Crank, Driven, Tie, TriedLink, other_of
+from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.structure.wheel_groups import CoupledTrain, Geared, PinnedWheel, Spun, Train
 from graphkin.text.plain_table import listed
 
+__all__ = [
+    "CamFollower",
+    "CoupledTrain",
+    "Crank",
+    "Cylinder",
+    "Driven",
+    "Dyad",
+    "Geared",
+    "Group",
+    "Higher",
+    "PinnedWheel",
+    "Spun",
+    "Stretched",
+    "Tie",
+    "Train",
+    "TriedLink",
+    "Unresolved",
+    "other_of",
+]
+
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
-
-
-class OneLink(Struct, frozen=True):
-    """What consists of one link."""
-
-    link: str
-
-    @property
-    def links(self) -> tuple[str]:
-        """The one link."""
-        return (self.link,)
-
-
-class Crank(OneLink, frozen=True):
-    """A link that a driver turns about a pin whose motion is known."""
-
-    driver: Driver
-    pivot: str
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        against = other_of(self.driver, self.link)
-        beside = "" if against == FRAME else f", against link {against}"
-        return f"driven by a crank about {self.pivot}{beside}"
-
-    @property
-    def words(self) -> str:
-        """Its kind, class and order, its links and what it is joined to."""
-        other = other_of(self.driver, self.link)
-        against = "" if other == FRAME else f" against link {other}"
-        return f"crank {self.link} about {self.pivot}{against} (class I)"
-
-
-class Driven(OneLink, frozen=True):
-    """A link that a driver slides along a guide, or rolls on a track, of a known link."""
-
-    driver: Driver
-    pair: Leading
-
-    @property
-    def outer(self) -> tuple[Joint]:
-        """Its pair with what is known."""
-        return (self.pair,)
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        against = other_of(self.driver, self.link)
-        beside = "frame" if against == FRAME else f"link {against}"
-        return f"driven, {self.pair.moving} on {beside}"
-
-    @property
-    def words(self) -> str:
-        """Its kind, class and order, its links and what it is joined to."""
-        return f"link {self.link} driven (class I): {self.pair.words}"
 
 
 class Dyad(Struct, frozen=True):
@@ -185,183 +150,20 @@ class Stretched(Struct, frozen=True):
         return titled(self)
 
 
-class Geared(OneLink, frozen=True):
-    """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
-
-    pair: Joint
-    contact: Contact
-
-    @property
-    def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
-        return self.pair, self.contact
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        does = "has a belt with" if self.contact.rolling.belt else "rolls on"
-        return f"{does} link {partner(self.contact, self.link)}"
-
-    @property
-    def words(self) -> str:
-        """What it is joined to, and what moves it."""
-        other = link_words(partner(self.contact, self.link))
-        return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
-
-
-class Spun(Struct, frozen=True):
-    """A wheel or bar whose angle a driver gives, on a ``holder`` that follows from its contact.
-
-    The holder, on a known pin, is the arm of a wheel (``held`` by a pin) or the block along which
-    a bar slides that rolls on a drum.
-    """
-
-    link: str
-    driver: Driver
-    holder: str
-    pivot: Pin
-    held: Pin | Sliding
-    contact: Contact
-
-    @property
-    def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
-        return self.pivot, self.contact
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """The holder, and what it holds."""
-        return (self.holder, self.link)
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        on = partner(self.contact, self.link)
-        return f"link {self.link} turned by its driver, rolling on link {on}"
-
-    @property
-    def words(self) -> str:
-        """Its class, what it rolls on, and what follows from that."""
-        other = link_words(partner(self.contact, self.link))
-        follows = f"link {self.holder} on {self.pivot.brief} follows"
-        return f"link {self.link} driven (class I): it rolls on {other}; {follows}"
-
-
-class Train(Struct, frozen=True):
-    """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
-
-    arm: str
-    wheel: str
-    pivot: Pin
-    centre: Pin
-    contacts: tuple[Contact, Contact]
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """Arm and wheel."""
-        return (self.arm, self.wheel)
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
-        return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
-
-    @property
-    def words(self) -> str:
-        """Its arm, its wheel, and what that rolls on."""
-        others = listed(link_words(partner(contact, self.wheel)) for contact in self.contacts)
-        arm = f"arm {self.arm} on {self.pivot.brief}"
-        return f"{arm} with wheel {self.wheel}, which rolls on {others}"
-
-
-class Tie(OneLink, frozen=True):
-    """A link that two pairs join to known links: at two pins it is idle, on two guides a wedge."""
-
-    first: Joint
-    second: Joint
-
-    @property
-    def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with what is known."""
-        return self.first, self.second
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        if isinstance(self.first, Sliding):
-            return "led by two guides"
-        return "idle: joins what moves together without it"
-
-    @property
-    def words(self) -> str:
-        """Its link, and what holds it."""
-        held = listed(pair.brief for pair in self.outer)
-        if isinstance(self.first, Sliding):
-            led = f"link {self.link} led by {held}"
-            return f"{led}: both tell how it is turned, so that one is idle"
-        return f"link {self.link} between {held}, which stand already: it must be idle"
-
-
-class TriedLink(OneLink, frozen=True):
-    """A link whose place in its pair with a known one is tried until the rest closes."""
-
-    pair: Joint
-
-    @property
-    def words(self) -> str:
-        """What is tried of it."""
-        return f"tried at link {self.link} on {self.pair.brief}"
-
-
-class CoupledTrain(Struct, frozen=True):
-    """Wheels that turn one another in a loop: once one link is tried, each follows from the next.
-
-    What closes it at last is a contact with a wheel of a known link.
-    """
-
-    trial: TriedLink
-    chain: tuple[Geared, ...]
-    last: Contact
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """All links, that which is tried first."""
-        return (self.trial.link, *(each.link for each in self.chain))
-
-    @property
-    def closing(self) -> str:
-        """The link whose wheel touches that of a known link at last."""
-        return next(link for link in self.last.links if link in self.links)
-
-    @property
-    def title(self) -> str:
-        """What it is called."""
-        return "coupled train of wheels"
-
-    @property
-    def words(self) -> str:
-        """Its links, where it is tried, and what closes it."""
-        names = listed(sorted(self.links, key=natural))
-        start = f"{self.title} (links {names}): {self.trial.words}"
-        return f"{start}, closed by the {self.last.brief}"
-
-
 class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
     What closes it at last is a link between two known points, or a driver's given motion. Where
     dyads alone do not do the rest, its chain holds groups within it that are tried in their turn.
-    Where
-    ``wheels`` of it roll on straight tracks that are known, and pinning them where they touch
-    leaves groups that need no trial, those move it ``at_instant``.
+    Where its ``wheels``, pinned to known tracks, leave groups that need no trial, those move it
+    ``at_instant``.
     """
 
     trial: TriedLink
     chain: tuple[Group, ...]
     last: Tie | Driver
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
-    wheels: tuple[Contact, ...] = ()
+    wheels: tuple[PinnedWheel, ...] = ()
     at_instant: tuple[Group, ...] = ()
 
     @property
@@ -369,6 +171,18 @@ class Higher(Struct, frozen=True):
         """All links, that whose place is tried first and that which closes last."""
         last = self.last.links if isinstance(self.last, Tie) else ()
         return (*self.trial.links, *(link for g in self.chain for link in g.links), *last)
+
+    @property
+    def parts(self) -> tuple[TriedLink | Group, ...]:
+        """The link that is tried, its chain, and the link that closes it, if one does."""
+        return (self.trial, *self.chain, *((self.last,) if isinstance(self.last, Tie) else ()))
+
+    @property
+    def placing(self) -> list[Joint]:
+        """The pairs by which its parts hang on what is known before them."""
+        among = (getattr(part, "contacts", ()) for part in self.parts[1:])
+        outer = (getattr(part, "outer", ()) for part in self.parts[1:])
+        return [self.trial.pair, *(pair for pairs in (*among, *outer) for pair in pairs)]
 
     @property
     def nested(self) -> tuple[Higher, ...]:
@@ -407,7 +221,7 @@ class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
 
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links on which wheels roll straight on, ``wedged`` the wheels between two known tracks.
+    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones.
     """
 
     links: tuple[str, ...]
@@ -440,11 +254,6 @@ Group = (
     | Higher
     | Unresolved
 )
-
-
-def other_of(driver: Driver, link: str) -> str:
-    """The link against which a link is driven."""
-    return driver.against if driver.link == link else driver.link
 
 
 def titled(group: CamFollower | Stretched | Unresolved) -> str:

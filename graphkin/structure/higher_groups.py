@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.model import Driver, Scene
 from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Spun, Tie, TriedLink
-from graphkin.structure.instant_groups import groups_at_instant, pinned_wheels
+from graphkin.structure.instant_groups import at_instant
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
     next_driven,
@@ -21,7 +21,8 @@ from graphkin.structure.next_group import (
     next_tie,
     settle,
 )
-from graphkin.structure.pairs import Joint, Pin, turned_by_smaller
+from graphkin.structure.pairs import Joint, Pin
+from graphkin.structure.wheel_groups import turned_by_smaller
 
 MOST_TRIED = 4
 """Links of a group that are tried together at most."""
@@ -35,9 +36,7 @@ def next_higher(joints: Joints, known: Collection[str], waiting: list[Driver]) -
     """
     for count in range(1, MOST_TRIED + 1):
         if least := least_tried(joints, known, waiting, count):
-            wheels = pinned_wheels(joints, least, known)
-            at_instant = groups_at_instant(joints, least, known, waiting, wheels)
-            return replace(least, wheels=wheels, at_instant=at_instant)
+            return at_instant(joints, least, known, waiting)
     return None
 
 
@@ -64,7 +63,7 @@ def least_tried(
 def speeding(scene: Scene, group: Higher) -> int:
     """How many wheels of a group are turned by smaller ones."""
     geared = [each for each in group.members if isinstance(each, Geared)]
-    return sum(turned_by_smaller(scene, each.contact, each.link) for each in geared)
+    return sum(turned_by_smaller(scene, each) for each in geared)
 
 
 def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:

@@ -9,6 +9,7 @@ from graphkin.numbers.plane import cross
 from graphkin.scene.known_names import quoted
 from graphkin.scene.model import FRAME, Scene, Slide, link_words
 from graphkin.structure.link_axes import guide_line, metres
+from graphkin.structure.touching_wheels import lone_wheels
 from graphkin.structure.turning import LEVEL
 from graphkin.text.errors import Problem
 
@@ -24,19 +25,6 @@ def impossible(scene: Scene) -> list[Problem]:
         *unknown_leans(scene),
         *unturnable(scene),
     ]
-
-
-def lone_wheels(scene: Scene) -> Iterator[Problem]:
-    """Wheels that roll on nothing and on which nothing rolls."""
-    links = (scene.frame, *scene.links.values())
-    tracks = {rolling.on for link in links for rolling in link.rolls}
-    for link in links:
-        if link.wheels and not link.rolls and link.name not in tracks:
-            place = "frame.wheel" if link.name == FRAME else f"links.{link.name}.wheel"
-            found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
-            there = f"rolls or belt = {{ on = {quoted(link.name)} }} in a link with a wheel"
-            here = "" if link.name == FRAME else "rolls or belt = { on, … } in this link, or "
-            yield Problem(place, found, here + there)
 
 
 def double_guides(scene: Scene) -> Iterator[Problem]:

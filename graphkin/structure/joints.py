@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from copy import copy
 
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import Contact, Joint, Pin, all_pairs, refuse_loose, sharers
+from graphkin.structure.pairs import Joint, Pin, all_pairs, refuse_loose, sharers
 
 
 class Joints:
@@ -69,12 +69,12 @@ class Joints:
         part.names = tuple(name for name in self.names if name in links)
         return part
 
-    def with_pins(self, pins: Sequence[tuple[Contact, Pin]]) -> Joints:
-        """The same pairs, with pins in place of some contacts."""
+    def with_pins(self, pins: Sequence[tuple[Joint, Pin]]) -> Joints:
+        """The same pairs, with pins in place of some of them."""
         pinned = copy(self)
         pinned.found = {}
         pinned.others = {
-            link: [next((pin for contact, pin in pins if contact == pair), pair) for pair in pairs]
+            link: [next((pin for held, pin in pins if held == pair), pair) for pair in pairs]
             for link, pairs in self.others.items()
         }
         pinned.owners = self.owners | {pin.point: pin.links for _, pin in pins}

@@ -13,10 +13,10 @@ from graphkin.scene.model import (
     Angled,
     Apart,
     At,
+    GuideOrTrack,
     OnLine,
     Placing,
     Polar,
-    Rolling,
     Scene,
     Slide,
     Triangle,
@@ -91,12 +91,7 @@ def guide_line(scene: Scene, slide: Slide) -> Line:
     return Line(first, (second - first) / abs(second - first))
 
 
-def track_line(scene: Scene, rolling: Rolling) -> Line:
-    """A straight track in the axes of its link, along a unit vector."""
-    return Line(through(scene, rolling), unit(scene, rolling.angle))
-
-
-def through(scene: Scene, joint: Slide | Rolling) -> Point:
+def through(scene: Scene, joint: GuideOrTrack) -> Point:
     """The point that a guide or a track is written through, in the axes of its link."""
     match joint.through:
         case str(name):

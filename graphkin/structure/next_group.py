@@ -11,16 +11,15 @@ from graphkin.structure.groups import (
     Cylinder,
     Driven,
     Dyad,
-    Geared,
     Group,
     Higher,
     Spun,
     Stretched,
     Tie,
-    Train,
 )
 from graphkin.structure.joints import Joints, partner
-from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
+from graphkin.structure.pairs import Joint, Pair, Pin, Sliding
+from graphkin.structure.wheel_groups import by_centres, geared_of, spun, train_with, turned_wheel
 
 
 def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
@@ -62,39 +61,9 @@ def driven_by(
     for pair in joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:
             continue
-        if isinstance(pair, Contact) and pair.track is not None:
-            continue  # a coordinate is counted along a straight track
         if pair.links[0] == driver.link:
             return Driven(link, driver, pair)
     return None
-
-
-def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
-    """A wheel that a driver turns against the straight track on which it rolls."""
-    for pair in joints.between(link, (driver.against,)):
-        if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
-            return Driven(link, driver, pair) if link == driver.link and pair.taken == 2 else None
-    return None
-
-
-def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> Spun | None:
-    """A link that a driver turns and that rolls on a known wheel, on an arm or block of its own."""
-    joined = joints.between(link, known)
-    if len(joined) != 1 or not isinstance(joined[0], Contact) or joined[0].alike:
-        return None
-    if driver.link != link:
-        return None
-    contact, holder = joined[0], joined[0].arm
-    if holder is None or holder in known:
-        return None
-    pivots, held = joints.between(holder, known), joints.inner(link, holder, known)
-    if len(pivots) != 1 or len(held) != 1 or not isinstance(pivots[0], Pin):
-        return None
-    rolls = isinstance(held[0], Pin) if contact.track else contact.links[1] == link
-    slides = contact.track is None and isinstance(held[0], Sliding)
-    if not rolls or isinstance(held[0], Contact) or not (contact.track or slides):
-        return None
-    return Spun(link, driver, holder, pivots[0], held[0], contact)
 
 
 def next_group(joints: Joints, known: Collection[str]) -> Group | None:
@@ -117,34 +86,6 @@ def is_of_cam(joints: Joints, dyad: Dyad) -> bool:
     return any(link in joints.scene.cam_links for link in dyad.links)
 
 
-def train_with(
-    joints: Joints, known: Collection[str], arm: str, left: tuple[Joint, ...]
-) -> Train | None:
-    """The arm of a planet that rolls on two known links, such as a sun and a ring."""
-    if len(left) != 1 or not isinstance(left[0], Pin):
-        return None
-    for wheel in joints.neighbours(arm):
-        if wheel in known:
-            continue
-        inner = joints.inner(arm, wheel, known)
-        outer = joints.between(wheel, known)
-        rolled = [pair for pair in outer if isinstance(pair, Contact) and not pair.alike]
-        contacts = [pair for pair in rolled if pair.arm == arm]
-        if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
-            return Train(arm, wheel, left[0], inner[0], (contacts[0], contacts[1]))
-    return None
-
-
-def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> Geared | None:
-    """A link with one pair and a contact that takes a single freedom; more of these are idle.
-
-    A contact settles a turning once the arm that keeps its distance is known too.
-    """
-    ones = [pair for pair in joined if isinstance(pair, Contact) and pair.arm in known]
-    twos = [pair for pair in joined if pair.taken == 2]
-    return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
-
-
 def dyad_with(
     joints: Joints, known: Collection[str], first: str, left: tuple[Joint, ...]
 ) -> Dyad | None:
@@ -165,15 +106,7 @@ def dyad_with(
 
 def can_close(dyad: Dyad) -> bool:
     """False for three slides, which leave the group loose, and for wheels pinned off centre."""
-    if isinstance(dyad.inner, Contact) or dyad.type == "PPP":
-        return False
-    wheels = [pair for pair in (dyad.left, dyad.right) if isinstance(pair, Contact)]
-    return not wheels or (isinstance(dyad.inner, Pin) and by_centre(dyad.inner, wheels, dyad.links))
-
-
-def by_centre(inner: Pin, wheels: list[Contact], links: tuple[str, str]) -> bool:
-    """Whether a pin is the centre of the wheels of some links."""
-    return all(pair.wheel.centre == inner.point for pair in wheels if pair.links[0] in links)
+    return dyad.type != "PPP" and by_centres(dyad.inner, dyad.outer, dyad.links)
 
 
 def in_order(dyad: Dyad) -> Dyad:
@@ -243,6 +176,6 @@ def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
         if len(pairs) == 2 and all(pair.taken == 2 for pair in pairs):
             first, second = sorted(pairs, key=lambda pair: not isinstance(pair, Pin))
             on_two = isinstance(first, Pin) or partner(first, link) != partner(second, link)
-            if on_two and not isinstance(first, Contact) and not isinstance(second, Contact):
+            if on_two and isinstance(first, Pair) and isinstance(second, Pair):
                 return Tie(link, first, second)
     return None

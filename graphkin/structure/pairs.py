@@ -18,7 +18,7 @@ from graphkin.scene.model import (
     of_one_size,
 )
 from graphkin.scene.wheels import contact_letters
-from graphkin.structure.touching_wheels import radius, touching
+from graphkin.structure.touching_wheels import touching
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError
 
@@ -37,7 +37,6 @@ __all__ = [
     "pairs",
     "refuse_loose",
     "sharers",
-    "turned_by_smaller",
     "turns",
 ]
 
@@ -110,7 +109,6 @@ class Contact(Struct, frozen=True):
     """
 
     symbol: ClassVar[str] = "W"
-    moved_by: ClassVar[str] = "roll"
     moving: ClassVar[str] = "rolling"
 
     rolling: Rolling
@@ -137,6 +135,11 @@ class Contact(Struct, frozen=True):
             words += f" from {track} of {link_words(on)}"
         kept = "" if self.arm is None else f", at a distance that {link_words(self.arm)} keeps"
         return words + kept
+
+    @property
+    def moved_by(self) -> str:
+        """What a driver does to it, as written: a coordinate is counted along a straight track."""
+        return "roll" if self.track is None else ""
 
     @property
     def taken(self) -> int:
@@ -207,14 +210,6 @@ def refuse_loose(joints: Sequence[Joint]) -> None:
                 "the arm keeps the wheels together; its weight and shape do not matter",
             )
         )
-
-
-def turned_by_smaller(scene: Scene, contact: Contact, link: str) -> bool:
-    """Whether a wheel touches a smaller one, which then turns faster."""
-    if contact.track is None:
-        return False
-    own, other = radius(scene, contact.wheel), radius(scene, contact.track)
-    return own > other if contact.links[0] == link else other > own
 
 
 def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:

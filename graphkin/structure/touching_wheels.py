@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import Struct
 
-from graphkin.numbers.plane import cross
+from graphkin.numbers.plane import Line, cross
+from graphkin.scene.known_names import quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.scene.quantity import SI
-from graphkin.structure.link_axes import body, metres, track_line
+from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
 from graphkin.text.errors import Problem, StructureError
 
@@ -211,3 +212,21 @@ def shown(scene: Scene, length: float) -> str:
     """A length in the unit of the scene."""
     unit = scene.units["length"]
     return f"{length / float(SI[unit][0]):.10g} {unit}"
+
+
+def track_line(scene: Scene, rolling: Rolling) -> Line:
+    """A straight track in the axes of its link, along a unit vector."""
+    return Line(through(scene, rolling), unit(scene, rolling.angle))
+
+
+def lone_wheels(scene: Scene) -> Iterator[Problem]:
+    """Wheels that roll on nothing and on which nothing rolls."""
+    links = (scene.frame, *scene.links.values())
+    tracks = {rolling.on for link in links for rolling in link.rolls}
+    for link in links:
+        if link.wheels and not link.rolls and link.name not in tracks:
+            place = "frame.wheel" if link.name == FRAME else f"links.{link.name}.wheel"
+            found = "a wheel without a track: it rolls on nothing, and nothing rolls on it"
+            there = f"rolls or belt = {{ on = {quoted(link.name)} }} in a link with a wheel"
+            here = "" if link.name == FRAME else "rolls or belt = { on, … } in this link, or "
+            yield Problem(place, found, here + there)

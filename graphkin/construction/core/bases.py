@@ -67,13 +67,13 @@ def crank_tip(scene: Scene, crank: Crank) -> str | None:
     return next((point for point in (*line, *points) if point != crank.pivot), None)
 
 
-def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
+def bases(scene: Scene, group: Group | TriedLink) -> tuple[Base, ...]:
     """The bases of a group's links. Raises StructureError for a group without construction."""
     match group:
         case Crank(link=link, pivot=pivot):
             return (base_of(scene, link, pivot, crank_tip(scene, group)),)
-        case Driven(link=link, pair=pair):
-            return (led_base(scene, link, pair.led_point(scene, link), pair),)
+        case Driven(link=link, pair=pair) | TriedLink(link=link, pair=pair):
+            return (held_base(scene, link, pair),)
         case Dyad():
             return dyad_bases(scene, group)
         case CamFollower(dyad=dyad):
@@ -100,8 +100,7 @@ def bases(scene: Scene, group: Group) -> tuple[Base, ...]:
         case Tie(link, Pin(point=first), _):
             return (base_of(scene, link, first, None),)
         case CoupledTrain() | Higher():
-            chain = [bases(scene, each) for each in (*group.chain, *ending(group))]
-            return (trial_base(scene, group.trial), *(base for each in chain for base in each))
+            return tuple(base for part in group.parts for base in bases(scene, part))
     raise no_construction(group)
 
 
@@ -112,7 +111,7 @@ def own_first(base: Base) -> Base:
     return Base(base.link, base.end, base.start, base.others)
 
 
-def leads_of(group: Group) -> dict[str, str]:
+def leads_of(group: Group | TriedLink) -> dict[str, str]:
     """The links that turn as another does, because they slide on one another, and which that is."""
     match group:
         case CamFollower(dyad=dyad):
@@ -129,6 +128,8 @@ def leads_of(group: Group) -> dict[str, str]:
             return {block: link}
         case Tie(link=link, second=Sliding() as pair):
             return {link: partner(pair, link)}
+        case TriedLink(link=link, pair=Sliding() as pair):
+            return {link: partner(pair, link)}
         case Dyad(links=(first, second), left=Pin(), inner=Sliding(), right=Sliding() as right):
             return {second: partner(right, second), first: second}
         case Dyad(inner=Sliding(links=(block, carrier))):
@@ -137,29 +138,13 @@ def leads_of(group: Group) -> dict[str, str]:
             ends = zip(links, (left, right), strict=True)
             return {each: partner(p, each) for each, p in ends if isinstance(p, Sliding)}
         case Higher():
-            found: dict[str, str] = {}
-            for each in (*group.chain, *ending(group)):
-                found |= leads_of(each)
-            trial = group.trial
-            if isinstance(trial.pair, Sliding):
-                found[trial.link] = partner(trial.pair, trial.link)
-            return found
+            return {link: by for part in group.parts for link, by in leads_of(part).items()}
     return {}
 
 
 def ending(group: CoupledTrain | Higher) -> tuple[Tie, ...]:
     """The link that closes a group last, if a link does."""
     return (group.last,) if isinstance(group.last, Tie) else ()
-
-
-def trial_base(scene: Scene, trial: TriedLink) -> Base:
-    """The base of a tried link: its pin and another point, or the point that a guide leads."""
-    if isinstance(trial.pair, Pin):
-        pivot = trial.pair.point
-        tip = next((p for p in scene.link(trial.link).points if p != pivot), None)
-        return base_of(scene, trial.link, pivot, tip)
-    point = trial.pair.led_point(scene, trial.link)
-    return led_base(scene, trial.link, point, trial.pair)
 
 
 def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:
@@ -209,6 +194,14 @@ def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tupl
         case _, inner, right:
             led = known[second].start
             return led, led, [(inner, second), (right, second)]
+
+
+def held_base(scene: Scene, link: str, pair: Joint) -> Base:
+    """The base of a link by one pair: its pin and another point, or the point that is led."""
+    if isinstance(pair, Pin):
+        tip = next((p for p in scene.link(link).points if p != pair.point), None)
+        return base_of(scene, link, pair.point, tip)
+    return led_base(scene, link, pair.led_point(scene, link), pair)
 
 
 def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:

@@ -85,8 +85,8 @@ def why_no_choice(scene: Scene, groups: tuple[Group, ...], name: str) -> str:
         case Dyad() as dyad if not (dyad.type == "RRR" or has_two_ways(dyad)):
             links = " and ".join(dyad.links)
             return f"links {links} with their slides close in one way only ({dyad.title})"
-        case Geared(link=link):
-            return f"link {link} follows from its contact in one way only"
+        case Geared() as wheel:
+            return wheel.one_way
     return f"no group has a choice at {called(scene, name)}"
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
-from graphkin.construction.core.bases import bases, trial_base
+from graphkin.construction.core.bases import bases
 from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -56,7 +56,7 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
 
 def position(pen: Pen, shapes: LinkShapes, group: CoupledTrain, each: Each) -> None:
     """The tried link at its angle, and one wheel after the other on its pin."""
-    link, base = group.trial.link, trial_base(pen.scene, group.trial)
+    link, (base,) = group.trial.link, bases(pen.scene, group.trial)
     pen.bases[link] = base
     settle_turn(pen, link, turn_of_tried(pen, shapes, group))
     if base.end is not None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.bases import Base, bases, ending, trial_base
+from graphkin.construction.core.bases import Base, bases, ending
 from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
@@ -181,7 +181,7 @@ def build(
 
 def place_trial(pen: Pen, shapes: LinkShapes, group: Higher, tried: int) -> None:
     """The tried link: turned about its pin, or set along its guide or track."""
-    trial, base = group.trial, trial_base(pen.scene, group.trial)
+    trial, (base,) = group.trial, bases(pen.scene, group.trial)
     pen.bases[trial.link] = base
     match trial.pair:
         case Pin(point=pivot):

@@ -50,7 +50,6 @@ from graphkin.construction.higher_class.misclosure import (
 from graphkin.construction.higher_class.trial_arrows import components, relative_arrows
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.rolling import pinned_wheels
 from graphkin.construction.velocity import velocity as velocities
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
@@ -308,21 +307,12 @@ def on_paper(drawing: Drawing) -> float:
 
 
 def velocity(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each) -> None:
-    """The velocity plan: two trials, the share between them that fits, and every point by it.
-
-    None where wheels that turn about their points of contact leave nothing to try.
-    """
-    if isinstance(group, Higher) and group.at_instant:
-        pinned_wheels.move(pen, shapes, group, each)
-        return
+    """The velocity plan: two trials, the share between them that fits, and every point by it."""
     two_trials(pen, shapes, group, each, VELOCITY)
 
 
 def acceleration(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each) -> None:
     """The acceleration plan in the same way; what follows from velocities is known by then."""
-    if isinstance(group, Higher) and group.at_instant:
-        pinned_wheels.accelerate(pen, shapes, group, each)
-        return
     two_trials(pen, shapes, group, each, ACCELERATION)
 
 

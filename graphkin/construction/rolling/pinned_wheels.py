@@ -12,7 +12,6 @@ from graphkin.construction.rolling import wheel_images
 from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.structure.groups import Group, Higher
-from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact
 
 Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
@@ -21,8 +20,8 @@ Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 
 def move(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The velocity plan: every wheel moves with its track where they touch."""
-    for contact in group.wheels:
-        wheel_images.touched(pen, contact, *own_and_known(group, contact))
+    for wheel in group.wheels:
+        wheel_images.touched(pen, wheel.contact, wheel.own, wheel.known)
     for link in group.links:
         pen.leads.pop(link, None)
     for member in group.at_instant:
@@ -34,16 +33,10 @@ def move(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
 
 def accelerate(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The acceleration plan: there it moves against its track to its centre only."""
-    for contact in group.wheels:
-        second_image_of_rim(pen, contact, *own_and_known(group, contact))
+    for wheel in group.wheels:
+        second_image_of_rim(pen, wheel.contact, wheel.own, wheel.known)
     for member in group.at_instant:
         each(pen, shapes, member, tuple(pen.bases[link] for link in member.links))
-
-
-def own_and_known(group: Higher, contact: Contact) -> tuple[str, str]:
-    """The link of a contact that belongs to a group, and the one that it rolls on or under."""
-    own = next(link for link in contact.links if link in group.links)
-    return own, partner(contact, own)
 
 
 @by_contact

@@ -1,0 +1,357 @@
+"""Groups of wheels: turned by others, driven on their track, between two known ones, in a loop.
+
+In a loop no wheel follows from known links alone. Once one link is tried, each of the others is
+turned by its contact with the one before, and a contact with a known wheel says which trial is
+right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+
+from msgspec import Struct
+
+from graphkin.scene.findings import natural
+from graphkin.scene.model import Driver, Scene, link_words
+from graphkin.structure.joints import Joints, partner
+from graphkin.structure.one_link import Driven, OneLink, TriedLink
+from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
+from graphkin.structure.touching_wheels import radius
+from graphkin.text.plain_table import listed
+
+
+class Geared(OneLink, frozen=True):
+    """A wheel or a rack on a pair with a known link, whose turning a contact settles."""
+
+    pair: Joint
+    contact: Contact
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.pair, self.contact
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        does = "has a belt with" if self.contact.rolling.belt else "rolls on"
+        return f"{does} link {partner(self.contact, self.link)}"
+
+    @property
+    def words(self) -> str:
+        """What it is joined to, and what moves it."""
+        other = link_words(partner(self.contact, self.link))
+        return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
+
+    @property
+    def one_way(self) -> str:
+        """Why it has no choice."""
+        return f"link {self.link} follows from its contact in one way only"
+
+
+class Spun(Struct, frozen=True):
+    """A wheel or bar whose angle a driver gives, on a ``holder`` that follows from its contact.
+
+    The holder, on a known pin, is the arm of a wheel (``held`` by a pin) or the block along which
+    a bar slides that rolls on a drum.
+    """
+
+    link: str
+    driver: Driver
+    holder: str
+    pivot: Pin
+    held: Pin | Sliding
+    contact: Contact
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with what is known."""
+        return self.pivot, self.contact
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The holder, and what it holds."""
+        return (self.holder, self.link)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        on = partner(self.contact, self.link)
+        return f"link {self.link} turned by its driver, rolling on link {on}"
+
+    @property
+    def words(self) -> str:
+        """Its class, what it rolls on, and what follows from that."""
+        other = link_words(partner(self.contact, self.link))
+        follows = f"link {self.holder} on {self.pivot.brief} follows"
+        return f"link {self.link} driven (class I): it rolls on {other}; {follows}"
+
+
+class Train(Struct, frozen=True):
+    """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
+
+    arm: str
+    wheel: str
+    pivot: Pin
+    centre: Pin
+    contacts: tuple[Contact, Contact]
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """Arm and wheel."""
+        return (self.arm, self.wheel)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
+        return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
+
+    @property
+    def words(self) -> str:
+        """Its arm, its wheel, and what that rolls on."""
+        others = listed(link_words(partner(contact, self.wheel)) for contact in self.contacts)
+        arm = f"arm {self.arm} on {self.pivot.brief}"
+        return f"{arm} with wheel {self.wheel}, which rolls on {others}"
+
+
+class CoupledTrain(Struct, frozen=True):
+    """Wheels that turn one another in a loop: once one link is tried, each follows from the next.
+
+    What closes it at last is a contact with a wheel of a known link.
+    """
+
+    trial: TriedLink
+    chain: tuple[Geared, ...]
+    last: Contact
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All links, that which is tried first."""
+        return (self.trial.link, *(each.link for each in self.chain))
+
+    @property
+    def parts(self) -> tuple[TriedLink | Geared, ...]:
+        """The link that is tried, and the wheels in turn."""
+        return (self.trial, *self.chain)
+
+    @property
+    def closing(self) -> str:
+        """The link whose wheel touches that of a known link at last."""
+        return next(link for link in self.last.links if link in self.links)
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return "coupled train of wheels"
+
+    @property
+    def words(self) -> str:
+        """Its links, where it is tried, and what closes it."""
+        names = listed(sorted(self.links, key=natural))
+        start = f"{self.title} (links {names}): {self.trial.words}"
+        return f"{start}, closed by the {self.last.brief}"
+
+
+class PinnedWheel(Struct, frozen=True):
+    """A wheel, or a bar on one, that turns at the instant about where it touches a known link.
+
+    ``own`` is its link, and ``known`` the one on which or under which it rolls.
+    """
+
+    contact: Contact
+    own: str
+    known: str
+
+    @property
+    def joint(self) -> Joint:
+        """Its pair with the known link."""
+        return self.contact
+
+    @property
+    def three(self) -> set[str | None]:
+        """Its link, the known one, and the arm between them."""
+        return {self.own, self.known, self.contact.arm}
+
+    @property
+    def rim(self) -> Pin:
+        """The pin about which it turns: its own point of contact."""
+        name = ContactName(f"{self.contact.letter}@{self.own}")
+        return Pin(name, (self.own, self.known))
+
+
+def pinned_wheels(
+    joints: Joints, links: Sequence[str], placing: Collection[Joint], known: Collection[str]
+) -> tuple[PinnedWheel, ...]:
+    """The wheels among a group's links, or its bars, that roll on what is known or under it.
+
+    What keeps them there, if a link does, belongs to the group. One that is not among the pairs
+    ``placing`` it is idle, or the mechanism is held fast, which the rank tells.
+    """
+    return tuple(
+        PinnedWheel(pair, link, partner(pair, link))
+        for link in links
+        for pair in joints.others[link]
+        if isinstance(pair, Contact)
+        and pair.rolling.belt is None
+        and pair in placing
+        and partner(pair, link) in known
+        and (pair.arm in links or (pair.track is None and pair.links[0] == link))
+    )
+
+
+def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
+    """A wheel that a driver turns against the straight track on which it rolls."""
+    for pair in joints.between(link, (driver.against,)):
+        if isinstance(pair, Contact) and pair.links == (driver.link, driver.against):
+            return Driven(link, driver, pair) if link == driver.link and pair.taken == 2 else None
+    return None
+
+
+def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> Spun | None:
+    """A link that a driver turns and that rolls on a known wheel, on an arm or block of its own."""
+    joined = joints.between(link, known)
+    if len(joined) != 1 or not isinstance(joined[0], Contact) or joined[0].alike:
+        return None
+    if driver.link != link:
+        return None
+    contact, holder = joined[0], joined[0].arm
+    if holder is None or holder in known:
+        return None
+    pivots, held = joints.between(holder, known), joints.inner(link, holder, known)
+    if len(pivots) != 1 or len(held) != 1 or not isinstance(pivots[0], Pin):
+        return None
+    rolls = isinstance(held[0], Pin) if contact.track else contact.links[1] == link
+    slides = contact.track is None and isinstance(held[0], Sliding)
+    if not rolls or isinstance(held[0], Contact) or not (contact.track or slides):
+        return None
+    return Spun(link, driver, holder, pivots[0], held[0], contact)
+
+
+def train_with(
+    joints: Joints, known: Collection[str], arm: str, left: tuple[Joint, ...]
+) -> Train | None:
+    """The arm of a planet that rolls on two known links, such as a sun and a ring."""
+    if len(left) != 1 or not isinstance(left[0], Pin):
+        return None
+    for wheel in joints.neighbours(arm):
+        if wheel in known:
+            continue
+        inner = joints.inner(arm, wheel, known)
+        outer = joints.between(wheel, known)
+        rolled = [pair for pair in outer if isinstance(pair, Contact) and not pair.alike]
+        contacts = [pair for pair in rolled if pair.arm == arm]
+        if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
+            return Train(arm, wheel, left[0], inner[0], (contacts[0], contacts[1]))
+    return None
+
+
+def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> Geared | None:
+    """A link with one pair and a contact that takes a single freedom; more of these are idle.
+
+    A contact settles a turning once the arm that keeps its distance is known too.
+    """
+    ones = [pair for pair in joined if isinstance(pair, Contact) and pair.arm in known]
+    twos = [pair for pair in joined if pair.taken == 2]
+    return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
+
+
+def by_centres(inner: Joint, outer: tuple[Joint, Joint], links: tuple[str, str]) -> bool:
+    """Whether the wheels of a dyad's two links are pinned to one another by their centres."""
+    if isinstance(inner, Contact):
+        return False
+    wheels = [pair.wheel for pair in outer if isinstance(pair, Contact) and pair.links[0] in links]
+    pins = [pair for pair in outer if isinstance(pair, Contact)]
+    return not pins or (
+        isinstance(inner, Pin) and all(wheel.centre == inner.point for wheel in wheels)
+    )
+
+
+def tracks_held(joints: Joints, links: Sequence[str]) -> tuple[str, ...]:
+    """Those of some links on whose straight tracks wheels roll that no other link keeps there."""
+    keepers = (None, *joints.scene.keepers)
+    rolled = (pair for link in links for pair in joints.others[link] if isinstance(pair, Contact))
+    tracks = (pair.links[1] for pair in rolled if pair.track is None and pair.arm in keepers)
+    return tuple(dict.fromkeys(link for link in tracks if link in links))
+
+
+def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
+    """Those of some links that roll on several straight tracks of known ones."""
+    straight = {
+        link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
+        for link in links
+    }
+    return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
+
+
+def next_coupled(joints: Joints, known: Collection[str]) -> CoupledTrain | None:
+    """The train of fewest links that closes once one link on a known pin is tried."""
+    contacts = [*left_over(joints, known)]
+    if not contacts:
+        return None
+    found = (
+        train
+        for link in joints.unknown(known)
+        for pin in pins_held(joints, known, link)
+        for last in contacts
+        if (train := closed(joints, known, TriedLink(link, pin), last))
+    )
+    return min(found, key=lambda train: len(train.links), default=None)
+
+
+def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
+    """The contacts of wheels with known ones, about arms that do not stand yet."""
+    for link in joints.unknown(known):
+        for pair in joints.others[link]:
+            if not isinstance(pair, Contact) or pair.track is None or pair.alike:
+                continue
+            if pair.arm in known:
+                continue
+            if partner(pair, link) in known:
+                yield pair
+
+
+def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
+    """The one pin that holds a link, where nothing else that takes two freedoms does."""
+    held = [pair for pair in joints.between(link, known) if pair.taken == 2]
+    return [pair for pair in held if isinstance(pair, Pin)] if len(held) == 1 else []
+
+
+def closed(
+    joints: Joints, known: Collection[str], trial: TriedLink, last: Contact
+) -> CoupledTrain | None:
+    """The train that a tried link and a last contact make, wheel after wheel, if they make one."""
+    grown, chain, ends = {*known, trial.link}, list[Geared](), {*last.links, last.arm}
+    while not ends <= {*grown}:
+        wheel = next_wheel(joints, grown, last)
+        if wheel is None:
+            return None
+        chain.append(wheel)
+        grown.add(wheel.link)
+    needs, kept = ends, list[Geared]()
+    for each in reversed(chain):
+        if each.link in needs:
+            kept.insert(0, each)
+            needs = {*needs, each.contact.arm, *each.contact.links, *each.pair.links}
+    return CoupledTrain(trial, tuple(kept), last) if trial.link in needs else None
+
+
+def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared | None:
+    """The first wheel, as written, that a wheel of a known link turns about a known pin."""
+    for link in joints.unknown(known):
+        joined = tuple(pair for pair in joints.between(link, known) if pair != last)
+        wheel = geared_of(link, joined, known)
+        if wheel is None or wheel.contact.track is None or wheel.contact.alike:
+            continue
+        if isinstance(wheel.pair, Pin):
+            return wheel
+    return None
+
+
+def turned_by_smaller(scene: Scene, wheel: Geared) -> bool:
+    """Whether a wheel is turned by a smaller one, than which it is slower."""
+    contact, link = wheel.contact, wheel.link
+    if contact.track is None:
+        return False
+    own, other = radius(scene, contact.wheel), radius(scene, contact.track)
+    return own > other if contact.links[0] == link else other > own
