@@ -15,13 +15,14 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.accuracy.compared_positions import ComparedPositions
-from graphkin.construction.core.program import Program, Target, is_in_scene
+from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import KINDS, SLIDING
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.motion.course import Reals
 from graphkin.numbers.arithmetic import is_ball, is_decimal
 from graphkin.numbers.kinds import ball_kind
 from graphkin.scene.model import Scene
+from graphkin.structure.pairs import is_in_scene
 from graphkin.text.errors import GraphkinError, Problem, WitnessError
 
 BITS = 640

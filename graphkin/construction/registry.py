@@ -18,7 +18,7 @@ from graphkin.construction.normal_component.normal_component import (
     with_normals_together,
 )
 from graphkin.construction.rolling.contact_points import of_contacts
-from graphkin.construction.rolling.kutzbach import with_ladder_together
+from graphkin.construction.rolling.kutzbach import BEGINNING, PLAN, with_ladder_together
 from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.construction.rolling.touching import TOUCHING, TouchingEffect
 
@@ -34,6 +34,8 @@ ON_PALETTE = tuple(
 """The actions of a page's palette that give components."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
 """What knows why an effect is in or out of a scene."""
+SAID_FIRST = {PLAN: BEGINNING}
+"""What a page says before a student draws a plan that is drawn beside that of velocities."""
 ALSO_READ: tuple[Callable[[Drawing], Iterator[Relation]], ...] = (of_contacts,)
 """What else kinds say that is read off a plan, after all that is drawn in it."""
 TOGETHER: tuple[Callable[[Drawing, list[Sentence]], list[Sentence]], ...] = (

@@ -8,7 +8,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
-from graphkin.construction.rolling.wheel_symbols import straight_tracks
+from graphkin.construction.links.wheel_symbols import TOUCHED, straight_tracks, touching_points
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Mark
 from graphkin.scene.model import FRAME, Driver, Link
@@ -52,8 +52,8 @@ def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
     """What the mark of a link rests on: points, and its axis where they do not show it."""
     points = list(link.points)
     turned = len(points) < 2
-    if kind == "contact":
-        points, turned = contacts_of(drawing, link), False
+    if kind == TOUCHED:
+        points, turned = touching_points(drawing, link), False
     elif kind == "disc":
         points, turned = [wheel.centre for wheel in link.wheels], False
     elif kind == "slider":
@@ -67,12 +67,6 @@ def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
     yield from (("position", point) for point in points)
     if turned:
         yield "axis", link.name
-
-
-def contacts_of(drawing: Drawing, link: Link) -> list[str]:
-    """The points at which the wheels of a link touch their tracks."""
-    touches = [touch for touch in drawing.standing.touches if touch.disc.link == link.name]
-    return [drawing.standing.name_at(touch.at) for touch in touches]
 
 
 def is_carrier(drawing: Drawing, link: Link) -> bool:

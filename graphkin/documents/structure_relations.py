@@ -66,6 +66,6 @@ def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()
             return words("calculation.group_led", links=links)
         case Tie():
             return words("calculation.group_idle", links=links)
-        case Geared() if group.contact.rolling.belt is not None:
+        case Geared() if group.is_belted:
             return words("calculation.group_belt", links=links)
-    return words("calculation.group_rolling", links=links)
+    return words("calculation.group_geared", links=links)

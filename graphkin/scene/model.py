@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from msgspec import Struct, field
 from msgspec.structs import astuple, replace
@@ -145,6 +145,10 @@ class Slide(Struct, frozen=True):
     pin: bool = False
     rollers: tuple[str, ...] = ()
 
+    def named(self, block: str) -> str:
+        """The guide of a link."""
+        return f"the guide of block {block} on {link_words(self.on)}"
+
     def called(self, names: Mapping[str, str]) -> Slide:
         """The same with links by other names."""
         return replace(self, on=names.get(self.on, self.on))
@@ -201,6 +205,10 @@ class Rolling(Struct, frozen=True):
     turns: Mapping[str, Quantity] = {}
     belt: Belt | None = None
     keeper: str = ""
+
+    def named(self, wheel: str) -> str:
+        """The contact of a link."""
+        return f"the contact of link {wheel} with {link_words(self.on)}"
 
     def called(self, names: Mapping[str, str]) -> Rolling:
         """The same with links by other names."""
@@ -338,6 +346,16 @@ class Link(Struct, frozen=True):
         """What it slides and rolls on."""
         return (*self.slides, *self.rolls)
 
+    @property
+    def spare_paths(self) -> tuple[GuideOrTrack, ...]:
+        """Those that may be idle: what its wheels roll on, and all its guides but the first."""
+        return (*self.rolls, *self.slides[1:])
+
+    def without(self, path: GuideOrTrack) -> Link:
+        """The same without one of its guides or tracks."""
+        slides = tuple(each for each in self.slides if each is not path)
+        return replace(self, slides=slides, rolls=tuple(r for r in self.rolls if r is not path))
+
     def is_hollow_about(self, point: str) -> bool:
         """Whether a point of the link is the centre of a hollow in it."""
         return any(each.hollow and each.about == point for each in self.profiles)
@@ -364,6 +382,8 @@ def joined_words(names: Sequence[str]) -> str:
 
 
 DriverKind = Literal["turn", "slide", "roll"]
+DRIVEN: tuple[str, ...] = get_args(DriverKind)
+"""What a driver can do to a link, as written."""
 
 
 class Driver(Struct, frozen=True):

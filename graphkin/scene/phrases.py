@@ -12,7 +12,9 @@ from graphkin.text.errors import Hint, Mend
 
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
-KEYWORDS = frozenset(("slides", "rolls", "belt", "wheel", "wheels", "touches", "profiles", "cam"))
+JOINED = ("slides", "rolls", "belt", "wheel", "wheels")
+"""The keys of what a link is joined by beside its points."""
+KEYWORDS = frozenset((*JOINED, "touches", "profiles", "cam"))
 LEADING = "slides or rolls"
 """The keys of what leads a link along another, in words."""
 SIDES = {"left": 1, "right": -1}

@@ -91,7 +91,7 @@ def read_motion(
 
 
 def read_position(table: Table, key: str, unit: str, measures: Measures) -> Quantity:
-    """The angle of a turning driver, or the coordinate of a sliding or rolling one."""
+    """The angle of a turning driver, or the coordinate along a guide or a track."""
     raw = table.take(key)
     other = "position" if key == "angle" else "angle"
     if raw is None and other in table:

@@ -25,7 +25,7 @@ from graphkin.scene.read_drivers import read_drivers
 from graphkin.scene.read_joints import read_slides
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
-from graphkin.scene.wheels import read_belts, read_drums, read_rolls, read_wheels
+from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
 from graphkin.text.errors import GraphkinError, Mend, Problem, SceneError
 
 FORMAT = 1
@@ -125,7 +125,7 @@ def assembled(
     title = top.text("title", name)
     frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
     links, drivers = read_links(top, frame, measures, module), read_drivers(top, measures)
-    if any(link.rolls for link in (frame, *links.values())):
+    if any(link.has_wheels for link in (frame, *links.values())):
         from graphkin.scene.keepers import with_keepers
 
         frame, links = with_keepers(frame, links, drivers, measures)
@@ -233,8 +233,8 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
         for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:
                 measures.findings.add(table.at(key), "the frame is at rest", "a moving link")
-        rolls = read_drums(table, measures)
-        return Link(FRAME, points, placings, wheels=wheels, rolls=rolls, profiles=profiles)
+        drums = read_drums(table, measures)
+        return Link(FRAME, points, placings, (), wheels, drums, profiles)
     slides = read_slides(table, measures)
-    rolls = read_rolls(table, measures) + read_belts(table, measures)
-    return Link(name, points, placings, slides, wheels, rolls, profiles)
+    tracks = read_tracks(table, measures)
+    return Link(name, points, placings, slides, wheels, tracks, profiles)

@@ -74,6 +74,11 @@ def pitch_radius(teeth: Quantity, module: Quantity) -> Quantity:
     return Quantity(text, tree, module.unit, teeth.place)
 
 
+def read_tracks(table: Table, measures: Measures) -> tuple[Rolling, ...]:
+    """What the wheels of a link roll on, then what belts join them to."""
+    return read_rolls(table, measures) + read_belts(table, measures)
+
+
 def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
     """The tracks, straight or circular, that the wheels of a link roll on."""
     return tuple(read_rolling(each, measures) for each in tables(table, "rolls"))

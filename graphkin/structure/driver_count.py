@@ -132,8 +132,8 @@ def same_pins(scene: Scene) -> str:
 def spare_drivers(scene: Scene) -> list[Driver]:
     """The drivers without each of which all links still follow, one dyad after the other.
 
-    Groups of higher class close by a link that may be idle, and coupled trains by a contact that
-    may be, such as that of a second planet, so that they prove nothing.
+    Groups of higher class close by a link that may be idle, and coupled trains by a pair that may
+    be, such as that of a second planet, so that they prove nothing.
     """
     return [driver for driver in scene.drivers if follows(without(scene, driver))]
 

@@ -180,7 +180,7 @@ class Higher(Struct, frozen=True):
     @property
     def placing(self) -> list[Joint]:
         """The pairs by which its parts hang on what is known before them."""
-        among = (getattr(part, "contacts", ()) for part in self.parts[1:])
+        among = (getattr(part, "placed_by", ()) for part in self.parts[1:])
         outer = (getattr(part, "outer", ()) for part in self.parts[1:])
         return [self.trial.pair, *(pair for pairs in (*among, *outer) for pair in pairs)]
 

@@ -41,7 +41,7 @@ class Count(Struct, frozen=True):
 def count(scene: Scene) -> Count:
     """Gruebler's count of a scene, a pin of k links counted as k - 1 pairs.
 
-    Links put in to keep wheels where they roll count with the contact that they stand for.
+    Links put in to keep wheels on their tracks count with the pair that they stand for.
     Raises StructureError for wheels that do not touch.
     """
     bare = scene.bare

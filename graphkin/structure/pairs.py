@@ -33,7 +33,9 @@ __all__ = [
     "all_pairs",
     "contacts",
     "guides_under",
+    "is_in_scene",
     "meshes",
+    "name_words",
     "pairs",
     "refuse_loose",
     "sharers",
@@ -98,6 +100,16 @@ class ContactName(str):
     """The name of a point of contact, which belongs to no scene: T, and T@3 as one of link 3."""
 
     __slots__ = ()
+
+
+def is_in_scene(point: str) -> bool:
+    """Whether a scene names a point: it may ask for it, and a solution has it."""
+    return not isinstance(point, ContactName)
+
+
+def name_words(point: str) -> str:
+    """A point by its name, one of contact as such."""
+    return point if is_in_scene(point) else f"the contact {point}"
 
 
 class Contact(Struct, frozen=True):

@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from graphkin.scene.expression import CONSTANT, Name, Number, Pair, Tree
+from graphkin.scene.findings import numbered
+from graphkin.scene.known_names import place_of
 from graphkin.scene.model import FRAME, Rolling, Scene
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.structure.pairs import contacts
@@ -70,3 +72,14 @@ def near(rolling: Rolling, link: str) -> Quantity:
     turns = rolling.turns[link]
     tree: Tree = Pair("+", start.tree, Pair("*", turns.tree, WHOLE[start.unit]))
     return Quantity(f"({start.text}) + ({turns.text}) turns", tree, start.unit, turns.place)
+
+
+def place_of_turns(scene: Scene, link: str) -> str:
+    """The key of what rolls and counts the angle of a link."""
+    rolling = counting(scene).get(link)
+    return next(
+        numbered(f"{place_of(each.name)}.rolls", n, len(each.rolls))
+        for each in scene.every_link
+        for n, own in enumerate(each.rolls)
+        if own is rolling or rolling is None
+    )

@@ -34,7 +34,7 @@ class Geared(OneLink, frozen=True):
     @property
     def title(self) -> str:
         """What it is called."""
-        does = "has a belt with" if self.contact.rolling.belt else "rolls on"
+        does = "has a belt with" if self.is_belted else "rolls on"
         return f"{does} link {partner(self.contact, self.link)}"
 
     @property
@@ -42,6 +42,11 @@ class Geared(OneLink, frozen=True):
         """What it is joined to, and what moves it."""
         other = link_words(partner(self.contact, self.link))
         return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
+
+    @property
+    def is_belted(self) -> bool:
+        """Whether a belt turns it."""
+        return self.contact.rolling.belt is not None
 
     @property
     def one_way(self) -> str:
@@ -95,6 +100,11 @@ class Train(Struct, frozen=True):
     pivot: Pin
     centre: Pin
     contacts: tuple[Contact, Contact]
+
+    @property
+    def placed_by(self) -> tuple[Joint, ...]:
+        """Its pairs with what is known but the pin."""
+        return self.contacts
 
     @property
     def links(self) -> tuple[str, str]:

@@ -6,34 +6,28 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from graphkin.scene.phrases import KEYWORDS
+from graphkin.scene.model import DRIVEN
+from graphkin.scene.phrases import JOINED, KEYWORDS
 from graphkin.scene.read_scene import known_keys
 from graphkin.studio.mends import units
 from graphkin.studio.toml_spans import Span, spans
 
-EVERY = """
+LINES = "\n"
+EVERY = f"""
 [parameters.n]
 [frame]
-O = { from = 0 }
+O = {{ from = 0 }}
 [links.1]
 A = [0, 0]
-P = { from = 0 }
-wheel = {}
-slides = {}
-rolls = {}
-belt = {}
-touches = {}
-profiles = { about = "A" }
-cam = { law = [{}] }
+P = {{ from = 0 }}
+{LINES.join(f"{key} = {{}}" for key in JOINED)}
+touches = {{}}
+profiles = {{ about = "A" }}
+cam = {{ law = [{{}}] }}
 [links.2]
 O-B = 1
-cam = { tip = "roller" }
-[[drivers]]
-turn = 1
-[[drivers]]
-slide = 1
-[[drivers]]
-roll = 1
+cam = {{ tip = "roller" }}
+{LINES.join(f"[[drivers]]{LINES}{kind} = 1" for kind in DRIVEN)}
 [branches]
 [ask]
 [sheet]

@@ -8,12 +8,13 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.bodies import Disc, Touch
+from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.link_poses import Touch
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.slide_symbols import within
+from graphkin.construction.links.gear_symbols import gear
 from graphkin.construction.links.mechanism_symbols import draw_links
-from graphkin.construction.rolling.gear_symbols import gear
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent

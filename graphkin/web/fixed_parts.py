@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from graphkin.construction.core.bodies import Touch
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.link_poses import Touch
 from graphkin.construction.guides.rails import REACH, Rail, rails_of
 from graphkin.construction.guides.slide_symbols import STROKE, draw_frame_guides, merged, within
-from graphkin.construction.rolling.wheel_symbols import track, track_ends
+from graphkin.construction.links.wheel_symbols import track, track_ends
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Mark

@@ -10,8 +10,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
-from graphkin.construction.core.plot import above_foot
-from graphkin.construction.links.mechanism_symbols import stretched
+from graphkin.construction.core.plot import above_foot, stretched
 from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio

@@ -7,8 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.registry import ON_PALETTE
-from graphkin.construction.rolling.kutzbach import PLAN
+from graphkin.construction.registry import ON_PALETTE, SAID_FIRST
 from graphkin.drawing.field import Field
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text import Words
@@ -104,8 +103,8 @@ def beginning(sheets: Sequence[ScreenSheet]) -> dict[str, str]:
     """What is said first, with the plan of a scene that the page draws."""
     words = sheets[0].drawing.words
     begin = words("turn.say.begin")
-    if sheets[0].drawing.scene.sheet.plan == PLAN:
-        begin += f" {words('turn.say.kutzbach')}"
+    if more := SAID_FIRST.get(sheets[0].drawing.scene.sheet.plan):
+        begin += f" {words(more)}"
     return {"begin": begin}
 
 

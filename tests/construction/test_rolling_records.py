@@ -7,9 +7,8 @@ from functools import cache
 import pytest
 
 from graphkin.construction.core.kind import construction, constructions
-from graphkin.construction.rolling.common_normal import CommonNormal
 from graphkin.construction.rolling.contact_points import CentrePath, Track
-from graphkin.construction.rolling.rolling_normal import RollingNormal
+from graphkin.construction.rolling.rolling_normal import CommonNormal, RollingNormal
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from tests.documents.sheet_tools import FOLDER

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.guides.slide_symbols import frame_guides
-from graphkin.construction.rolling.wheel_symbols import straight_tracks
+from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, hand_out
 from graphkin.drawing.areas import AREA, BELOW

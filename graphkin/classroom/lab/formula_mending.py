@@ -14,6 +14,8 @@ from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.lab_trial import LabTrial
 from graphkin.mechanism import Mechanism
+from graphkin.scene.model import DRIVEN
+from graphkin.scene.phrases import JOINED
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import GraphkinError
 
@@ -25,7 +27,7 @@ CHANGED = ("frame", "links", "drivers")
 """The tables whose numbers are lengths, places and laws of the driver."""
 VALUE = re.compile(r"\s*(?:\{\s*value\s*=\s*)?[\d.]+")
 """The value of a parameter as far as it is a plain number."""
-FIXED = re.compile(r"\s*(on|turn|slide|roll|against|rolls|belt|wheel|wheels|slides)\s*=")
+FIXED = re.compile(rf"\s*({'|'.join(('on', 'against', *DRIVEN, *JOINED))})\s*=")
 """Keys whose numbers name links, or count teeth."""
 
 

@@ -19,14 +19,13 @@ from graphkin.construction.links.counted_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.mechanism import Mechanism
-from graphkin.scene.findings import numbered
-from graphkin.scene.known_names import named, place_of
+from graphkin.scene.known_names import named
 from graphkin.scene.model import Scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import driver_problem
 from graphkin.structure.groups import Higher
 from graphkin.structure.pairs import sharers
-from graphkin.structure.turn_counting import counting
+from graphkin.structure.turn_counting import place_of_turns
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError
 from graphkin.text.plain_table import labelled, listed, table
 
@@ -171,17 +170,6 @@ def turns_lines(trace: Trace, scene: Scene) -> list[str]:
             f"  turns = {{ {link} = … }} there says how many whole turns are to be added",
         ]
     return found
-
-
-def place_of_turns(scene: Scene, link: str) -> str:
-    """The key of what rolls and counts the angle of a link."""
-    rolling = counting(scene).get(link)
-    return next(
-        numbered(f"{place_of(each.name)}.rolls", n, len(each.rolls))
-        for each in scene.every_link
-        for n, own in enumerate(each.rolls)
-        if own is rolling or rolling is None
-    )
 
 
 def crossing_lines(trace: Trace) -> list[str]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import image, letter, second_image
-from graphkin.construction.core.program import Part, Program, is_in_scene
+from graphkin.construction.core.program import Part, Program
+from graphkin.structure.pairs import name_words
 from graphkin.text.plain_table import listed
 
 
@@ -50,6 +51,6 @@ def point_words(program: Program, name: str) -> str:
     for quantity, point in program.targets:
         if quantity == "position" and name in (letter(point), image(point), second_image(point)):
             own, _, link = point.partition("@")
-            words = own if is_in_scene(point) else f"the contact {own}"
+            words = name_words(type(point)(own))
             return f"{words} on link {link}" if link else words
     return name

@@ -21,7 +21,7 @@ from graphkin.text.plain_table import listed
 
 Places = Mapping[str, complex]
 TOLD = 10
-"""Idle links and contacts that are told; each of them is a count of its own."""
+"""Idle links and pairs that are told; each of them is a count of its own."""
 NUDGE = Fraction(1, 50)
 """How far the drivers are moved to leave a singular position, in radians or longest bars."""
 
@@ -125,7 +125,7 @@ def further(scene: Scene, driver: Driver, step: float) -> Driver:
 
 
 def spare(scene: Scene, name: str) -> bool:
-    """Whether a link could be left out: no driver moves it, and nothing slides or rolls on it."""
+    """Whether a link could be left out: no driver moves it, and it leads nothing."""
     driven = {end for driver in scene.drivers for end in (driver.link, driver.against)}
     links = scene.links.values()
     carriers = {path.on for link in links for path in link.paths}
@@ -139,18 +139,10 @@ def without_link(scene: Scene, name: str) -> Scene:
 
 
 def parts_without(scene: Scene) -> Iterator[tuple[str, Scene]]:
-    """The mechanism without one rolling contact, or without a further guide of a block."""
+    """The mechanism without one of a link's wheels' tracks, or a block's further guides."""
     for link in scene.links.values():
-        for number, rolling in enumerate(link.rolls):
-            rest = (*link.rolls[:number], *link.rolls[number + 1 :])
-            on = "the frame" if rolling.on == FRAME else f"link {rolling.on}"
-            name = f"the contact of link {link.name} with {on}"
-            yield name, replaced(scene, replace(link, rolls=rest))
-        for number, slide in enumerate(link.slides[1:], 1):
-            rest_slides = (*link.slides[:number], *link.slides[number + 1 :])
-            on = "the frame" if slide.on == FRAME else f"link {slide.on}"
-            name = f"the guide of block {link.name} on {on}"
-            yield name, replaced(scene, replace(link, slides=rest_slides))
+        for path in link.spare_paths:
+            yield path.named(link.name), replaced(scene, link.without(path))
 
 
 def replaced(scene: Scene, link: Link) -> Scene:

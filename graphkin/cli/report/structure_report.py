@@ -36,7 +36,7 @@ def structure(scene: Scene) -> Iterator[str]:
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
-    """Each link that the scene does not have, put in to keep a wheel where it rolls.
+    """Each link that the scene does not have, put in to keep a wheel on its track.
 
     And each guide that it does not have, put in for rollers of one size.
     """

@@ -1,4 +1,4 @@
-"""What stands in the plane beside points: guides, wheels, and the places where wheels touch."""
+"""What stands in the plane beside points: guides and wheels."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import dot
-from graphkin.scene.model import Belt, Rolling, Slide, Wheel
+from graphkin.scene.model import Slide, Wheel
 
 
 class Guideway(Struct, frozen=True):
@@ -47,32 +47,3 @@ class Disc(Struct, frozen=True):
         """Radius of the circle that holds all of the wheel."""
         thick = 3 * self.module if self.wheel.inside else self.module
         return self.radius + thick
-
-
-class Touch(Struct, frozen=True):
-    """Where a wheel touches its track; ``along`` is the way in which a straight track counts.
-
-    ``zero`` is where a straight track counts from, ``other`` the wheel that a circular one is.
-    """
-
-    rolling: Rolling
-    disc: Disc
-    at: complex
-    along: complex
-    zero: complex | None = None
-    other: Disc | None = None
-
-    @property
-    def on(self) -> str:
-        """The link with the track."""
-        return self.rolling.on
-
-    @property
-    def belt(self) -> Belt | None:
-        """The belt that joins both wheels, if one does."""
-        return self.rolling.belt
-
-    @property
-    def side(self) -> int:
-        """On which side of a straight track the wheel is: 1 on its left."""
-        return self.rolling.side

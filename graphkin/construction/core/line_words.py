@@ -89,10 +89,10 @@ def axis_of(drawing: Drawing, link: Link) -> str:
     """
     scene = drawing.scene
     if link.name in scene.unseen and link.slides:
-        _, rolling = scene.keepers[link.name]
-        if rolling.angle is not None and rolling.angle.is_zero():
-            return axis_of(drawing, scene.link(rolling.on))
-        return drawing.words("page.axis_track", k=escape(rolling.on))
+        _, track = scene.keepers[link.name]
+        if track.angle is not None and track.angle.is_zero():
+            return axis_of(drawing, scene.link(track.on))
+        return drawing.words("page.axis_track", k=escape(track.on))
     own = drawing.words("page.axis_link", k=escape(link.name))
     if len(link.points) > 1:
         coordinates = sum(isinstance(placing, At) for placing in link.placings)

@@ -7,8 +7,7 @@ from functools import cached_property
 
 from msgspec import Struct
 
-from graphkin.construction.core.bodies import Disc, Guideway, Touch
-from graphkin.construction.core.program import is_in_scene
+from graphkin.construction.core.bodies import Disc, Guideway
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import pick
 from graphkin.numbers.plane import Line, cross, dot
@@ -26,6 +25,7 @@ from graphkin.scene.model import (
     of_one_size,
 )
 from graphkin.scene.quantity import Quantity
+from graphkin.structure.pairs import is_in_scene
 
 CLEAR = 1.6
 """How far from where a wheel touches it the guide of its track is drawn, in radii of the wheel."""
@@ -33,6 +33,35 @@ ALONG = 1e-6
 """Sine of the angle below which two directions are one."""
 APART = 1e-9
 """Points nearer than this, in parts of the largest distance, are the same."""
+
+
+class Touch(Struct, frozen=True):
+    """Where a wheel touches its track; ``along`` is the way in which a straight track counts.
+
+    ``zero`` is where a straight track counts from, ``other`` the wheel that a circular one is.
+    """
+
+    rolling: Rolling
+    disc: Disc
+    at: complex
+    along: complex
+    zero: complex | None = None
+    other: Disc | None = None
+
+    @property
+    def on(self) -> str:
+        """The link with the track."""
+        return self.rolling.on
+
+    @property
+    def belt(self) -> Belt | None:
+        """The belt that joins both wheels, if one does."""
+        return self.rolling.belt
+
+    @property
+    def side(self) -> int:
+        """On which side of a straight track the wheel is: 1 on its left."""
+        return self.rolling.side
 
 
 class LinkPoses(Struct, frozen=True, dict=True):

@@ -23,7 +23,6 @@ from graphkin.construction.core.program import (
     Roles,
     Step,
     Target,
-    is_in_scene,
 )
 from graphkin.construction.core.quantities import TURNING
 from graphkin.construction.core.run import StepFailed, evaluate
@@ -32,7 +31,7 @@ from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import turned
 from graphkin.structure.groups import Dyad
-from graphkin.structure.pairs import Sliding, turns
+from graphkin.structure.pairs import Sliding, is_in_scene, turns
 from graphkin.structure.turn_counting import counted_near
 from graphkin.text.errors import ClosureError
 

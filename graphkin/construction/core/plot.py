@@ -13,6 +13,7 @@ from graphkin.construction.core.naming import scale_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import LineMark
 
 EDGE = 3.0
 """How far from a field's edge lines end that would go on, in mm."""
@@ -64,3 +65,19 @@ def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
     note = words(key, name=name, length=in_mm(words, length))
     if note not in plot.board.notes:
         plot.board.notes.append(note)
+
+
+def draw_line(board: FieldContent, field: Field, line: tuple[complex, complex], name: str) -> None:
+    """A line across the field, chain-dotted."""
+    start, along = line
+    seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
+    part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
+    if part:
+        board.marks.append(LineMark(*part[0], *part[1], "centre-line", name))
+
+
+def stretched(start: XY, end: XY) -> tuple[XY, XY]:
+    """A segment through two places, long enough to leave any page on both sides."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    far = 2000 / max(abs(dx), abs(dy))
+    return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)

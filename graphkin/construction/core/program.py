@@ -11,7 +11,6 @@ from msgspec import Struct
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.vocabulary import Action
 from graphkin.numbers.arithmetic import Kind, at, pick
-from graphkin.structure.pairs import ContactName
 
 
 class Part(Enum):
@@ -140,11 +139,6 @@ PLACES = ("axis", "guide", "track", "rolled")
 """Quantities that tell how links and guides lie: the drawing needs them, no answer does."""
 SPEEDS = "speeds"
 """The target of a link's point on the line of speeds."""
-
-
-def is_in_scene(point: str) -> bool:
-    """Whether a scene names a point: it may ask for it, and a solution has it."""
-    return not isinstance(point, ContactName)
 
 
 Target = tuple[str, str]

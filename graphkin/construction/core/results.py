@@ -7,12 +7,13 @@ from typing import Any
 
 from msgspec.structs import asdict, replace
 
-from graphkin.construction.core.program import Part, is_in_scene
+from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import QUANTITIES, Whose
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
 from graphkin.numbers.arithmetic import Real, least
 from graphkin.numbers.plane import Ratio
+from graphkin.structure.pairs import is_in_scene
 
 TOUCHING = 8
 """Sine of a crossing, in roots of eps, at which two loci count as touching in a batch."""

@@ -175,8 +175,8 @@ def seen(drawing: Drawing, links: Iterable[str]) -> list[str]:
     scene, found = drawing.scene, list[str]()
     for name in links:
         if name in scene.unseen:
-            wheel, rolling = scene.keepers[name]
-            found.append(rolling.on if rolling.through is not None else wheel)
+            wheel, track = scene.keepers[name]
+            found.append(track.on if track.through is not None else wheel)
         else:
             found.append(name)
     return [*dict.fromkeys(found)]

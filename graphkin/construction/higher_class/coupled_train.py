@@ -18,13 +18,13 @@ from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.links.plate_points import plate_points
 from graphkin.construction.rolling.rolling import (
+    rolled_on_wheel,
     rolled_to,
     seen_from,
     settle_turn,
     touch_wheels,
 )
 from graphkin.construction.rolling.touching import by_contact
-from graphkin.construction.rolling.wheel_actions import rolled_on_wheel
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.structure.groups import CoupledTrain
 from graphkin.structure.pairs import Contact

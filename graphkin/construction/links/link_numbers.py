@@ -11,7 +11,7 @@ from graphkin.construction.guides.pivot_grounds import Segment, away_from
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.guides.slide_symbols import number_side
 from graphkin.construction.links.plates import corners_of, farthest
-from graphkin.construction.rolling.wheel_symbols import number_beside
+from graphkin.construction.links.wheel_symbols import number_beside
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import GAP, NUMBER, Label
 from graphkin.drawing.labels import FieldContent

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphkin.construction.cams.cam_symbols import draw_cams
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.plot import above_foot
+from graphkin.construction.core.plot import draw_line
 from graphkin.construction.guides.pivot_grounds import ground_ways, height_at
 from graphkin.construction.guides.rails import places_of, rails_of
 from graphkin.construction.guides.slide_symbols import (
@@ -15,20 +15,21 @@ from graphkin.construction.guides.slide_symbols import (
 from graphkin.construction.links.link_numbers import draw_numbers
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.profile_symbols import draw_edges
-from graphkin.construction.rolling.wheel_symbols import (
-    draw_contacts,
+from graphkin.construction.links.wheel_symbols import (
     draw_fixed_wheels,
+    draw_touches,
+    draw_track_line,
     draw_tracks,
     draw_wheels,
 )
-from graphkin.drawing.field import XY, Field, clipped
+from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, polygon, reach
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, TALL, across, legs, pin, pivot_ground
 from graphkin.numbers.arithmetic import smaller
-from graphkin.scene.model import FRAME, Link
+from graphkin.scene.model import Link
 
 
 def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -94,41 +95,15 @@ def draw_guide_line(board: FieldContent, drawing: Drawing, field: Field, block: 
             draw_line(board, field, line, f"guide {block.name}")
 
 
-def draw_track_line(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
-    """The line of a straight track of the frame across the field, chain-dotted."""
-    standing = drawing.standing
-    for rolling in link.rolls:
-        zero = standing.carried(FRAME, rolling.through) if rolling.on == FRAME else None
-        if zero is not None and rolling.angle is not None:
-            along = complex(rolling.angle.direction(drawing.scene.values))
-            draw_line(board, field, (zero, along), f"track {link.name}")
-
-
-def draw_line(board: FieldContent, field: Field, line: tuple[complex, complex], name: str) -> None:
-    """A line across the field, chain-dotted."""
-    start, along = line
-    seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
-    part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
-    if part:
-        board.marks.append(LineMark(*part[0], *part[1], "centre-line", name))
-
-
-def stretched(start: XY, end: XY) -> tuple[XY, XY]:
-    """A segment through two places, long enough to leave any page on both sides."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    far = 2000 / max(abs(dx), abs(dy))
-    return (start[0] - far * dx, start[1] - far * dy), (start[0] + far * dx, start[1] + far * dy)
-
-
 def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The links with their plates, bars, guides, blocks, profiles, contacts and pins."""
+    """The links with their plates, bars, guides, blocks, wheels, profiles and pins."""
     draw_plates(board, drawing, field)
     draw_slides(board, drawing, field)
     draw_bodies(board, drawing, field, carriers=False)
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_cams(board, drawing, field)
-    draw_contacts(board, drawing, field)
+    draw_touches(board, drawing, field)
     draw_pins(board, drawing, field)
 
 
@@ -177,12 +152,12 @@ def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The other bars, the sides of plates, profiles, how wheels roll, and the links' numbers."""
+    """The other bars, the sides of plates, profiles, turns of wheels, and the links' numbers."""
     draw_bodies(board, drawing, field, carriers=False)
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_cams(board, drawing, field)
-    draw_contacts(board, drawing, field)
+    draw_touches(board, drawing, field)
     draw_numbers(board, drawing, field)
 
 

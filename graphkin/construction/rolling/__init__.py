@@ -1,1 +1,1 @@
-"""Wheels, gears and racks that roll without slip."""
+"""Wheels, gears and racks: how they stand and move without slip."""

@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 PLAN = "kutzbach"
 """What a scene writes as [sheet] plan."""
+BEGINNING = "turn.say.kutzbach"
+"""What a page says of it before a student draws it."""
 BESIDE = 0.2
 """Room between the velocity plan and the axis, and between both plans, in parts of the axis."""
 

@@ -18,9 +18,9 @@ from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.rolling import rolling, wheel_images
+from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
 from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
-from graphkin.construction.rolling.wheel_actions import arm_rolled, axis_turned
 from graphkin.construction.velocity import velocity as velocities
 from graphkin.structure.groups import Geared, Spun
 from graphkin.structure.joints import partner

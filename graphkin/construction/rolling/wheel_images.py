@@ -29,9 +29,8 @@ from graphkin.construction.core.vocabulary import in_proportion, speed_at_rim
 from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.rolling.common_normal import common_normal
 from graphkin.construction.rolling.rolling import radius_of
-from graphkin.construction.rolling.rolling_normal import rolled_image
+from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.velocity.crossed_image import crossed_image
 from graphkin.construction.velocity.image_of_link import image_of_link

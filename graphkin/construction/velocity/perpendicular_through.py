@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen, against, image, letter
-from graphkin.construction.core.program import is_in_scene
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.about_pivot import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
+from graphkin.structure.pairs import is_in_scene
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing

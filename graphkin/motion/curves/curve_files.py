@@ -36,7 +36,7 @@ def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Figure]]]:
     if plane_paths.path_points(found):
         yield "paths", partial(plane_paths.paths, found)
     for link in plane_paths.centrode_links(found):
-        yield f"centrodes-{link}", partial(plane_paths.rolling, found, link)
+        yield f"centrodes-{link}", partial(plane_paths.both_centrodes, found, link)
     loop = loop_of(found.cycle)
     if loop is not None:
         yield "reach", partial(ring.reach, found, loop)

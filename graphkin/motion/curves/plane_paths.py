@@ -94,7 +94,7 @@ def centrode_links(found: Sampled) -> list[str]:
     ]
 
 
-def rolling(found: Sampled, link: str) -> Figure:
+def both_centrodes(found: Sampled, link: str) -> Figure:
     """The fixed centrode of a link, and the moving one where the scene stands, touching it."""
     stand = stand_about(found.cycle, found.per_length, found.scene.links[link].points)
     both = centrodes(found.cycle, link)

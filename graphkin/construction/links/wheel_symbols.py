@@ -7,12 +7,14 @@ from collections.abc import Iterator
 from functools import reduce
 from math import pi
 
-from graphkin.construction.core.bodies import Disc, Touch
+from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.link_poses import Touch
+from graphkin.construction.core.plot import draw_line
 from graphkin.construction.guides.rails import ALIKE, REACH, places_of, seat
 from graphkin.construction.guides.slide_symbols import within
+from graphkin.construction.links.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
 from graphkin.construction.links.plates import is_all_wheel
-from graphkin.construction.rolling.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
@@ -27,6 +29,8 @@ RIM = 2.4
 """Width of a ring without teeth, in mm."""
 CONTACT = 0.6
 """Radius of the mark of a contact, in mm."""
+TOUCHED = "contact"
+"""The class of that mark."""
 SPARE = 60.0
 """The farthest that a track is drawn on towards where it counts from, in mm."""
 
@@ -50,6 +54,16 @@ def straight_tracks(drawing: Drawing, field: Field) -> Iterator[tuple[Touch, lis
             yield touch, list(within(track(drawing, field, touch), field.rect))
 
 
+def draw_track_line(board: FieldContent, drawing: Drawing, field: Field, link: Link) -> None:
+    """The line of a straight track of the frame across the field, chain-dotted."""
+    standing = drawing.standing
+    for rolling in link.rolls:
+        zero = standing.carried(FRAME, rolling.through) if rolling.on == FRAME else None
+        if zero is not None and rolling.angle is not None:
+            along = complex(rolling.angle.direction(drawing.scene.values))
+            draw_line(board, field, (zero, along), f"track {link.name}")
+
+
 def draw_fixed_wheels(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The wheels of the frame without their teeth, hatched, which the task sheet shows, too."""
     for disc in drawing.standing.discs:
@@ -60,7 +74,7 @@ def draw_fixed_wheels(board: FieldContent, drawing: Drawing, field: Field) -> No
             board.marks += within(ground, field.rect)
 
 
-def draw_contacts(board: FieldContent, drawing: Drawing, field: Field) -> None:
+def draw_touches(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The spokes that show how far wheels have turned, and the marks of their contacts."""
     for disc in drawing.standing.discs:
         board.marks += spokes(drawing, field, disc)
@@ -69,7 +83,7 @@ def draw_contacts(board: FieldContent, drawing: Drawing, field: Field) -> None:
         if touch.other is not None and is_parallel(touch, touch.other):
             continue
         here, name = field(touch.at), drawing.standing.name_at(touch.at)
-        board.marks.append(CircleMark(*here, CONTACT, "contact", touch.disc.link))
+        board.marks.append(CircleMark(*here, CONTACT, TOUCHED, touch.disc.link))
         if name:
             board.labels.append(
                 Label(symbol(name), "", here, 2.5, name, priority=1, radius=CONTACT)
@@ -78,13 +92,13 @@ def draw_contacts(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 def is_parallel(touch: Touch, other: Disc) -> bool:
     """Whether the strands of a belt are parallel, so that they do not meet."""
-    belt = touch.rolling.belt
+    belt = touch.belt
     return belt is not None and not belt.crossed and of_one_size(touch.disc.wheel, other.wheel)
 
 
 def strands(field: Field, touch: Touch) -> Iterator[Mark]:
     """The strands of a belt, common tangents of its wheels; open ones are produced to meet."""
-    belt, other = touch.rolling.belt, touch.other
+    belt, other = touch.belt, touch.other
     if belt is None or other is None:
         return
     apart = other.centre - touch.disc.centre
@@ -250,3 +264,9 @@ def free_side(drawing: Drawing, disc: Disc) -> float:
     if not ways or abs(total) < 0.1:
         return (phase(ways[0]) + pi / 2) if ways else 0.75 * pi
     return phase(-total) + 0.5
+
+
+def touching_points(drawing: Drawing, link: Link) -> list[str]:
+    """The points at which the wheels of a link touch their tracks."""
+    touches = [touch for touch in drawing.standing.touches if touch.disc.link == link.name]
+    return [drawing.standing.name_at(touch.at) for touch in touches]

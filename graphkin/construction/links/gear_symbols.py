@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 from math import ceil, cos, degrees, pi, radians, sin, sqrt
 from typing import NamedTuple
 
-from graphkin.construction.core.bodies import Disc, Touch
+from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.link_poses import Touch
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, polygon
 from graphkin.drawing.symbols import UPRIGHT, across, hatched
@@ -64,7 +65,7 @@ def meshes(drawing: Drawing, disc: Disc) -> list[Mesh]:
         if disc in (touch.disc, touch.other):
             way = touch.at - disc.centre
             if (
-                touch.rolling.belt is None
+                touch.belt is None
                 and touch.disc.module
                 and (touch.other is None or touch.other.module)
             ):
