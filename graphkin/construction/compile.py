@@ -8,6 +8,7 @@ from typing import Any
 
 from graphkin.construction import asked
 from graphkin.construction.acceleration import acceleration
+from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
 from graphkin.construction.centres.centres import draw_centres
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
@@ -20,7 +21,6 @@ from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import Scene
-from graphkin.scene.requests import KLEIN
 from graphkin.structure.groups import (
     CamFollower,
     CoupledTrain,
@@ -72,10 +72,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
 
         draw_ladder(pen)
     write_plan(pen, shapes, standing, ACCELERATED)
-    if scene.sheet.method == KLEIN:
-        from graphkin.construction.normal_component.klein import refuse_unused
-
-        refuse_unused(pen)
+    refuse_unused_method(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
     return pen.program()

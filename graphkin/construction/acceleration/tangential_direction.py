@@ -84,6 +84,14 @@ class RoundPivot(Struct, frozen=True):
         """Nothing touches."""
 
 
+def refuse_unused_method(pen: Pen) -> None:
+    """Raise StructureError where a scene wants components drawn in a way that none of them takes."""
+    if pen.scene.sheet.method == KLEIN:
+        from graphkin.construction.normal_component.klein import refuse_unused
+
+        refuse_unused(pen)
+
+
 def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
     """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
     bar = RoundPivot(pivot, pin)

@@ -1,1 +1,1 @@
-"""Normal components by the right triangle on the mechanism."""
+"""What the velocity of a point about another says of its acceleration."""
