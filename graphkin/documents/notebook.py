@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, get_args
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import Layout, centre, spans, with_poles
+from graphkin.construction.core.layout import Layout, centre, poles_of, spans, with_poles
 from graphkin.documents.captions import HEADING
 from graphkin.documents.detail import with_detail
 from graphkin.documents.scaling import shown
@@ -96,7 +96,7 @@ def for_axes(
     mm, metres = 1000 / drawing.scales.kL, drawing.scales.metres(drawing.kind)
     body, plan = drawing.mechanism_extent(), drawing.plan_extent()
     larger = times(body, mm, width, height), times(plan, mm, width, height)
-    middle = with_poles([drawing], body, mm * larger[0], width).middle
+    middle = with_poles(body, poles_of(drawing), mm * larger[0], width).middle
     left = Field(rect, mm * larger[0], middle, centre(rect))
     right = Field(rect, mm * larger[1] * metres, plan.middle / metres, centre(rect))
     layout = Layout(left, right, {})

@@ -15,7 +15,7 @@ from math import floor, hypot, isclose, log10
 
 from msgspec import Struct
 
-from graphkin.numbers.arithmetic import Real
+from graphkin.numbers.arithmetic import Point, Real, larger, smaller
 
 STEPS = (1.0, 2.0, 5.0)
 """First digits of preferred numbers."""
@@ -107,6 +107,11 @@ class Extent(Struct, frozen=True):
     top: Real
 
     @property
+    def sides(self) -> tuple[Real, Real, Real, Real]:
+        """Left, bottom, right and top."""
+        return self.left, self.bottom, self.right, self.top
+
+    @property
     def width(self) -> Real:
         """From left to right."""
         return self.right - self.left
@@ -128,8 +133,21 @@ class Extent(Struct, frozen=True):
 
     def joined(self, other: Extent) -> Extent:
         """The box that holds this one and another."""
-        left, bottom = min(self.left, other.left), min(self.bottom, other.bottom)
-        return Extent(left, bottom, max(self.right, other.right), max(self.top, other.top))
+        return Extent(
+            smaller(self.left, other.left),
+            smaller(self.bottom, other.bottom),
+            larger(self.right, other.right),
+            larger(self.top, other.top),
+        )
+
+    def about(self, point: Point) -> Extent:
+        """The box that also holds a point; the same where that is NaN."""
+        return Extent(
+            smaller(point.real, self.left),
+            smaller(point.imag, self.bottom),
+            larger(self.right, point.real),
+            larger(self.top, point.imag),
+        )
 
     def grown(self, points: Iterable[complex]) -> Extent:
         """The box that also holds some more points."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
 
-from graphkin.studio.toml_spans import Path, Span, walked
+from graphkin.studio.toml_spans import Path, Span, parts, walked
 from graphkin.text.errors import Mend, Problem
 
 MOST = 4
@@ -107,7 +107,7 @@ class Lines:
     def keys(self, problem: Problem) -> Iterator[Edit]:
         """A line that is said to be expected, or meant, in place of the one that is wrong."""
         *table, last = problem.place.split(".") if problem.place else [""]
-        path = (*pieces(".".join(table)), last)
+        path = (*parts(".".join(table)), last)
         expected, meant = re.fullmatch(LINE, problem.expected), MEANT.search(str(problem.hint))
         first, renamed = FIRST.fullmatch(problem.expected), RENAMED.search(str(problem.hint))
         into = INTO.fullmatch(str(problem.hint))
@@ -117,8 +117,8 @@ class Lines:
             yield self.changed(self.values[path], meant[1].partition(" = ")[2])
         elif expected and path in self.found and "[" not in last:
             yield self.changed(self.found[path], expected[0])
-        elif into and self.text[: self.end(pieces(problem.place))].endswith("}"):
-            at = self.end(pieces(problem.place)) - 1
+        elif into and self.text[: self.end(tuple(parts(problem.place)))].endswith("}"):
+            at = self.end(tuple(parts(problem.place))) - 1
             at = len(self.text[:at].rstrip())
             yield self.edit(Span(at, at), f", {into[1]}")
         elif renamed:
@@ -185,9 +185,3 @@ class Lines:
         stop = self.text.find("\n", heading.end)
         at = stop if stop >= 0 else len(self.text)
         return self.edit(Span(at, at), f"\n{line}")
-
-
-def pieces(place: str) -> Path:
-    """The keys and indices of a dotted place without quotes."""
-    parts = re.findall(r"\[(\d+)\]|([^.\[\]]+)", place)
-    return tuple(int(number) if number else key for number, key in parts)

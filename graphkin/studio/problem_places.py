@@ -10,10 +10,9 @@ from msgspec import Struct
 
 from graphkin.scene.file_limits import WHERE
 from graphkin.studio.mends import Edit, mends_of, units
-from graphkin.studio.toml_spans import Path, Span, spans, unquoted
+from graphkin.studio.toml_spans import Path, Span, parts, spans
 from graphkin.text.errors import Problem
 
-PART = re.compile(r'"(?:\\.|[^"\\])*"|\[(\d+)\]|[^.\[\]"]+')
 LINE = re.compile(r"line (\d+)")
 SETTING = re.compile(r"(?:setting|parameter) (\S+)")
 ABOUT = re.compile(r"[A-Za-z ]+ of (?:links? )?(.+)")
@@ -129,12 +128,6 @@ def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
         names = str(path[-1]).split("-")
         if path[0] == "links" and len(path) == 3 and len(names) > 1 and point in names:
             yield path
-
-
-def parts(place: str) -> Iterator[str | int]:
-    """The keys and indices of a dotted place."""
-    for match in PART.finditer(place):
-        yield int(match[1]) if match[1] else unquoted(match[0])
 
 
 def span_of_line(text: str, number: int) -> Span:

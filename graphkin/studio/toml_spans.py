@@ -7,7 +7,7 @@ with all that was found before it.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -24,6 +24,7 @@ STRING = re.compile(
     r"|'[^'\n]*'",
     re.DOTALL,
 )
+PART = re.compile(r'"(?:\\.|[^"\\])*"|\[(\d+)\]|[^.\[\]"]+')
 ESCAPE = re.compile(r"\\(?:u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|(.))", re.DOTALL)
 
 
@@ -196,3 +197,9 @@ def unescaped(match: re.Match[str]) -> str:
     if code is None:
         return match[3]
     return chr(int(code, 16)) if int(code, 16) < 0x110000 else ""
+
+
+def parts(place: str) -> Iterator[str | int]:
+    """The keys and indices of a dotted place."""
+    for match in PART.finditer(place):
+        yield int(match[1]) if match[1] else unquoted(match[0])

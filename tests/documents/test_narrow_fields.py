@@ -4,7 +4,7 @@ from itertools import product
 
 import pytest
 
-from graphkin.construction.core.layout import field_width, lay_out
+from graphkin.construction.core.layout import lay_out, refuse_wide
 from graphkin.documents.captions import headlines
 from graphkin.documents.overlay import overlay
 from graphkin.documents.sheet import sheet
@@ -38,7 +38,7 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
 
 def test_drawings_wider_than_the_sheet_are_refused():
     with pytest.raises(PageError, match="does not fit"):
-        field_width(WIDTH, 1.0)
+        refuse_wide(WIDTH, 1.0)
 
 
 @pytest.mark.parametrize("length", [240, 900])

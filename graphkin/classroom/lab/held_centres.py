@@ -1,25 +1,26 @@
-"""Centres and poles of many variants that their sheets hold, as arrays; see core.layout."""
+"""Centres and poles of many variants that their sheets hold, as arrays, by the layout's rules."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import reduce
 from typing import Any
 
 from graphkin.classroom.lab.drawing_extents import VariantSheet
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.variant_scales import Scaling
 from graphkin.construction.core.drawn_scene import ENDLESS
-from graphkin.construction.core.layout import GROUND, POLES
+from graphkin.construction.core.layout import held_beside, room_below
 from graphkin.construction.core.program import Part, Plane
-from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN
+from graphkin.drawing.areas import AREA
+from graphkin.drawing.scale import Extent
+from graphkin.numbers.arithmetic import larger
 from graphkin.numbers.plane import Ratio
 
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
 EDGE = 2.0
 """How far from the edge of its field a centre must lie to be marked in it, in mm."""
 Array = Any
-Sides = tuple[Array, ...]
-"""Left, bottom, right and top."""
 
 
 def held(
@@ -37,55 +38,25 @@ def held(
     if not places:
         return
     mm = 1000 / scales.kL
-    (left, bottom, right, top), width = field_of(sheets, scales, mm)
-    lift = raised((top - bottom) * mm)
+    plans = (each.plan_box.width * mm * scales.times(each.kind) for each in sheets)
+    box = reduce(Extent.joined, (each.mechanism_box for each in sheets))
+    poles = (place for each in sheets for place in poles_of(each))
+    field = held_beside(box, poles, mm, reduce(larger, plans))
+    left, bottom, right, top = field.box.sides
+    height, room = (top - bottom) * mm, AREA[3] - AREA[1]
+    lift = room_below(height) + height / 2 - room / 2
     for name, value in places.items():
         point = placed(sheet, value)
         x = (point.real - (left + right) / 2) * mm
         y = (point.imag - (bottom + top) / 2) * mm + lift
-        room = (AREA[3] - AREA[1]) / 2
-        yield name, (abs(x) <= width / 2 - EDGE) & (abs(y) <= room - EDGE)
+        yield name, (abs(x) <= field.width / 2 - EDGE) & (abs(y) <= room / 2 - EDGE)
 
 
-def field_of(sheets: Sequence[VariantSheet], scales: Scaling, mm: Array) -> tuple[Sides, Array]:
-    """The box of the mechanism with its centres and poles, and the width of its field; in layout
-    placed is the same.
-    """
-    import numpy as np
-
-    every = [each.mechanism_box for each in sheets]
-    sides: Sides = (
-        np.min([box.left for box in every], axis=0),
-        np.min([box.bottom for box in every], axis=0),
-        np.max([box.right for box in every], axis=0),
-        np.max([box.top for box in every], axis=0),
-    )
-    plans = [each.plan_box.width * mm * scales.times(each.kind) for each in sheets]
-    whole = AREA[2] - AREA[0]
-    most = whole - np.maximum(np.max(plans, axis=0) + 2 * MARGIN, LEAST_FIELD)
-    most = np.maximum(most, LEAST_FIELD)
-    own = (sides[2] - sides[0]) * mm + 2 * MARGIN
-    sides = grown(sheets, sides, mm, most)
-    width = np.maximum(own, (sides[2] - sides[0]) * mm + POLES)
-    return sides, np.minimum(np.maximum(width, LEAST_FIELD), most)
-
-
-def grown(sheets: Sequence[VariantSheet], sides: Sides, mm: Array, width: Array) -> Sides:
-    """The box of the mechanism, grown by each centre and pole for which a field has room."""
-    import numpy as np
-
-    room = width - POLES, AREA[3] - AREA[1] - POLES
-    for sheet in sheets:
-        for step, value in sheet.steps(Plane.MECHANISM):
-            if step.part is not PARTS[sheet.kind] or not isinstance(value, Ratio):
-                continue
-            point = placed(sheet, value)
-            left, bottom = np.fmin(sides[0], point.real), np.fmin(sides[1], point.imag)
-            right, top = np.fmax(sides[2], point.real), np.fmax(sides[3], point.imag)
-            fits = ((right - left) * mm <= room[0]) & ((top - bottom) * mm <= room[1])
-            wider = zip((left, bottom, right, top), sides, strict=True)
-            sides = tuple(np.where(fits, new, old) for new, old in wider)
-    return sides
+def poles_of(sheet: VariantSheet) -> Iterator[Array]:
+    """The centres or poles on a sheet."""
+    for step, value in sheet.steps(Plane.MECHANISM):
+        if step.part is PARTS[sheet.kind] and isinstance(value, Ratio):
+            yield placed(sheet, value)
 
 
 def placed(sheet: VariantSheet, value: Ratio) -> Array:
@@ -95,12 +66,3 @@ def placed(sheet: VariantSheet, value: Ratio) -> Array:
     with np.errstate(all="ignore"):
         near = np.abs(value.size) * ENDLESS * sheet.reach > np.abs(value.shift)
         return np.where(near, value.start + value.shift / value.size, np.nan + 0j)
-
-
-def raised(height: Array) -> Array:
-    """How far above the middle of its field the middle of a drawing stands; as layout raised."""
-    import numpy as np
-
-    spare = np.maximum(HEIGHT - height, 0.0)
-    below = ABOVE + np.maximum(spare / 2, np.minimum(spare, GROUND - ABOVE))
-    return below + height / 2 - (AREA[3] - AREA[1]) / 2

@@ -85,7 +85,7 @@ class RoundPivot(Struct, frozen=True):
 
 
 def refuse_unused_method(pen: Pen) -> None:
-    """Raise StructureError where a scene wants components drawn in a way that none of them takes."""
+    """Raise StructureError where a scene wants components drawn in a way none of them takes."""
     if pen.scene.sheet.method == KLEIN:
         from graphkin.construction.normal_component.klein import refuse_unused
 

@@ -7,10 +7,10 @@ moves takes with it exactly what depends on it.
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import reduce
 from math import degrees
-from typing import Any
+from typing import Any, NamedTuple
 
 from msgspec import Struct
 
@@ -20,6 +20,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WIDTH, Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent
+from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text.errors import PageError, Problem
 
@@ -63,15 +64,41 @@ def placed(drawings: Sequence[Drawing]) -> Field:
     mm = 1000 / drawings[0].scales.kL
     box = reduce(Extent.joined, (each.mechanism_extent() for each in drawings))
     plan = max(each.plan_extent().width for each in drawings) * mm
-    most = field_width(box.width * mm, plan)
-    wider = with_poles(drawings, box, mm, most)
-    width = max(box.width * mm + 2 * MARGIN, wider.width * mm + POLES)
-    rect = (AREA[0], AREA[1], AREA[0] + min(max(width, LEAST_FIELD), most), AREA[3])
-    return Field(rect, mm, wider.middle, raised(rect, wider.height * mm))
+    refuse_wide(box.width * mm, plan)
+    held = held_beside(box, (place for each in drawings for place in poles_of(each)), mm, plan)
+    rect = (AREA[0], AREA[1], AREA[0] + held.width, AREA[3])
+    return Field(rect, mm, held.box.middle, raised(rect, held.box.height * mm))
 
 
-def field_width(mechanism: float, plan: float) -> float:
-    """The greatest width of a mechanism's field beside a plan, in mm. Raises PageError for none."""
+class Held(NamedTuple):
+    """The box that a mechanism's field holds, its poles and centres with it, and its width (mm)."""
+
+    box: Extent
+    width: Real
+
+
+def held_beside(box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> Held:
+    """What a mechanism's field holds beside a plan so wide (mm), of one sheet or of many."""
+    whole = AREA[2] - AREA[0]
+    most = larger(whole - larger(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)
+    wider = with_poles(box, poles, mm, most)
+    needed = larger(box.width * mm + 2 * MARGIN, wider.width * mm + POLES)
+    return Held(wider, smaller(larger(needed, LEAST_FIELD), most))
+
+
+def with_poles(box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Extent:
+    """The box of the mechanism, grown by each centre and pole for which a field has room."""
+    across, upright = width - POLES, AREA[3] - AREA[1] - POLES
+    for pole in poles:
+        grown = box.about(pole)
+        fits = (grown.width * mm <= across) & (grown.height * mm <= upright)
+        sides = zip(grown.sides, box.sides, strict=True)
+        box = Extent(*(pick(fits, new, old) for new, old in sides))
+    return box
+
+
+def refuse_wide(mechanism: float, plan: float) -> None:
+    """Raise PageError where a sheet has no room for a mechanism and a plan so wide, in mm."""
     spare = WIDTH - mechanism - plan
     if spare < -1e-6:
         raise PageError(
@@ -82,8 +109,6 @@ def field_width(mechanism: float, plan: float) -> float:
                 "leave [sheet] scale out, or give a larger number",
             )
         )
-    whole = AREA[2] - AREA[0]
-    return max(whole - max(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)
 
 
 def centre(rect: Rect) -> tuple[float, float]:
@@ -92,26 +117,26 @@ def centre(rect: Rect) -> tuple[float, float]:
 
 
 def raised(rect: Rect, height: float) -> tuple[float, float]:
-    """The middle of a drawing in a field: half of what is spare above it, half below.
+    """The middle of a drawing in a field."""
+    return centre(rect)[0], rect[3] - room_below(height) - height / 2
 
-    Fixed pivots need the room below for their ground, and notes for themselves: they get it first.
+
+def room_below(height: Real) -> Real:
+    """The room between a drawing so high and the foot of its field, in mm: half of what is spare.
+
+    Fixed pivots need it for their ground, and notes for themselves: they get it first.
     """
-    spare = max(HEIGHT - height, 0.0)
-    below = ABOVE + max(spare / 2, min(spare, GROUND - ABOVE))
-    return centre(rect)[0], rect[3] - below - height / 2
+    spare = larger(HEIGHT - height, 0.0)
+    return ABOVE + larger(spare / 2, smaller(spare, GROUND - ABOVE))
 
 
-def with_poles(drawings: Sequence[Drawing], extent: Extent, mm: float, width: float) -> Extent:
-    """The box of the mechanism, grown by each centre and pole for which a field has room."""
-    room = width - POLES, AREA[3] - AREA[1] - POLES
-    for drawing in drawings:
-        for _, step, value in drawing.mechanism_steps():
-            if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
-                point = drawing.place(value)
-                grown = extent.grown([point]) if point is not None else extent
-                if grown.width * mm <= room[0] and grown.height * mm <= room[1]:
-                    extent = grown
-    return extent
+def poles_of(drawing: Drawing) -> Iterator[Point]:
+    """The centres and poles on a sheet that are no farther than its drawing reaches."""
+    for _, step, value in drawing.mechanism_steps():
+        if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
+            point = drawing.place(value)
+            if point is not None:
+                yield point
 
 
 def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:

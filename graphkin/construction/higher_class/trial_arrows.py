@@ -145,7 +145,7 @@ def legs(
 
 
 def normals_of(pen: Pen, group: CoupledTrain | Higher) -> list[tuple[str, str, int]]:
-    """The accelerations towards pivots within a group, each with the pivot and the pin between which it is."""
+    """The accelerations towards pivots within a group, each with its pivot and its pin."""
     return [
         (key[1], key[2], vector)
         for key, vector in pen.shared.items()
