@@ -155,10 +155,13 @@ def by_trials() -> tuple[Work, Work]:
 
 def with_pinned_wheels() -> tuple[Work, Work]:
     """What a group draws in both plans whose wheels leave nothing to try at the instant."""
-    from graphkin.construction.rolling import pinned_wheels
+    from graphkin.construction.rolling import wheel_images
 
     first, second = (partial(in_plan, which=which) for which in PLANS)
-    return partial(pinned_wheels.move, each=first), partial(pinned_wheels.accelerate, each=second)
+    return (
+        partial(wheel_images.move_pinned, each=first),
+        partial(wheel_images.accelerate_pinned, each=second),
+    )
 
 
 def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:

@@ -142,3 +142,8 @@ def test_names_are_found_where_they_are_written():
 
 def test_a_text_that_is_no_toml_still_has_its_keys():
     assert "through" in editing_help("[links.1]\nslides = { on", "x").keys["links.1.slides"]
+
+
+def test_the_keys_of_one_wheel_are_those_of_each_of_several():
+    keys = every_key()
+    assert keys["links.1.wheels"] == keys["links.1.wheel"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.acceleration.turned_acceleration import (
@@ -14,7 +14,7 @@ from graphkin.construction.core.arrows import (
     relative_arrow,
     velocity_arrows,
 )
-from graphkin.construction.core.bases import contact_name, under
+from graphkin.construction.core.bases import Base, bases, contact_name, leads_of, own_first, under
 from graphkin.construction.core.pen import (
     Pen,
     about,
@@ -39,7 +39,7 @@ from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.model import Driver
-from graphkin.structure.groups import Geared, Train
+from graphkin.structure.groups import Geared, Group, Higher, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
 
@@ -290,3 +290,50 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
         steps = ends, (first, second)
         turning = turning_of_link(pen, EPSILON, link, letters, index, steps)
     pen.want(EPSILON, link, turning)
+
+
+# --- pinned at the instant where they touch their tracks -----------------------------------------
+
+
+Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
+"""How one group is put down in a plan."""
+
+
+def move_pinned(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
+    """The velocity plan: every wheel moves with its track where they touch."""
+    for wheel in group.wheels:
+        touched(pen, wheel.contact, wheel.own, wheel.known)
+    for link in group.links:
+        pen.leads.pop(link, None)
+    for member in group.at_instant:
+        found = tuple(map(own_first, bases(pen.scene, member)))
+        pen.bases |= {base.link: base for base in found}
+        pen.leads |= leads_of(member)
+        each(pen, shapes, member, found)
+
+
+def accelerate_pinned(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
+    """The acceleration plan: there it moves against its track to its centre only."""
+    for wheel in group.wheels:
+        second_image_of_rim(pen, wheel.contact, wheel.own, wheel.known)
+    for member in group.at_instant:
+        each(pen, shapes, member, tuple(pen.bases[link] for link in member.links))
+
+
+@by_contact
+def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> None:
+    """The second image of a point of contact, from that of the point which it touches.
+
+    A wheel's moves towards its centre, on a straight track with the square of its turning times its
+    radius; a bar's away from the centre of the wheel on which the bar rolls.
+    """
+    name = contact_name(contact)
+    start = carried(pen, known, name, "acceleration")
+    rates, rim = (omega_of(pen, own), omega_of(pen, known)), under(name, own)
+    if contact.track is not None:
+        hubs = contact.wheel_of(own).centre, contact.wheel_of(known).centre
+        rolled_image(pen, start, rim, (name, *hubs), rates)
+    elif own == contact.links[0]:
+        rolled_image(pen, start, rim, (name, contact.wheel.centre), rates)
+    else:
+        rolled_image(pen, start, rim, (contact.wheel.centre, name), rates[::-1], on_bar=True)
