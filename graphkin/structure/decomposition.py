@@ -44,7 +44,11 @@ def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) ->
     from graphkin.structure.coupled_trains import next_coupled
     from graphkin.structure.higher_groups import next_higher
 
-    return next_coupled(joints, known) or next_higher(joints, known, waiting)
+    return (
+        next_coupled(joints, known)
+        or next_higher(joints, known, waiting)
+        or next_coupled(joints, known, idle=True)
+    )
 
 
 def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]) -> Unresolved:
