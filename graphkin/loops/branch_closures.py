@@ -178,7 +178,7 @@ def scattered(loops: Equations, stands: Reals, moving: Mask, count: int, seed: i
     """
     thrown = np.random.default_rng(seed).uniform(-1, 1, (count, stands.shape[1]))
     thrown[:, : loops.turning_count] *= np.pi
-    for k, (_, start) in loops.slips.counted.items():
+    for k, start in loops.slips.counted.items():
         thrown[:, k - 1] += start
     thrown[:, loops.turning_count :] *= 2 * reach(loops)
     thrown = np.concatenate([stands, np.where(moving, thrown, stands)])

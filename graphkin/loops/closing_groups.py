@@ -122,11 +122,13 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
     """Whether a way or a number stated under the name of a link means a group.
 
     A number means the group of the link. A way means the group of the slide whose block it names;
-    the block itself may be known before, having closed with another group.
+    the block itself may be known before, having closed with another group. Of a wheel on a straight
+    track it means the group of the wheel: a track that lies on a known wheel has no way of its own.
     """
-    own = {j for j, guide in enumerate(loops.guides) if guide.block == name}
+    own = {j: guide.turns_alike for j, guide in enumerate(loops.guides) if guide.block == name}
     if isinstance(branch, Way) and own:
-        return any(joint.slide in own for joint in group.slides)
+        led = (own[joint.slide] for joint in group.slides if joint.slide in own)
+        return any(slides or name in group.links for slides in led)
     return name in group.links
 
 

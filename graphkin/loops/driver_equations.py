@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.cam_laws import ByLaw
+from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
+from graphkin.numbers.arithmetic import Real
 from graphkin.numbers.cam_motions import Rise
-from graphkin.scene.model import Driver, Scene
+from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
 
@@ -39,6 +41,24 @@ class Lift(Struct, frozen=True, eq=False):
         return self.law.at(turn * self.lean, self.numbers, self.start)
 
 
+class Base(Struct, frozen=True, eq=False):
+    """The link against which driver ``row`` turns another, where it turns as one with others.
+
+    It is ``lean`` (radians) ahead of its ``turning``, and stands within half a turn of ``near``
+    whatever the whole turns of the others are: its pins show its direction only.
+    """
+
+    row: int
+    turning: int
+    lean: Reals
+    near: Reals
+
+    def full_turns(self, unknowns: Reals) -> Reals:
+        """The whole turns (radians) of its turning that it does not count: (N,)."""
+        angle = unknowns[:, self.turning - 1] + self.lean
+        return np.asarray(angle - within_half_a_turn(angle, self.near))
+
+
 class Drives(Struct, frozen=True, eq=False):
     """The given motions: row d of ``selects`` (D, K + m) picks the driven coordinate.
 
@@ -58,6 +78,7 @@ class Drives(Struct, frozen=True, eq=False):
     speed: Reals
     acceleration: Reals
     lifts: tuple[Lift, ...] = ()
+    bases: tuple[Base, ...] = ()
 
     def residual(self, unknowns: Reals) -> Reals:
         """Driven coordinate less given value, angles within half a turn unless whole: (N, D)."""
@@ -66,6 +87,8 @@ class Drives(Struct, frozen=True, eq=False):
         angle = np.angle(np.exp(1j * coordinate) * self.lean * aim.conj())
         if self.whole:
             turned = coordinate + self.leaning - given - angle
+            for base in self.bases:
+                turned[:, base.row] += base.full_turns(unknowns)
             angle = angle + 2 * np.pi * np.rint(turned / (2 * np.pi))
         return np.where(self.turns, angle, coordinate - aim.real)
 
@@ -108,6 +131,8 @@ class Drives(Struct, frozen=True, eq=False):
         for lift in self.lifts:
             if lift.turning:
                 found[lift.row, lift.turning - 1] = 1
+        for base in self.bases:
+            found[base.row, base.turning - 1] = 1
         return found
 
     def none(self) -> Drives:
@@ -124,10 +149,16 @@ def drives_of(
     guides: Sequence[Guide],
     turned: Turnings,
     numbers: Numbers,
+    near: Mapping[str, Real],
+    rolling: Collection[str],
     *,
     whole: bool,
 ) -> Drives:
-    """The drivers' equations; ``whole`` where full turns count, too."""
+    """The drivers' equations; ``whole`` where full turns count, too.
+
+    ``near`` are the angles (radians) near which links stand whose pins leave whole turns open;
+    those of ``rolling`` links follow from what rolls.
+    """
     count = len(scene.drivers)
     selects = np.zeros((count, turned.count + len(guides)))
     lean = np.ones((numbers.count, count), dtype=np.complex128)
@@ -154,7 +185,32 @@ def drives_of(
     turning = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
     rates = speed, acceleration
     lifts = lifts_of(scene, turned, numbers)
-    return Drives(selects[:, 1:], turning, lean, leaning, aim, given, whole, *rates, lifts)
+    places = lean, leaning, aim, given
+    bases = bases_of(scene, turned, near, rolling, numbers)
+    return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
+
+
+def bases_of(
+    scene: Scene,
+    turned: Turnings,
+    near: Mapping[str, Real],
+    rolling: Collection[str],
+    numbers: Numbers,
+) -> tuple[Base, ...]:
+    """The links that drivers turn others against, where these turn as one with further links.
+
+    Those that a driver turns count with it.
+    """
+    driven = {turned.of[driver.link] for driver in scene.drivers if driver.kind == "turn"}
+    found = []
+    for d, driver in enumerate(scene.drivers):
+        k = turned.of[driver.against]
+        if driver.kind != "turn" or k in driven or k == turned.of[FRAME]:
+            continue
+        if list(turned.of.values()).count(k) > 1 and driver.against not in rolling:
+            lean, start = turned.angle[driver.against], near.get(driver.against, 0.0)
+            found.append(Base(d, k, numbers.reals(lean), numbers.reals(start)))
+    return tuple(found)
 
 
 def lifts_of(scene: Scene, turned: Turnings, numbers: Numbers) -> tuple[Lift, ...]:

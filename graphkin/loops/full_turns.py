@@ -106,12 +106,8 @@ def settles(rows: Reals) -> Mask:
 def counted(loops: Equations, values: Reals, k: int) -> Reals:
     """The angle of unknown turning k counted from its start, within half a turn: shape (N,)."""
     angle = values[:, k]
-    if k + 1 not in loops.slips.counted:
-        return angle
-    against, start = loops.slips.counted[k + 1]
-    if against:
-        start = start + values[:, against - 1]
-    return within_half_a_turn(angle, start)
+    start = loops.slips.counted.get(k + 1)
+    return angle if start is None else within_half_a_turn(angle, start)
 
 
 def counted_freely(loops: Equations, values: Reals, moving: Mask) -> Reals:

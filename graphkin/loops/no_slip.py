@@ -63,14 +63,14 @@ class Gear(Struct, frozen=True, eq=False):
 class Slips(Struct, frozen=True, eq=False):
     """All rows of no slip: ``rows`` (N, R, K + m) times the unknowns plus ``constant`` (N, R).
 
-    Metres. ``links`` are those that each row ties. ``counted`` gives, by turning, the turning
-    against which it is counted (0 the frame) and the angle at its start (N,), radians.
+    Metres. ``links`` are those that each row ties. ``counted`` gives, by turning, the angle near
+    which it is counted (N,), radians.
     """
 
     rows: Reals
     constant: Reals
     links: tuple[tuple[str, ...], ...]
-    counted: Mapping[int, tuple[int, Reals]]
+    counted: Mapping[int, Reals]
 
     @property
     def words(self) -> list[str]:
@@ -257,7 +257,7 @@ def counted_at(rolling: Rolling, numbers: Numbers) -> dict[str, Real]:
 
 def packed_slips(
     slips: Sequence[NoSlip],
-    counted: Mapping[int, tuple[int, Reals]],
+    counted: Mapping[int, Reals],
     turned: Turnings,
     guides: Sequence[Guide],
     numbers: Numbers,
@@ -314,18 +314,17 @@ def within_half_a_turn(angle: Reals, start: Reals) -> Reals:
 
 def counted_turnings(
     scene: Scene, slips: Sequence[NoSlip], turned: Turnings, numbers: Numbers
-) -> dict[int, tuple[int, Reals]]:
-    """By turning, the turning against which it is counted and at what angle (N,), radians.
+) -> dict[int, Reals]:
+    """By turning, the angle within half a turn of which it is counted (N,), radians.
 
     What the scene states of a link's whole turns comes first, then the start of what rolls first
     as written. A link that a driver turns others from counts from nought where no wheel says more.
     """
-    found: dict[int, tuple[int, Reals]] = {}
+    found: dict[int, Reals] = {}
 
-    def count(link: str, angle: Real, against: str = FRAME) -> None:
-        if {link, against} <= set(turned.of):
-            lean = turned.angle[link] - turned.angle[against]
-            found.setdefault(turned.of[link], (turned.of[against], numbers.reals(angle - lean)))
+    def count(link: str, angle: Real) -> None:
+        if link in turned.of:
+            found.setdefault(turned.of[link], numbers.reals(angle - turned.angle[link]))
 
     if not slips:
         return found
@@ -336,9 +335,6 @@ def counted_turnings(
             count(link, angle)
     order = [FRAME, *scene.links]
     for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
-        if slip.track is not None:
-            wheel, on = slip.links
-            count(wheel, slip.starts[wheel], on)
         for link, angle in slip.near.items():
             count(link, angle)
     for driver in scene.drivers:

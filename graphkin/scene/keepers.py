@@ -38,7 +38,10 @@ def with_keepers(
     A name that a scene gives one, ``rolls = { …, link = "arm" }``, asks for it.
     """
     written = laid_on_rollers({FRAME: frame, **links}, measures)
-    held = {name: joints_of(written, name, drivers) for name in written}
+    tracks = {
+        r.on for link in written.values() for r in link.rolls if r.through and r.on in written
+    }
+    held = {name: joints_of(written, name, drivers) for name in tracks}
     every = dict(written)
     for name, link in written.items():
         for index, rolling in enumerate(link.rolls):
@@ -220,13 +223,49 @@ def block_on(wheel: Wheel, rolling: Rolling, measures: Measures) -> Link | None:
 
 
 def joints_of(every: Mapping[str, Link], name: str, drivers: Collection[Driver]) -> int:
-    """How many pins, slides, drivers and wheels of its own hold a link; the frame needs none."""
+    """How many pins, slides, drivers and wheels of its own hold a link; the frame needs none.
+
+    What hangs on the link holds nothing: neither links that it alone joins to the frame, nor the
+    equivalent linkage of a cam, which lifts a follower.
+    """
     if name == FRAME:
         return 2
-    link = every[name]
-    shared = Counter(p for other in every.values() if other is not link for p in other.points)
+    link, firm = every[name], reached(every, name)
+    shared = Counter(p for each in firm for p in every[each].points)
     pins = sum(shared[point] > 0 for point in link.points)
-    slides = [*link.slides, *(s for each in every.values() for s in each.slides if s.on == name)]
-    moved = [d for d in drivers if name in (d.link, d.against) and (pins or d.kind != "turn")]
-    wheels = [r for each in every.values() for r in each.rolls if r.on == name and not r.through]
-    return pins + 2 * len(slides) + 2 * len(moved) + len(link.rolls) + len(wheels)
+    slides = [s for s in link.slides if s.on in firm]
+    slides += [s for each in firm for s in every[each].slides if s.on == name]
+    moved = [d for d in drivers if moves(every, d, name, pins > 0) & firm]
+    rolls = [r for r in link.rolls if r.on in firm]
+    wheels = [r for each in firm for r in every[each].rolls if r.on == name and not r.through]
+    return pins + 2 * len(slides) + 2 * len(moved) + len(rolls) + len(wheels)
+
+
+def moves(every: Mapping[str, Link], driver: Driver, name: str, pinned: bool) -> set[str]:
+    """The link against which a driver sets a link in its place; none where it only turns it."""
+    ends = {driver.link, driver.against}
+    if name not in ends:
+        return set()
+    on_track = (r.on == driver.against and r.through for r in every[driver.link].rolls)
+    if driver.kind == "turn" and not pinned and not (name == driver.link and any(on_track)):
+        return set()
+    return ends - {name}
+
+
+def reached(every: Mapping[str, Link], but: str) -> set[str]:
+    """The links that joints lead to from the frame without passing one of them."""
+    cams = {link.cam.link for link in every.values() if link.cam is not None}
+    beside: dict[str, set[str]] = {name: set() for name in every}
+    owners: dict[str, str] = {}
+    for link in (each for name, each in every.items() if name != but):
+        near = [owners.setdefault(point, link.name) for point in link.points]
+        for other in (*near, *(slide.on for slide in link.slides), *(r.on for r in link.rolls)):
+            if other in every and other != but:
+                beside[link.name].add(other)
+                beside[other].add(link.name)
+    found, waiting = {FRAME}, [FRAME]
+    while waiting:
+        for each in beside[waiting.pop()] - found - cams:
+            found.add(each)
+            waiting.append(each)
+    return found

@@ -43,7 +43,11 @@ def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) ->
     """The next group of higher class; what finds these is loaded where the others end."""
     from graphkin.structure.higher_groups import next_higher
 
-    return next_coupled(joints, known) or next_higher(joints, known, waiting)
+    return (
+        next_coupled(joints, known)
+        or next_higher(joints, known, waiting)
+        or next_coupled(joints, known, idle=True)
+    )
 
 
 def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]) -> Unresolved:

@@ -15,6 +15,7 @@ from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Spun
 from graphkin.structure.instant_groups import at_instant
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
+    geared_of,
     next_driven,
     next_group,
     next_stretched,
@@ -101,6 +102,8 @@ def tried(
         )
         if group is None:
             return
+        if isinstance(group, Geared):
+            group = by_known(joints, group, {*known, trial.link})
         chain.append(group)
         settle(group, grown, left)
         count -= len(group.nested) if isinstance(group, Higher) else 0
@@ -110,6 +113,11 @@ def tried(
         return
     higher = Higher(trial, kept.chain, last, ((), ()))
     yield replace(higher, joints=pairs_of(joints, higher, known))
+
+
+def by_known(joints: Joints, wheel: Geared, known: Collection[str]) -> Geared:
+    """A wheel turned by its contact with a known link where it has one, not by way of others."""
+    return geared_of(wheel.link, joints.between(wheel.link, known), known) or wheel
 
 
 def over_given(

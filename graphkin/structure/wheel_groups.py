@@ -7,7 +7,9 @@ right.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
 
 from msgspec import Struct
 
@@ -18,6 +20,10 @@ from graphkin.structure.one_link import Driven, OneLink, TriedLink
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
 from graphkin.structure.touching_wheels import radius
 from graphkin.text.plain_table import listed
+
+
+FREE = 1e-12
+"""Rate of a miss, for one of the tried link, below which rounding alone makes it."""
 
 
 class Geared(OneLink, frozen=True):
@@ -294,8 +300,12 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
 
 
-def next_coupled(joints: Joints, known: Collection[str]) -> CoupledTrain | None:
-    """The train of fewest links that closes once one link on a known pin is tried."""
+def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
+    """The train of fewest links that closes once one link on a known pin is tried.
+
+    One whose ratios cancel closes in every place of the link and so says nothing of it: two planets
+    between one sun and one ring. Such are found where ``idle`` is asked for, and no others.
+    """
     contacts = [*left_over(joints, known)]
     if not contacts:
         return None
@@ -305,6 +315,7 @@ def next_coupled(joints: Joints, known: Collection[str]) -> CoupledTrain | None:
         for pin in pins_held(joints, known, link)
         for last in contacts
         if (train := closed(joints, known, TriedLink(link, pin), last))
+        and idle == cancels(joints.scene, train)
     )
     return min(found, key=lambda train: len(train.links), default=None)
 
@@ -356,6 +367,48 @@ def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared 
         if isinstance(wheel.pair, Pin):
             return wheel
     return None
+
+
+def cancels(scene: Scene, train: CoupledTrain) -> bool:
+    """Whether the last contact misses nothing however the tried link turns, by every parameter."""
+    contacts = [*(each.contact for each in train.chain), train.last]
+    radii = [w.radius for c in contacts for w in (c.wheel, c.track) if w and w.radius]
+    names = sorted({name for radius in radii for name in radius.uses()} & {*scene.values})
+    settings = [dict[str, Any](scene.values)]
+    if names:
+        more = {name: 1 + Fraction(1, 1009 + 2 * k) for k, name in enumerate(names)}
+        settings.append({**settings[0], **{n: settings[0][n] * more[n] for n in names}})
+    return all(abs(rate_missed(train, values)) < FREE for values in settings)
+
+
+def rate_missed(train: CoupledTrain, values: Mapping[str, Any]) -> Any:
+    """How fast the last contact slips while the tried link turns with rate one (Willis)."""
+    rates: dict[str, Any] = {train.trial.link: 1}
+    for wheel in train.chain:
+        rates[wheel.link] = rate_rolled(wheel.contact, wheel.link, rates, values)
+    own = train.closing
+    return rates[own] - rate_rolled(train.last, own, rates, values)
+
+
+def rate_rolled(
+    contact: Contact, link: str, rates: Mapping[str, Any], values: Mapping[str, Any]
+) -> Any:
+    """The rate of a wheel from those of its arm and of the wheel that it touches."""
+    sizes = dict(zip(contact.links, signed_radii(contact, values), strict=True))
+    other = partner(contact, link)
+    arm = rates.get(contact.arm or "", 0)
+    return arm - (rates.get(other, 0) - arm) * sizes[other] / sizes[link]
+
+
+def signed_radii(contact: Contact, values: Mapping[str, Any]) -> Sequence[Any]:
+    """The radii of wheel and track, negative for a ring and where an open belt comes from."""
+    belt = contact.rolling.belt
+    found = []
+    for wheel in (contact.wheel, contact.track):
+        assert wheel is not None and wheel.radius is not None
+        opposed = wheel.inside or (wheel is contact.track and belt is not None and not belt.crossed)
+        found.append(wheel.radius.number(values) * (-1 if opposed else 1))
+    return found
 
 
 def turned_by_smaller(scene: Scene, wheel: Geared) -> bool:

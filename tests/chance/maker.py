@@ -209,8 +209,10 @@ class Maker:
     def angle(self, body: str) -> float:
         """The angle of a body's x axis, with the whole turns that its driver is written with."""
         bodies = self.standing.bodies
+        if body == FRAME:
+            return 0.0
         for drive in self.standing.drives:
-            if (drive.kind, drive.body) == ("turn", body) and body not in self.rolling():
+            if (drive.kind, drive.body) == ("turn", body):
                 line = 1 + 0j
                 if drive.of:
                     p, q = (bodies[body].points[point] for point in drive.of)
@@ -225,7 +227,7 @@ class Maker:
 
     def slid_with_driven(self, body: str) -> str | None:
         """The next body along slides towards one that a driver turns: they turn as one."""
-        driven = {d.body for d in self.standing.drives if d.kind == "turn"} - self.rolling()
+        driven = {d.body for d in self.standing.drives if d.kind == "turn"}
         slides = [(slide.block, slide.on) for slide in self.standing.slides.values()]
         towards, waiting = {body: body}, [body]
         while waiting:
@@ -239,10 +241,6 @@ class Maker:
                     towards[each] = each if here == body else towards[here]
                     waiting.append(each)
         return None
-
-    def rolling(self) -> set[str]:
-        """The wheels on straight tracks."""
-        return {each.wheel for each in self.standing.straights}
 
     def slide_coordinate(self, block: str) -> float:
         """Where a block stands on its guide."""

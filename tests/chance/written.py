@@ -248,8 +248,11 @@ class Shaken(Exact):
         return super().local(body, point) + self.size * off
 
     def guide(self, slide: Slide) -> tuple[Any, ...]:
-        """A guide, turned and shifted."""
+        """A guide, turned and shifted; one along two points as these lie."""
         through, along, offset = super().guide(slide)
+        if slide.named is not None and slide.end is not None:
+            through, end = (self.local(slide.on, point) for point in (slide.named, slide.end))
+            along = (end - through) / abs(end - through)
         return through, along * self.cis(self.share(slide.block)), offset
 
     def track(self, straight: Straight) -> tuple[Any, ...]:

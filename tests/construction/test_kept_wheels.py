@@ -376,3 +376,138 @@ def test_wheels_between_tracks_at_an_angle_are_refused_by_name():
         StructureError, match="wheels 1, 2 between two tracks that are not parallel"
     ):
         made(text).solve()
+
+
+def alike(one, other, links, points):
+    """Whether links and points of two mechanisms move alike."""
+    first, second = one.solve(), other.solve()
+    assert other.witness(second).agrees
+    for link in links:
+        for rate in ("omega", "epsilon"):
+            got, want = (getattr(each.links[link], rate) for each in (second, first))
+            assert got == pytest.approx(want, rel=1e-12, abs=1e-12)
+    for point in points:
+        for got, want in zip(told(second, point), told(first, point), strict=True):
+            assert got == pytest.approx(want, rel=1e-12, abs=1e-12)
+
+
+HANGING = """
+[links.4]
+B-E = 40
+[links.5]
+E-F = 50
+[[drivers]]
+turn = 4
+against = 2
+angle = 70
+speed = 3
+[[drivers]]
+turn = 5
+against = 4
+angle = 20
+speed = 4
+"""
+
+
+def test_what_hangs_on_a_track_does_not_hold_it():
+    """A crank on the end of a bar that lies on a roller, and a rod on that: the bar moves alike."""
+    text = (FOLDER / "bar-on-roller.toml").read_text(encoding="utf-8")
+    text = text.replace("[branches]", HANGING + "[branches]")
+    laden = made(text.replace('4 = "forward"', '6 = "forward"'))
+    assert len(laden.scene.keepers) == 1
+    alike(example("bar-on-roller"), laden, "123", "ABCD")
+
+
+ROCKED = """
+graphkin = 1
+title = "A roller on a crank rocks a bar"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+A = [-150, -20]
+[links.1]
+O-C = 60
+[links.2]
+A-B = 300
+[links.3]
+C-D = 20
+wheel = { centre = "C", radius = 30 }
+rolls = { on = 2, through = "A", angle = 0 }
+[[drivers]]
+turn = 1
+angle = 65
+speed = 8
+acceleration = 3
+[branches]
+BLOCK = "forward"
+"""
+CAM = """
+[links.4]
+Y = [0, 0]
+slides = { on = 0, through = "A", angle = 90 }
+[links.4.cam]
+on = 2
+tip = "knife"
+base = 25
+start = -40
+law = [{ to = 120, rise = 12, motion = "cycloidal" }, { to = 360, rise = -12, motion = "3-4-5" }]
+[[drivers]]
+"""
+
+
+def test_a_cam_on_a_track_does_not_hold_it():
+    """A bar that a roller rocks lifts a follower by a cam on it: the bar moves as without it."""
+    plain = made(ROCKED.replace("BLOCK", "4"))
+    lifting = made(ROCKED.replace("[[drivers]]", CAM, 1).replace("BLOCK", "6"))
+    alike(plain, lifting, "123", "ABCD")
+
+
+TWICE = """
+graphkin = 1
+title = "A wheel on a plank on a wheel"
+units = {{ length = "m", angle = "rad", speed = "rad/s" }}
+[frame]
+[links.1]
+P = [0, 0]
+wheel = {{ centre = "P", radius = 2 }}
+rolls = {{ on = 0, through = [0, 0], angle = 0, start = {{ 1 = 0 }} }}
+[links.2]
+Q = [0, 0]
+R = [0.3, 0.1]
+wheel = {{ centre = "Q", radius = 0.5 }}
+rolls = {{ on = 1, through = [0, 1], angle = 0, start = {{ 2 = 0 }} }}
+[[drivers]]
+turn = 1
+angle = "{turn}"
+speed = 1.5
+acceleration = 0.8
+[[drivers]]
+turn = 2
+against = 1
+angle = "{own}"
+speed = -2.5
+acceleration = 4
+"""
+
+
+@pytest.mark.parametrize(("turn", "own"), [(0.4, 0.9), (-2.0, 7.5), (3.5, -0.2)])
+def test_a_wheel_that_its_driver_turns_on_its_track_is_held(turn, own):
+    """It needs no block though it carries a track itself; in closed form, one wheel on the other.
+
+    P is at -2φ + 2i, and Q against it at e^(iφ)·(3i/2 - ψ/2), which turns with φ + ψ.
+    """
+    one = made(TWICE.format(turn=turn, own=own))
+    assert not one.scene.keepers
+    found = one.solve()
+    assert one.witness(found).agrees
+    w, e, v, b = 1.5, 0.8, -2.5, 4.0
+    arm, slid = exp(1j * turn), 1.5j - own / 2
+    centre = -2 * turn + 2j + arm * slid
+    speed = -2 * w + arm * (1j * w * slid - v / 2)
+    rate = -2 * e + arm * ((1j * e - w * w) * slid - 1j * w * v - b / 2)
+    reach = exp(1j * (turn + own)) * (0.3 + 0.1j)
+    turning, spin = w + v, e + b
+    pin = centre + reach, speed + 1j * turning * reach
+    pin += (rate + (1j * spin - turning**2) * reach,)
+    for point, want in (("Q", (centre, speed, rate)), ("R", pin)):
+        assert told(found, point) == pytest.approx(want, abs=1e-12)

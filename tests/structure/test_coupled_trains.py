@@ -12,9 +12,10 @@ import pytest
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
-from graphkin.structure.groups import CoupledTrain
+from graphkin.structure.groups import CoupledTrain, Higher
 from graphkin.text.errors import GraphkinError
 from tests.examples.scenes import FILES, mechanism, place, proved
+from tests.scene_files import scene_text
 
 HEAD = """graphkin = 1
 title = "Train"
@@ -171,3 +172,49 @@ P4 = {{ from = "O", length = 50, angle = 60 }}
     text = re.sub(r'(centre = "O", radius = )[\d.]+', r"\g<1>30.0", first) + arm + rest
     with pytest.raises(GraphkinError, match="let link arm turn as it likes"):
         Mechanism(read_text(text, "train")).solve()
+
+
+RATIOS = {"3": 1, "4": -2, "5": -2, "6": 4}
+"""Over the arm's rate, in a fixed ring three times as large as planets and sun (Willis)."""
+
+
+def test_an_idle_contact_of_a_second_planet_is_passed_over():
+    """Two planets between one sun and one ring close in every place of the arm: a rod tells it."""
+    found = Mechanism(read_text(scene_text("structure/two-planets-and-a-rod"), "rod"))
+    assert not any(isinstance(group, CoupledTrain) for group in found.groups)
+    motion = proved(found)
+    arm = motion.links["3"]
+    for link, ratio in RATIOS.items():
+        assert motion.links[link].omega == pytest.approx(ratio * arm.omega, rel=1e-12)
+        assert motion.links[link].epsilon == pytest.approx(ratio * arm.epsilon, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_an_idle_contact_is_passed_over_in_any_order_of_links(seed):
+    """The wheel that the rod moves hangs on the ring, not on the other planet by way of the sun."""
+    head, *links = scene_text("structure/two-planets-and-a-rod").split("[links.")
+    last, tail = links[-1].split("[[drivers]]")
+    links[-1] = last
+    random.Random(seed).shuffle(links)
+    text = "[links.".join([head, *links]) + "[[drivers]]" + tail
+    found = Mechanism(read_text(text, "rod"))
+    (group,) = (each for each in found.groups if isinstance(each, Higher))
+    assert {*group.links} == {"2", "3", "4"}
+    motion = proved(found)
+    for link, ratio in RATIOS.items():
+        assert motion.links[link].omega == pytest.approx(ratio * motion.links["3"].omega, rel=1e-12)
+
+
+def test_ratios_that_cancel_for_any_parameter_are_idle():
+    """Teeth z of the sun and p of the planets, z + 2p of the ring: idle whatever z and p are."""
+    text = scene_text("structure/two-planets-and-a-rod")
+    text = text.replace("module = 4\n", "module = 4\n[parameters]\nz = 20\np = 20\n")
+    text = text.replace("teeth = 60", 'teeth = "z + 2*p"').replace(
+        "O-P1 = 80", 'O-P1 = "2*(z + p)"'
+    )
+    text = text.replace("O-P2 = 80", 'O-P2 = "2*(z + p)"')
+    text = text.replace('centre = "O", teeth = 20', 'centre = "O", teeth = "z"')
+    text = re.sub(r'(centre = "P\d", teeth = )20', r'\1"p"', text)
+    for settings in ({}, {"z": 24}, {"p": 18}):
+        found = Mechanism(read_text(text, "rod", None, settings))
+        assert not any(isinstance(group, CoupledTrain) for group in found.groups)
