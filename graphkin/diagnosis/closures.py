@@ -80,7 +80,7 @@ def choosing_step(
         return None
     points = [p for link in group.links for p in scene.links[link].points]
     targets = [("position", p) for p in points] + [("axis", link) for link in group.links]
-    fixed = {program.targets.get(("position", point)) for point in scene.frame.points}
+    fixed = {program.targets.get(("position", point)) for point in scene.fixed_points}
     for number in program.needed(t for t in targets if t in program.targets):
         if number not in fixed and number not in taken and picks(program, number, closing=closing):
             return number

@@ -136,5 +136,5 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
         return False
     if step.plane is Plane.MECHANISM:
         wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
-        return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.frame.points
+        return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.fixed_points
     return step.plane is drawing.plane and not isinstance(construction(step), PlanPole)

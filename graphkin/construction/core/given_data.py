@@ -23,6 +23,7 @@ from graphkin.construction.core.relation import figure
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.model import (
+    FRAME,
     Angled,
     At,
     Cam,
@@ -133,15 +134,21 @@ def cams(drawing: Drawing) -> Iterator[str]:
         fields = {"g": escape(cam.on), "k": escape(follower)}
         fields["tip"] = cam_tip(scene, words, cam)
         base = written(scene, words, cam.base)
-        sense = words("page.cam_clockwise" if cam.sense < 0 else "page.cam_counter")
+        senses = ("cam_forward", "cam_backward") if cam.slides else ("cam_counter", "cam_clockwise")
+        sense = words(f"page.{senses[cam.sense < 0]}")
         start = words("page.cam_start", angle=written(scene, words, cam.start))
         turned = sense + ("" if cam.start.is_zero() else start)
+        key = "page.cam_plate" if cam.slides else "page.cam"
+        if cam.slides:
+            fields["p"] = symbol(cam.pivot)
         if cam.lever:
-            line = bar(cam.pivot, cam.lever.pin)
+            line, pin = bar(cam.pivot, cam.lever.pin), symbol(cam.lever.pin)
             fields["side"] = words("page.cam_left" if cam.lever.side > 0 else "page.cam_right")
-            yield words("page.cam_lever", base=base, line=line, **fields)
-        else:
-            yield words("page.cam", base=base, **fields)
+            fields |= {"q": pin} if cam.slides else {"line": line}
+            key += "_lever"
+        yield words(key, base=base, **fields)
+        if cam.carrier != FRAME and not cam.slides:
+            yield words("page.cam_seen", g=fields["g"], c=escape(cam.carrier))
         if cam.conjugate:
             radius, at = written(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
             yield words("page.cam_conjugate", radius=radius, p=at, **fields)
@@ -150,7 +157,8 @@ def cams(drawing: Drawing) -> Iterator[str]:
             yield words("page.cam_table", sense=turned, points=points, **fields)
             continue
         first, *rest = (cam_piece(scene, words, piece) for piece in cam.law)
-        yield words("page.cam_by", sense=turned, piece=first, **fields)
+        by = "page.cam_plate_by" if cam.slides else "page.cam_by"
+        yield words(by, sense=turned, piece=first, **fields)
         yield from rest
 
 
