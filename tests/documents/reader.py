@@ -441,7 +441,7 @@ class Reader:
 
     @says(
         "draw the mechanism as on the velocity sheet",
-        "transfer .* to the mechanism, each to its point.*",
+        "transfer .* to the mechanism, (?:each )?to its point.*",
         "over the motion .*",
         "nothing is set on the mechanism, because .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from graphkin.construction.core.amounts import in_degrees, written
+from graphkin.construction.core.amounts import in_degrees, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
 from graphkin.construction.core.line_words import axis_of
@@ -176,7 +176,7 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
     at, lift, unit = exact(0, cam.law[0].to.unit), Fraction(0), cam.law[0].rise.unit
     points = []
     for piece in cam.law:
-        height = words.decimal(exact(lift).written(scene.values))
+        height = number_of(scene, words, exact(lift))
         points.append(f"{written(scene, words, at)}: {height}")
         at, lift = piece.to, lift + piece.rise.number(scene.values)
     return ", ".join(points) + f" ({unit})"
@@ -296,7 +296,7 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:
     """A point's coordinates."""
-    x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
+    x, y = (number_of(scene, words, q) for q in (placing.x, placing.y))
     return words.place(x, y)
 
 
