@@ -171,7 +171,7 @@ def keeper_of(
         made = bar_between(*pair, measures) if pair else None
     else:
         needed = rolling.on != FRAME and (asked or held[rolling.on] < 2)
-        made = block_on(own.wheels[0], rolling, measures) if needed else None
+        made = block_on(own.rim, rolling, measures) if needed else None
     place = f"{'frame' if name == FRAME else f'links.{name}'}.rolls"
     place = f"{numbered(place, index, len(own.rolls))}.link"
     if made is None:

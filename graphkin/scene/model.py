@@ -344,6 +344,11 @@ class Link(Struct, frozen=True):
     cam: Cam | None = None
 
     @property
+    def rim(self) -> Wheel:
+        """The wheel that a straight track touches: the first with its rim outside."""
+        return next((wheel for wheel in self.wheels if not wheel.inside), self.wheels[0])
+
+    @property
     def has_wheels(self) -> bool:
         """Whether it has wheels, or rolls on those of others."""
         return bool(self.wheels or self.rolls)
