@@ -7,6 +7,7 @@ As the guide turns with its pivot, so does twice the relative velocity: on the p
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import under
@@ -214,7 +215,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return f"2{rate_symbol(drawing, self.omega)}·{symbol(f'v_{self.index}')}"
 
     def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
-        """Its triangles in full the first time; else from what it comes, or its number."""
+        """Its triangles in full, the first time on a pivot; else its origin, or its number."""
         if self.is_left_out(drawing):
             return "short", self.left_out(drawing)
         fields = self.fields(drawing)
@@ -222,9 +223,15 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             return self.sign, drawing.words("step.coriolis-none", **fields)
         if not self.is_drawn(drawing):
             return self.sign, drawing.words("step.coriolis-computed", **fields)
-        if not first:
+        if not first and self.stands_as_before(drawing):
             return self.sign, drawing.words("step.coriolis-again", **fields)
         return self.sign, "; ".join(self.in_full(drawing, "step.coriolis-top"))
+
+    def stands_as_before(self, drawing: Drawing) -> bool:
+        """Whether the triangles drawn last stand on the same pivot, by the same pin."""
+        earlier = list(takewhile(lambda each: each is not self, drawn(drawing)))
+        last = earlier[-1]
+        return (last.pivot_name, last.pin_name) == (self.pivot_name, self.pin_name)
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""

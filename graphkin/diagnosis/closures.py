@@ -9,6 +9,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.construction.core.bases import contact_name
 from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
@@ -17,7 +18,7 @@ from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.settling import run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
-from graphkin.structure.pairs import Pin
+from graphkin.structure.pairs import Pin, contacts
 
 
 class GroupClosure(Struct, frozen=True):
@@ -80,7 +81,7 @@ def choosing_step(
         return None
     points = [p for link in group.links for p in scene.links[link].points]
     targets = [("position", p) for p in points] + [("axis", link) for link in group.links]
-    fixed = {program.targets.get(("position", point)) for point in scene.frame.points}
+    fixed = {program.targets.get(("position", point)) for point in scene.fixed_points}
     for number in program.needed(t for t in targets if t in program.targets):
         if number not in fixed and number not in taken and picks(program, number, closing=closing):
             return number
@@ -112,7 +113,16 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
     outer = (group.left, group.right) if isinstance(group, Dyad) else ()
     known = {pair.point for pair in outer if isinstance(pair, Pin)}  # the same in every closure
     led = [p for p in points if p not in known]
-    return next(iter((*free, *led, *points)))
+    return next(iter((*free, *led, *touched(scene, group, program), *points)))
+
+
+def touched(scene: Scene, group: Group, program: Program) -> Iterator[str]:
+    """Where the wheels touch that the links of a group keep on their tracks."""
+    for contact in contacts(scene):
+        rolling = contact.rolling
+        name = contact_name(contact)
+        if rolling.keeper in group.links and ("position", name) in program.targets:
+            yield name
 
 
 def dyad_closure(

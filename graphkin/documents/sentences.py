@@ -79,11 +79,12 @@ def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | Non
     if not lengths:
         return turning.removeprefix("; ")
     set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
-    named = words("list_mark").join(dict.fromkeys(set_on))
-    if named:
+    if names := dict.fromkeys(set_on):
+        key = "step.read-off" if len(names) > 1 else "step.read-off-one"
         beside = beside_plan(drawing, drawing.kind)
         shorter = f", {beside}" if beside else ""
-        return words("step.read-off", list=named, shorter=shorter, turning=turning)
+        listed = words("list_mark").join(names)
+        return words(key, list=listed, shorter=shorter, turning=turning)
     metres = drawing.scales.pace(drawing.kind)
     nought = not any(drawing.settled(length / metres) for _, length in lengths)
     return words(f"step.read-{'none' if nought else 'short'}", turning=turning)
@@ -136,5 +137,5 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
         return False
     if step.plane is Plane.MECHANISM:
         wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
-        return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.frame.points
+        return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.fixed_points
     return step.plane is drawing.plane and not isinstance(construction(step), PlanPole)

@@ -1,7 +1,8 @@
 """Cams in the loops: a follower's coordinate, or its angle, less what the law of its cam gives.
 
 The equivalent linkage is taken out: the loops know nothing of centres of curvature. The law is an
-equation between the follower's unknown and the cam's angle, whatever turns the cam.
+equation between the follower's unknown and the cam's angle or coordinate, all as the link sees it
+that carries both, whatever moves the cam.
 """
 
 from __future__ import annotations
@@ -11,11 +12,11 @@ from fractions import Fraction
 from msgspec.structs import replace
 
 from graphkin.construction.core.solution import Solution
-from graphkin.loops.rigid_bodies import Numbers, bodies_of, guide_line
+from graphkin.loops.rigid_bodies import Body, Numbers, bodies_of, guide_line
 from graphkin.numbers.arithmetic import Point, Real, turn_by
 from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.expression import Number
-from graphkin.scene.model import FRAME, Cam, Driver, Scene
+from graphkin.scene.model import FRAME, Cam, Driver, Link, Scene
 from graphkin.scene.quantity import Quantity, exact
 
 
@@ -42,51 +43,76 @@ class ByLaw(Quantity, frozen=True, eq=False):
         """Where the follower rests on the base circle: its coordinate, or a lever's direction."""
         return self.resting(numbers) if self.cam.lever else self.least(numbers)
 
-    def at(self, turn: Point, numbers: Numbers, start: Point) -> Rise:
-        """By the direction of the cam's x axis: the coordinate (m) or the direction of a lever's
-        bar, then its first and second derivative by the cam's angle, of the lever's angle."""
+    def at(self, place: Point, numbers: Numbers, start: Point) -> Rise:
+        """By the direction of the cam's x axis as its carrier sees it, or by the coordinate (m) of
+        a plate: the follower's coordinate (m) or the direction of a lever's bar, then its first and
+        second derivative by the cam's angle or coordinate, of the lever's angle."""
         cam = self.cam
-        rise = cam.displacement(turn, numbers.values, numbers.kind)
+        rise = cam.displacement(place, numbers.values, numbers.kind)
         if cam.lever is None:
             return Rise(rise.at + start, rise.rate, rise.bend)
         away = -cam.lever.side
         return Rise(start * turn_by(away * rise.at), away * rise.rate, away * rise.bend)
 
     def resting(self, numbers: Numbers) -> Point:
-        """The direction of a lever on the base circle, by half angles."""
+        """The direction of a lever on the base circle, by half angles; on a level plate."""
         cam, lever = self.cam, self.cam.lever
         assert lever is not None
-        bodies, _ = bodies_of(self.without_cams(), numbers)
-        bar = bodies[FRAME][cam.pivot] - bodies[FRAME][lever.pin]
-        near, sqrt = abs(bar), numbers.kind.sqrt
+        bodies, starts = bodies_of(self.seen(follower=True), numbers)
+        fixed, sqrt = bodies[cam.carrier], numbers.kind.sqrt
+        own = bodies[self.follower]
+        arm = abs(own[cam.point] - own[lever.pin])
+        if cam.slides:
+            through, along = self.plate(fixed, starts[cam.carrier], numbers)
+            above = (fixed[lever.pin] - through) / along
+            high = abs(above.imag)
+            down = -1j * along * (above.imag / high)
+            low = high - numbers.si(cam.base) - numbers.si(cam.roller)
+            half = sqrt((arm - low) / (arm + low))
+            return down * (1 - lever.side * half * 1j) ** 2 / (1 + half * half)
+        bar = fixed[cam.pivot] - fixed[lever.pin]
+        near = abs(bar)
         if cam.is_flat:
             half = (numbers.si(cam.base) + numbers.si(lever.face)) / near
             half = half / (1 + sqrt((1 - half) * (1 + half)))
         else:
-            own = bodies[self.follower]
-            arm = abs(own[cam.point] - own[lever.pin])
             prime = numbers.si(cam.base) + numbers.si(cam.roller)
             over, under = (prime - near + arm) * (prime + near - arm), near + arm
             half = sqrt(over / ((under - prime) * (under + prime)))
         return bar / near * (1 - lever.side * half * 1j) ** 2 / (1 + half * half)
 
     def least(self, numbers: Numbers) -> Real:
-        """The coordinate of a sliding follower on the base circle."""
+        """The coordinate of a sliding follower on the base circle, or on a level plate."""
         assert self.scene is not None
         cam, slide = self.cam, self.scene.link(self.follower).slides[0]
-        bodies, starts = bodies_of(replace(self.scene, links={}), numbers)
-        through, along = guide_line(slide, bodies[FRAME], starts[FRAME], numbers)
-        pivot = (bodies[FRAME][cam.pivot] - through) / along
+        bodies, starts = bodies_of(self.seen(), numbers)
+        fixed, start = bodies[cam.carrier], starts[cam.carrier]
+        through, along = guide_line(slide, fixed, start, numbers)
         base = numbers.si(cam.base)
+        if cam.slides:
+            point, way = self.plate(fixed, start, numbers)
+            across = along / way
+            above = (through + 1j * along * numbers.si(slide.offset) - point) / way
+            side = across.imag / abs(across.imag)
+            return ((base + numbers.si(cam.roller)) * side - above.imag) / across.imag
+        pivot = (fixed[cam.pivot] - through) / along
         if cam.is_flat:
             return pivot.real + base
         aside = numbers.si(slide.offset) - pivot.imag
         return pivot.real + numbers.kind.sqrt((base + numbers.si(cam.roller)) ** 2 - aside**2)
 
-    def without_cams(self) -> Scene:
-        """The frame and the follower alone."""
+    def plate(self, body: Body, start: Point, numbers: Numbers) -> tuple[Point, Point]:
+        """The line on which the first point of a plate slides, in the carrier's axes."""
         assert self.scene is not None
-        return replace(self.scene, links={self.follower: self.scene.links[self.follower]})
+        slide = self.scene.link(self.cam.on).slides[0]
+        through, along = guide_line(slide, body, start, numbers)
+        return through + 1j * along * numbers.si(slide.offset), along
+
+    def seen(self, *, follower: bool = False) -> Scene:
+        """The frame and the carrier, with the ``follower`` alone."""
+        assert self.scene is not None
+        names = {self.cam.carrier, self.follower if follower else self.cam.carrier} - {FRAME}
+        return replace(self.scene, links={name: self.scene.links[name] for name in sorted(names)})
 
 
 def by_law(scene: Scene) -> Scene:
@@ -94,20 +120,21 @@ def by_law(scene: Scene) -> Scene:
     if not scene.cams:
         return scene
     centres, out = scene.cam_centres, scene.cam_links
-    links = {
-        name: replace(
-            link, cam=None, points=tuple(point for point in link.points if point not in centres)
-        )
-        for name, link in scene.links.items()
-        if name not in out
-    }
+
+    def less(link: Link) -> Link:
+        points = tuple(point for point in link.points if point not in centres)
+        return replace(link, cam=None, points=points)
+
+    links = {name: less(link) for name, link in scene.links.items() if name not in out}
     none = exact(0, scene.units["length"])
     drivers = [*scene.drivers]
     for follower, cam in scene.cams.items():
         law = ByLaw("", Number(Fraction(0)), "", "", scene, follower)
         line = (cam.lever.pin, cam.point) if cam.lever else None
-        drivers.append(Driver("turn" if line else "slide", follower, FRAME, law, none, none, line))
-    return replace(scene, links=links, drivers=tuple(drivers))
+        drivers.append(
+            Driver("turn" if line else "slide", follower, cam.carrier, law, none, none, line)
+        )
+    return replace(scene, frame=less(scene.frame), links=links, drivers=tuple(drivers))
 
 
 def without_linkages(scene: Scene, solution: Solution) -> Solution:

@@ -22,23 +22,28 @@ from graphkin.text.errors import Problem, StructureError
 class Lift(Struct, frozen=True, eq=False):
     """A follower whose coordinate, driver ``row``, its cam's angle gives by a ``law``.
 
-    ``turning`` is the cam's turning (0 the frame), ``lean`` (N,) the direction of its x axis there;
-    the follower rests at ``start``.
+    ``way`` (K + m,) picks the cam's angle against its carrier, or its coordinate there; ``lean``
+    (N,) is the direction of its x axis where that angle is 0; the follower rests at ``start``.
     """
 
     row: int
     law: ByLaw
-    turning: int
+    way: Reals
     lean: Complexes
     start: Complexes
     numbers: Numbers
 
+    def of(self, values: Reals, way: Reals | None = None) -> Reals:
+        """What the cam's angle or coordinate has of values of the unknowns, those alone: (N,)."""
+        own = np.flatnonzero(self.way)
+        return np.asarray(values[:, own] @ (self.way if way is None else way)[own])
+
     def at(self, unknowns: Reals) -> Rise:
         """What the law gives at some unknowns, with its derivatives by the cam's angle."""
-        turn = np.ones(len(unknowns), dtype=np.complex128)
-        if self.turning:
-            turn = np.exp(1j * unknowns[:, self.turning - 1])
-        return self.law.at(turn * self.lean, self.numbers, self.start)
+        place = self.of(unknowns)
+        if not self.law.cam.slides:
+            place = np.exp(1j * place) * self.lean
+        return self.law.at(place, self.numbers, self.start)
 
 
 class Base(Struct, frozen=True, eq=False):
@@ -111,17 +116,14 @@ class Drives(Struct, frozen=True, eq=False):
             return rows
         rows = np.array(rows)
         for lift in self.lifts:
-            if lift.turning:
-                rows[:, lift.row, lift.turning - 1] -= lift.at(unknowns).rate
+            rows[:, lift.row] -= np.asarray(lift.at(unknowns).rate)[:, None] * lift.way
         return rows
 
     def second(self, unknowns: Reals, u: Reals, v: Reals) -> Reals:
         """Second derivative in two directions, which laws alone have: (N, D)."""
         found = np.zeros((len(unknowns), len(self.turns)))
         for lift in self.lifts:
-            if lift.turning:
-                both = u[:, lift.turning - 1] * v[:, lift.turning - 1]
-                found[:, lift.row] -= lift.at(unknowns).bend * both
+            found[:, lift.row] -= lift.at(unknowns).bend * lift.of(u) * lift.of(v)
         return found
 
     @property
@@ -129,8 +131,7 @@ class Drives(Struct, frozen=True, eq=False):
         """The unknowns to be known before an equation tells its coordinate: (D, K + m)."""
         found = np.zeros_like(self.selects)
         for lift in self.lifts:
-            if lift.turning:
-                found[lift.row, lift.turning - 1] = 1
+            found[lift.row] = abs(lift.way)
         for base in self.bases:
             found[base.row, base.turning - 1] = 1
         return found
@@ -184,7 +185,7 @@ def drives_of(
         acceleration[:, d] = numbers.si(driver.acceleration)
     turning = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
     rates = speed, acceleration
-    lifts = lifts_of(scene, turned, numbers)
+    lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
     bases = bases_of(scene, turned, near, rolling, numbers)
     return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
@@ -213,16 +214,35 @@ def bases_of(
     return tuple(found)
 
 
-def lifts_of(scene: Scene, turned: Turnings, numbers: Numbers) -> tuple[Lift, ...]:
+def lifts_of(
+    scene: Scene, guides: Sequence[Guide], turned: Turnings, numbers: Numbers
+) -> tuple[Lift, ...]:
     """The followers that cams lift, by the numbers of their drivers."""
     found = []
     for d, driver in enumerate(scene.drivers):
         law = driver.position
         if isinstance(law, ByLaw):
-            cam = law.cam.on
-            lean, start = (numbers.complexes(z) for z in (turned.lean[cam], law.start(numbers)))
-            found.append(Lift(d, law, int(turned.of[cam]), lean, start, numbers))
+            cam, carrier = law.cam.on, law.cam.carrier
+            way = np.zeros(turned.count + len(guides))
+            if law.cam.slides:
+                way[turned.count + guide_on(cam, carrier, guides)] = 1
+            else:
+                way[turned.of[cam]] += 1
+                way[turned.of[carrier]] -= 1
+            seen = turned.lean[cam] / turned.lean[carrier]
+            lean, start = (numbers.complexes(z) for z in (seen, law.start(numbers)))
+            found.append(Lift(d, law, way[1:], lean, start, numbers))
     return tuple(found)
+
+
+def guide_on(block: str, on: str, guides: Sequence[Guide]) -> int:
+    """Which slide coordinate is that of a block on a link."""
+    ends = (block, on)
+    return next(
+        number
+        for number, guide in enumerate(guides)
+        if (guide.block, guide.on) == ends and guide.moved_by == "slide"
+    )
 
 
 def driven_line(driver: Driver, bodies: Mapping[str, Body]) -> Any:

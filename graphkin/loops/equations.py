@@ -225,7 +225,7 @@ def equations(
 def tied_by(driver: Driver) -> tuple[str, ...]:
     """The links whose coordinates a driver ties: the driven one, the other, the cam that lifts."""
     law = driver.position
-    cams = (law.cam.on,) if isinstance(law, ByLaw) else ()
+    cams = (law.cam.on, law.cam.carrier) if isinstance(law, ByLaw) else ()
     return (driver.link, driver.against, *cams)
 
 

@@ -168,7 +168,7 @@ def tracks_of(
     """The slides and, after them, the straight tracks; for each track its rolling and radius (m).
 
     A link with several wheels rolls on the one whose radius is the height at which other joints
-    keep its centre, the first written where none do.
+    keep its centre, the first written where none do; never on a ring.
     """
     guides, rolled = list(slides), list[tuple[int, Rolling, Real]]()
     for link in scene.every_link:
@@ -181,6 +181,7 @@ def tracks_of(
             found = [
                 replace(plain, offset=rolling.side * radius(wheel, numbers), point=wheel.centre)
                 for wheel in link.wheels
+                if not wheel.inside
             ]
             track = found[0] if len(found) == 1 else kept(Tree(bodies, guides, turned), found)
             rolled.append((len(guides), rolling, abs(track.offset)))

@@ -292,15 +292,15 @@ def lifted(
     """
     found = np.zeros((len(unknowns), len(loops.slips.links) + len(loops.drives.turns)))
     rates, seconds, slower = motion
-    for lift in (each for each in loops.drives.lifts if each.turning):
-        k, shaken = lift.turning - 1, unknowns.copy()
-        shaken[:, k] += off[:, k]
+    for lift in loops.drives.lifts:
+        shaken, own = unknowns.copy(), lift.way != 0
+        shaken[:, own] += off[:, own] * lift.way[own]
         here, there = lift.at(unknowns), lift.at(shaken)
-        slope, turn = abs(there.rate - here.rate), abs(rates[:, k])
+        slope, turn = abs(there.rate - here.rate), abs(lift.of(rates))
         added = slope * turn
         if seconds is not None and slower is not None:
-            added = slope * abs(seconds[:, k]) + abs(there.bend - here.bend) * turn**2
-            added += 2 * abs(here.bend) * turn * slower[:, k]
+            added = slope * abs(lift.of(seconds)) + abs(there.bend - here.bend) * turn**2
+            added += 2 * abs(here.bend) * turn * lift.of(slower, abs(lift.way))
         found[:, len(loops.slips.links) + lift.row] = added
     return found
 

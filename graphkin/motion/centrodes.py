@@ -57,7 +57,7 @@ def links_with_centrodes(scene: Scene) -> tuple[str, ...]:
     """The links asked, else the first couplers: links that no pair joins to the frame."""
     if scene.ask.centrodes:
         return tuple(scene.ask.centrodes)
-    fixed = set(scene.frame.points)
+    fixed = set(scene.fixed_points)
     driven = {driver.link for driver in scene.drivers}
     couplers = [
         name

@@ -113,14 +113,24 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         """The cams by their followers, at every position, whatever turns them."""
         found: dict[str, CamProfile] = {}
         if self.scene.cams:
-            from graphkin.construction.core.cam_profiles import profiles_along
+            from graphkin.construction.core.cam_profiles import CamProfile
 
-            for link in dict.fromkeys(cam.on for cam in self.scene.cams.values()):
-                found |= profiles_along(self.scene, link, self.turned(link))
+            for follower, cam in self.scene.cams.items():
+                given = self.slid(cam.on) if cam.slides else self.turned(cam.on)
+                if cam.carrier != FRAME:
+                    given = given - (0 if cam.slides else self.turned(cam.carrier))
+                found[follower] = CamProfile(self.scene, follower, given=given)
         return found
+
+    def slid(self, block: str) -> Reals:
+        """The coordinate of a block on its first guide at every position (N,), in metres."""
+        target = "slide", block
+        return np.asarray(columns_at(self.sweep, self.path, self.at, [target]).columns[target])
 
     def turned(self, link: str) -> Reals:
         """The angle of a link's x axis at every position (N,), radians."""
+        if link == FRAME:
+            return np.zeros(len(self.at))
         driver = self.scene.drivers[(self.sweep.number or 1) - 1]
         swept = self.sweep.what == "turn" and driver.link == link
         if swept and driver.against == FRAME and driver.of is None:

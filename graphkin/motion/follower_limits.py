@@ -121,7 +121,7 @@ def movers_of(cycle: Cycle) -> Iterator[Mover]:
 
 def swinging_line(scene: Scene, link: Link) -> tuple[str, str] | None:
     """The line of a link pinned to the frame, from its fixed pivot to its next point."""
-    fixed = next((p for p in link.points if p in scene.frame.points), None)
+    fixed = next((p for p in link.points if p in scene.fixed_points), None)
     if fixed is None or link.slides:
         return None
     other = next((p for p in link.points if p != fixed), None)

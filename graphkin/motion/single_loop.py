@@ -84,7 +84,7 @@ def ends_of(scene: Scene, dyad: object, driver: str) -> tuple[str, str, Pin | Sl
     """The driven pin, the inner pin and the pair on the frame of a dyad that closes a loop."""
     if not isinstance(dyad, Dyad) or not isinstance(dyad.inner, Pin):
         return None
-    fixed = scene.frame.points
+    fixed = scene.fixed_points
     for left, right in ((dyad.left, dyad.right), (dyad.right, dyad.left)):
         if not isinstance(left, Pin) or left.point in fixed:
             continue

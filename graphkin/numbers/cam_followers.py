@@ -5,6 +5,7 @@ angle θ. In the axes of the cam the tip at w runs along the pitch curve w·exp(
 t = w' - iw and whose bend is m = w" - 2iw' - w, both turned back with the frame: the centre of
 curvature lies at w + it|t|²/(t×m). A face with the unit normal n at the distance p from the pivot
 envelops the profile; with α the angle of n in the cam its centre lies at in·dp/dα - n·d²p/dα².
+Of a cam that slides along the unit vector e all is counted by its coordinate: t = w' - e, m = w".
 Written for any kind of number (Norton, Cam Design and Manufacturing Handbook; Rothbart, Cams).
 """
 
@@ -12,26 +13,30 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from graphkin.numbers.arithmetic import Point, Real, at, sqrt, turn_by
-from graphkin.numbers.plane import cross, dot
+from graphkin.numbers.arithmetic import Point, Real, at, below, pick, sqrt, turn_by
+from graphkin.numbers.plane import Line, cross, dot
 
 
 class TipMotion(NamedTuple):
-    """The place of a roller's centre or a knife's edge, and its derivatives."""
+    """The place of a roller's centre or a knife's edge, and its derivatives.
+
+    ``drift`` is the unit vector along which the cam slides; None where it turns.
+    """
 
     place: Point
     rate: Point
     bend: Point
+    drift: Point | None = None
 
     @property
     def way(self) -> Point:
         """Tangent of the pitch curve."""
-        return self.rate - 1j * self.place
+        return self.rate - (1j * self.place if self.drift is None else self.drift)
 
     @property
     def turn(self) -> Point:
         """Derivative of the tangent in the cam."""
-        return self.bend - 2j * self.rate - self.place
+        return self.bend if self.drift is not None else self.bend - 2j * self.rate - self.place
 
     @property
     def centre(self) -> Point:
@@ -124,6 +129,29 @@ def start_on_tip(pin: Point, arm: Real, prime: Real) -> Point:
     """The unit vector of the angle at the pin of a triangle with the sides pin, arm and prime."""
     bar = abs(pin)
     cosine = (bar * bar + arm * arm - prime * prime) / (2 * bar * arm)
+    return at(cosine, sqrt((1 - cosine) * (1 + cosine)))
+
+
+def upward(along: Point, toward: Point) -> Point:
+    """The unit vector square to ``along``, to the side on which a vector points."""
+    square = 1j * along / abs(along)
+    side = dot(square, toward)
+    return pick(below(side, side * 0), -square, square)
+
+
+def level_on_path(path: Line, plate: Line, prime: Real) -> Real:
+    """How far along its path a tip rests on a plate, ``prime`` above the path of this.
+
+    Counted from the path's point.
+    """
+    along = path.along / abs(path.along)
+    up = upward(plate.along, along)
+    return (prime - dot(up, path.point - plate.point)) / dot(up, along)
+
+
+def start_on_plate(above: Real, arm: Real, prime: Real) -> Point:
+    """The unit vector of the angle at the pin, ``above`` a plate's path, from square to it."""
+    cosine = (above - prime) / arm
     return at(cosine, sqrt((1 - cosine) * (1 + cosine)))
 
 

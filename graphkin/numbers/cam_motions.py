@@ -172,7 +172,35 @@ def displaced(
     border the piece that begins there holds. Where ``slopes`` are given, all pieces are cubics that
     begin and finish with these, each times the angle of its piece.
     """
-    angle = turned(turn)
+    return pieced(turned(turn), ends, rises, motions, slopes)
+
+
+def displaced_along(
+    way: Real, ends: Sequence[Real], rises: Sequence[Real], motions: Sequence[str]
+) -> Rise:
+    """The displacement of a follower where a plate has moved by ``way`` from where its law begins.
+
+    The pieces end at lengths ``ends`` and add up ``rises``; the plate is level before the law and
+    past it.
+    """
+    whole, share = ends[-1], way / ends[-1]
+    inside = pieced(share, [end / whole for end in ends], rises, motions)
+    found = Rise(inside.at, inside.rate / whole, inside.bend / (whole * whole))
+    nought = share * 0
+    before_it = Rise(rises[0] * nought, nought, nought)
+    past_it = Rise(sum(rises[1:], rises[0]) + nought, nought, nought)
+    found = chosen(below(share, nought + (1 - BORDER)), found, past_it)
+    return chosen(below(share, nought - BORDER), before_it, found)
+
+
+def pieced(
+    angle: Real,
+    ends: Sequence[Real],
+    rises: Sequence[Real],
+    motions: Sequence[str],
+    slopes: Sequence[tuple[Real, Real]] = (),
+) -> Rise:
+    """The pieces of a law at an ``angle`` from its begin."""
     found = None
     low, start = angle * 0, angle * 0
     pieces = []

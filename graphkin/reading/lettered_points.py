@@ -234,7 +234,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     def moving(self) -> frozenset[str]:
         """The names of the points of moving links."""
         scene = self.drawing.scene
-        fixed = set(scene.frame.points)
+        fixed = set(scene.fixed_points)
         every = {point for link in scene.links.values() for point in link.points}
         return frozenset(every - fixed)
 

@@ -21,6 +21,7 @@ from graphkin.scene.model import (
     At,
     Driver,
     Link,
+    Polar,
     Rolling,
     Slide,
     Wheel,
@@ -28,6 +29,9 @@ from graphkin.scene.model import (
 )
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.scene.read_cams import next_name
+
+ON_LINE = 1e-12
+"""How far beside a track, in parts of the way along it, a point still lies on it."""
 
 
 def with_keepers(
@@ -59,8 +63,8 @@ def laid_on_rollers(written: Mapping[str, Link], measures: Measures) -> dict[str
     """The links, those that lie on rollers of one size sliding along the track of these."""
     found = dict(written)
     for name, link in written.items():
-        loose = name != FRAME and not joints_of(written, name, ())
-        guide = roller_guide(written, link, measures) if loose else None
+        led = name == FRAME or link.slides
+        guide = None if led else roller_guide(written, link, measures)
         if guide is not None:
             found[name] = replace(link, slides=(guide,))
     return found
@@ -126,9 +130,30 @@ def same_line(link: Link, one: Rolling, other: Rolling, measures: Measures) -> b
     if one.through == other.through:
         return True
     heights = height_on(link, one), height_on(link, other)
-    if heights[0] is None or heights[1] is None:
+    if heights[0] is not None and heights[1] is not None:
+        return bool(heights[0].number(measures.values) == heights[1].number(measures.values))
+    places = [written_place(link, each.through, measures) for each in (one, other)]
+    if None in places:
         return False
-    return bool(heights[0].number(measures.values) == heights[1].number(measures.values))
+    way = (places[1] - places[0]) / complex(one.angle.direction(measures.values))  # type: ignore[operator]
+    return bool(abs(way.imag) <= ON_LINE * abs(way))
+
+
+def written_place(
+    link: Link, point: str | tuple[Quantity, Quantity] | None, measures: Measures
+) -> complex | None:
+    """Where a point of a link is written to lie: by coordinates, or from another that is (m)."""
+    values = measures.values
+    if isinstance(point, tuple):
+        return complex(*(float(each.si(values)) for each in point))
+    for placing in link.placings:
+        if isinstance(placing, At) and placing.point == point:
+            return complex(float(placing.x.si(values)), float(placing.y.si(values)))
+        if isinstance(placing, Polar) and placing.point == point:
+            start = written_place(link, placing.start, measures)
+            way = float(placing.length.si(values)) * complex(placing.angle.direction(values))
+            return None if start is None else start + way
+    return None
 
 
 def keeper_of(
@@ -149,7 +174,7 @@ def keeper_of(
         made = bar_between(*pair, measures) if pair else None
     else:
         needed = rolling.on != FRAME and (asked or held[rolling.on] < 2)
-        made = block_on(own.wheels[0], rolling, measures) if needed else None
+        made = block_on(own.rim, rolling, measures) if needed else None
     place = f"{'frame' if name == FRAME else f'links.{name}'}.rolls"
     place = f"{numbered(place, index, len(own.rolls))}.link"
     if made is None:

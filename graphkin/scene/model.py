@@ -15,7 +15,7 @@ from msgspec import Struct, field
 from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
-from graphkin.numbers.cam_motions import Rise, displaced
+from graphkin.numbers.cam_motions import Rise, displaced, displaced_along
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 from graphkin.text.plain_table import listed
@@ -279,6 +279,10 @@ class Cam(Struct, frozen=True):
     counts from the cam's angle ``start``, ``sense`` +1 counter-clockwise. The equivalent linkage
     of an instant joins the centre of curvature ``centre``, a point of the cam, by link ``link``.
     A ``conjugate`` roller closes it; it takes nothing from the motion.
+
+    All is seen from the link ``carrier`` that guides the follower, or carries its pin. A cam that
+    ``slides`` on that link is a plate, level along the path of its point ``pivot``; its law is of
+    its coordinate there, and counts from ``start``, forwards with ``sense`` +1.
     """
 
     on: str
@@ -294,6 +298,8 @@ class Cam(Struct, frozen=True):
     point: str
     lever: CamLever | None = None
     conjugate: Conjugate | None = None
+    carrier: str = FRAME
+    slides: bool = False
 
     @property
     def is_flat(self) -> bool:
@@ -305,23 +311,32 @@ class Cam(Struct, frozen=True):
         """Those of the cubics of a table; none of a law of motions."""
         return tuple(piece.slopes for piece in self.law if piece.slopes is not None)
 
-    def displacement(self, turn: Point, values: Mapping[str, Any], kind: Kind = FLOAT) -> Rise:
-        """How far the follower is lifted at the cam's axis ``turn``, with the derivatives by its
-        angle."""
-        from_start = turn * self.start.direction(values, kind).conjugate()
-        found = displaced(
-            from_start if self.sense > 0 else from_start.conjugate(),
+    def displacement(self, place: Point, values: Mapping[str, Any], kind: Kind = FLOAT) -> Rise:
+        """How far the follower is lifted, with the derivatives by the cam's angle or coordinate.
+
+        ``place`` is the cam's axis as the carrier sees it, or the coordinate (m) of one that
+        slides.
+        """
+        pieces = (
             [piece.to.si(values, kind) for piece in self.law],
             [piece.rise.si(values, kind) for piece in self.law],
             [piece.motion for piece in self.law],
+        )
+        if self.slides:
+            found = displaced_along(self.sense * (place - self.start.si(values, kind)), *pieces)
+            return Rise(found.at, self.sense * found.rate, found.bend)
+        from_start = place * self.start.direction(values, kind).conjugate()
+        found = displaced(
+            from_start if self.sense > 0 else from_start.conjugate(),
+            *pieces,
             [(one.si(values, kind), other.si(values, kind)) for one, other in self.slopes],
         )
         return Rise(found.at, self.sense * found.rate, found.bend)
 
     def called(self, names: Mapping[str, str]) -> Cam:
         """The same with links by other names."""
-        on, link = (names.get(name, name) for name in (self.on, self.link))
-        return replace(self, on=on, link=link)
+        on, link, carrier = (names.get(name, name) for name in (self.on, self.link, self.carrier))
+        return replace(self, on=on, link=link, carrier=carrier)
 
 
 class Link(Struct, frozen=True):
@@ -335,6 +350,11 @@ class Link(Struct, frozen=True):
     rolls: tuple[Rolling, ...] = ()
     profiles: tuple[Profile, ...] = ()
     cam: Cam | None = None
+
+    @property
+    def rim(self) -> Wheel:
+        """The wheel that a straight track touches: the first with its rim outside."""
+        return next((wheel for wheel in self.wheels if not wheel.inside), self.wheels[0])
 
     @property
     def has_wheels(self) -> bool:
@@ -542,6 +562,12 @@ class Scene(Struct, frozen=True, dict=True):
     def every_link(self) -> tuple[Link, ...]:
         """The frame, then the moving links as written."""
         return (self.frame, *self.links.values())
+
+    @property
+    def fixed_points(self) -> tuple[str, ...]:
+        """The points of the frame that stand still; the centre of curvature of a cam at rest does
+        not."""
+        return tuple(point for point in self.frame.points if point not in self.cam_centres)
 
     @property
     def keepers(self) -> Mapping[str, tuple[str, Rolling]]:

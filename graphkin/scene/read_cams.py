@@ -2,18 +2,21 @@
 
 At an instant a cam moves its follower as the circle of its curvature would: a bar from the centre
 of curvature to the roller's centre, or a block at the centre on the follower's face. The follower
-slides on a guide of the frame, or swings about a pin of it.
+slides on a guide of the link to which the cam is pinned, or on which it slides, or swings about a
+pin of it: the frame, or an arm that turns about a cam at rest.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
+from typing import NamedTuple
 
 from msgspec.structs import replace
 
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
 from graphkin.scene.findings import Table, listed, nearest, numbered, shown
+from graphkin.scene.known_names import named
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
@@ -22,18 +25,30 @@ from graphkin.scene.quantity import exact
 TIPS = ("roller", "knife", "flat")
 MOST_PIECES = 24
 CAM = "the link of the cam"
+CARRIED = "a cam pinned to the link that carries its follower, or sliding on it"
 OTHER_CAMS = (
-    "any other cam is written for an instant: a straight flank as a guide on it, an arc with "
-    "touches, by its centre of curvature"
+    "a cam whose follower is joined to other links than it is written for an instant: a straight "
+    "flank as a guide on it, an arc with touches, by its centre of curvature"
 )
-"""What to write where the cam slides or stands still, or where the follower's guide moves."""
+"""What to write where no link carries both the cam and its follower."""
+
+
+class Seat(NamedTuple):
+    """How a cam is joined to the link ``carrier`` that guides its follower or carries its pin.
+
+    It turns about its point ``pivot``, or slides with it along a guide.
+    """
+
+    carrier: str
+    pivot: str
+    slides: bool
 
 
 def with_cams(
     written: Mapping[str, Table], frame: Link, links: Mapping[str, Link], measures: Measures
-) -> dict[str, Link]:
-    """The links with their cams, and with the equivalent linkage of each."""
-    found = dict(links)
+) -> tuple[Link, dict[str, Link]]:
+    """The frame and the links with their cams, and with the equivalent linkage of each."""
+    found = {FRAME: frame, **links}
     many = sum("cam" in table for table in written.values()) > 1
     count = 0
     for name, table in written.items():
@@ -45,10 +60,10 @@ def with_cams(
             continue
         count += 1
         own = Table(table.at("cam"), raw, measures.findings)
-        cam = read_cam(name, own, frame, found, measures, f"K{count}" if many else "K")
+        cam = read_cam(name, own, found, measures, f"K{count}" if many else "K")
         if cam is not None:
             join(found, name, cam, measures)
-    return found
+    return found.pop(FRAME), found
 
 
 def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:
@@ -72,20 +87,19 @@ def face_of(follower: str, cam: Cam, measures: Measures) -> Slide:
 
 
 def read_cam(
-    follower: str,
-    table: Table,
-    frame: Link,
-    links: Mapping[str, Link],
-    measures: Measures,
-    letter: str,
+    follower: str, table: Table, links: Mapping[str, Link], measures: Measures, letter: str
 ) -> Cam | None:
-    """One cam, as ``{ on, tip, base, roller, law, start, … }``; None where none
-    can be."""
+    """One cam, as ``{ on, tip, base, roller, law, start, … }``; None where none can be."""
     findings = measures.findings
     before = len(findings.problems)
     swings = not links[follower].slides
     on = link_name(table.at("on"), table.take("on"), findings, CAM)
+    seat = seat_of(follower, on, table, links) if on is not None else None
+    slides = seat is not None and seat.slides
     tip = choice(table, "tip", TIPS)
+    if tip == "flat" and slides:
+        hint = "a plate lifts a roller or a knife; a straight flank under a face is a guide on it"
+        findings.add(table.at("tip"), "a flat face on a plate that slides", listed(TIPS[:2]), hint)
     base = measures.length(table.at("base"), table.take("base"), positive=True)
     raw = table.take("roller")
     if tip == "roller" and raw is None:
@@ -96,43 +110,45 @@ def read_cam(
         roller = measures.length(table.at("roller"), raw, positive=True)
     else:
         roller = exact(0, measures.units["length"])
-    law = read_law(table, measures, swings=swings)
+    law = read_law(table, measures, swings=swings, slides=slides)
     turned = table.take("start")
-    start = measures.angle(table.at("start"), 0 if turned is None else turned)
-    sense = -1 if table.flag("clockwise") else 1
+    counted = measures.length if slides else measures.angle
+    start = counted(table.at("start"), 0 if turned is None else turned)
+    sense = -1 if table.flag("backward" if slides else "clockwise") else 1
     centre = table.text("centre", letter)
-    name = table.text("link", next_name(links))
-    found = lever_of(follower, tip, table, frame, links, measures) if swings else None
+    name = table.text("link", next_name([each for each in links if each != FRAME]))
+    found = lever_of(follower, tip, seat, table, links, measures) if swings else None
     first = found[0] if found else next(iter(links[follower].points), "")
-    conjugate = conjugate_of(follower, first, table, frame, links, measures)
+    held = links[seat.carrier].points if seat else ()
+    conjugate = conjugate_of(follower, first, held, table, links, measures)
+    if seat is None:
+        table.flag("backward")
     table.finish()
-    if not swings:
-        check_guide(follower, links, table)
-    pivot = pivot_of(follower, on, table, frame, links)
-    if not is_name(centre) or any(centre in link.points for link in (frame, *links.values())):
+    if not is_name(centre) or any(centre in link.points for link in links.values()):
         taken = f"{shown(centre)} for the centre of curvature"
         findings.add(table.at("centre"), taken, "the name of a new point")
     if not is_link_name(name) or name in links:
         findings.add(table.at("link"), f"{shown(name)}", "the name of a new link")
-    if len(findings.problems) > before or on is None:
+    if len(findings.problems) > before or on is None or seat is None:
         return None
     point, lever = found or (links[follower].points[0], None)
-    if lever and lever.pin == pivot:
-        findings.add(table.at("on"), f"both links turn about {pivot}", "a cam on another pin")
+    if lever and lever.pin == seat.pivot:
+        findings.add(table.at("on"), f"both links turn about {seat.pivot}", "a cam on another pin")
         return None
-    parts = on, pivot, tip, base, roller, law, start, sense, centre, name, point, lever
-    return Cam(*parts, conjugate)
+    parts = on, seat.pivot, tip, base, roller, law, start, sense, centre, name, point, lever
+    return Cam(*parts, conjugate, seat.carrier, seat.slides)
 
 
 def conjugate_of(
     follower: str,
     first: str,
+    held: Sequence[str],
     table: Table,
-    frame: Link,
     links: Mapping[str, Link],
     measures: Measures,
 ) -> Conjugate | None:
-    """A second roller, ``conjugate = { at, roller }``, about another point than the ``first``."""
+    """A second roller, ``conjugate = { at, roller }``, about another point than the ``first`` and
+    those ``held``."""
     raw = table.take("conjugate")
     if raw is None:
         return None
@@ -144,14 +160,14 @@ def conjugate_of(
     at = own.text("at", "")
     roller = measures.length(own.at("roller"), own.take("roller"), positive=True)
     own.finish()
-    free = [p for p in links[follower].points if p != first and p not in frame.points]
+    free = [p for p in links[follower].points if p != first and p not in held]
     if at not in free:
         findings.add(own.at("at"), shown(at), listed(free) or "another point of the follower")
         return None
     return Conjugate(at, roller)
 
 
-def next_name(links: Mapping[str, Link]) -> str:
+def next_name(links: Collection[str]) -> str:
     """A name for an equivalent link: the next number after the others', or a letter of its own."""
     if all(name.isdigit() for name in links):
         return str(max(map(int, links)) + 1)
@@ -173,18 +189,22 @@ def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:
 def lever_of(
     follower: str,
     tip: str,
+    seat: Seat | None,
     table: Table,
-    frame: Link,
     links: Mapping[str, Link],
     measures: Measures,
 ) -> tuple[str, CamLever] | None:
-    """The tip of a follower that is pinned to the frame, and how it swings."""
+    """The tip of a follower that is pinned to the carrier, and how it swings."""
     own, findings = links[follower], measures.findings
-    pins = [point for point in own.points if point in frame.points]
-    tips = [point for point in own.points if point not in frame.points]
+    held = links[seat.carrier].points if seat else ()
+    pins = [point for point in own.points if point in held]
+    tips = [point for point in own.points if point not in held]
+    if seat is None:
+        table.take("side"), table.take("face")
+        return None
     if len(pins) != 1 or not tips:
-        found = f"link {follower} neither slides on a guide of the frame nor swings about a pin"
-        expected = "slides = { on = 0, … }, or one point of the frame and the tip as the next point"
+        found = f"link {follower} has {len(pins)} pins on {named(seat.carrier)}"
+        expected = "one, and the tip as another of its points"
         findings.add(table.place, found, expected)
         table.take("side"), table.take("face")
         return None
@@ -196,39 +216,60 @@ def lever_of(
     return tips[0], CamLever(pins[0], SIDES[side], face)
 
 
-def check_guide(follower: str, links: Mapping[str, Link], table: Table) -> None:
-    """A follower that slides is a block on one guide of the frame."""
-    own = links[follower]
-    if len(own.slides) != 1 or own.slides[0].on != FRAME or not own.points:
-        found = f"link {follower} does not slide on a guide of the frame"
-        expected = "a follower with slides = { on = 0, … }, its first point the roller's centre"
-        table.findings.add(table.place, found, expected, "" if not own.slides else OTHER_CAMS)
-
-
-def pivot_of(
-    follower: str, on: str | None, table: Table, frame: Link, links: Mapping[str, Link]
-) -> str:
-    """The pin of the cam on the frame."""
-    findings = table.findings
-    if on is None:
-        return ""
+def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> Seat | None:
+    """The link that carries both the cam and its follower, and how the cam is joined to it."""
+    findings, own = table.findings, links[follower]
     if on not in links or on == follower:
         expected = listed(name for name in links if name != follower)
-        hint = OTHER_CAMS if on == FRAME else ""
-        findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}", hint)
-        return ""
-    pivots = [point for point in links[on].points if point in frame.points]
-    if len(pivots) != 1:
-        found = f"link {on} has {len(pivots)} points of the frame"
-        findings.add(table.at("on"), found, "a cam on one pin of the frame", OTHER_CAMS)
-        return ""
-    return pivots[0]
+        findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}")
+        return None
+    if own.slides:
+        carriers = [own.slides[0].on]
+        if len(own.slides) > 1 or carriers[0] not in links or not own.points or on in carriers:
+            found = f"link {follower} does not slide on a guide beside the cam"
+            expected = "a follower with slides = { on = 0, … }, its first point the roller's centre"
+            findings.add(table.place, found, expected, OTHER_CAMS)
+            return None
+    else:
+        carriers = [
+            name
+            for name, link in links.items()
+            if name not in (on, follower) and {*link.points} & {*own.points}
+        ]
+        if not carriers:
+            found = f"link {follower} neither slides on a guide nor swings about a pin"
+            expected = "slides = { on = 0, … }, or one point of the frame and the tip as the next"
+            findings.add(table.place, found, expected)
+            return None
+    for name in carriers:
+        guides = [slide for slide in links[on].slides[:1] if slide.on == name]
+        pivots = [point for point in links[on].points if point in links[name].points]
+        if guides and links[on].points:
+            return Seat(name, links[on].points[0], True)
+        if len(pivots) == 1:
+            return Seat(name, pivots[0], False)
+    who = " or ".join(map(named, carriers))
+    if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
+        hint = "let the plate slide and the follower's guide stand still: both move alike"
+        findings.add(table.at("on"), f"a plate at rest along which {who} slides", CARRIED, hint)
+        return None
+    found = f"{named(on)} has not one pin on {who}, which carries link {follower}"
+    findings.add(table.at("on"), found, CARRIED, OTHER_CAMS)
+    return None
 
 
-def read_law(table: Table, measures: Measures, *, swings: bool) -> tuple[CamPiece, ...]:
-    """The pieces of a law: they follow one another to a whole turn and come back to nought."""
+def read_law(
+    table: Table, measures: Measures, *, swings: bool, slides: bool
+) -> tuple[CamPiece, ...]:
+    """The pieces of a law: they follow one another to a whole turn and come back to nought.
+
+    Those of a cam that ``slides`` end at lengths, where they like.
+    """
     findings, raw, place = measures.findings, table.take("law"), table.at("law")
     if isinstance(raw, list) and is_table(raw):
+        if slides:
+            findings.add(place, "a table of a plate that slides", "pieces with to, rise, motion")
+            return ()
         return read_table(place, raw, measures, swings=swings)
     if not isinstance(raw, list) or not 0 < len(raw) <= MOST_PIECES:
         found = "is missing" if raw is None else shown(raw)
@@ -239,18 +280,19 @@ def read_law(table: Table, measures: Measures, *, swings: bool) -> tuple[CamPiec
     for index, each in enumerate(raw):
         where = numbered(place, index, len(raw))
         if isinstance(each, dict):
-            pieces.append(read_piece(Table(where, each, findings), measures, swings=swings))
+            pieces.append(read_piece(Table(where, each, findings), measures, swings, slides))
         else:
             findings.add(where, shown(each), "a table { to = …, rise = …, motion = … }")
     if len(findings.problems) > bad:
         return ()
-    check_law(place, pieces, measures)
+    check_law(place, pieces, measures, slides=slides)
     return tuple(pieces)
 
 
-def read_piece(table: Table, measures: Measures, *, swings: bool) -> CamPiece:
+def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> CamPiece:
     """One piece, ``{ to, rise, motion }``; without a rise it is a dwell, a lever's is an angle."""
-    to = measures.angle(table.at("to"), table.take("to"))
+    ending = measures.length if slides else measures.angle
+    to = ending(table.at("to"), table.take("to"))
     raw, motion = table.take("rise"), table.take("motion")
     reading = measures.angle if swings else measures.length
     rise = reading(table.at("rise"), 0 if raw is None else raw)
@@ -268,8 +310,8 @@ def read_piece(table: Table, measures: Measures, *, swings: bool) -> CamPiece:
     return CamPiece(to, rise, motion)
 
 
-def check_law(place: str, pieces: list[CamPiece], measures: Measures) -> None:
-    """Angles grow to a whole turn, and the follower comes back."""
+def check_law(place: str, pieces: list[CamPiece], measures: Measures, *, slides: bool) -> None:
+    """Angles grow to a whole turn, and the follower comes back; lengths of a plate grow."""
     values, findings = measures.values, measures.findings
     unit = measures.units["angle"]
     low, lift = 0.0, 0.0
@@ -277,13 +319,16 @@ def check_law(place: str, pieces: list[CamPiece], measures: Measures) -> None:
         to = float(piece.to.number(values))
         if to <= low:
             found = f"{to:g} after {low:g}"
-            findings.add(f"{numbered(place, index, len(pieces))}.to", found, "angles that grow")
+            grow = "lengths that grow" if slides else "angles that grow"
+            findings.add(f"{numbered(place, index, len(pieces))}.to", found, grow)
         low, lift = to, lift + float(piece.rise.number(values))
         if lift < -1e-9 * abs(float(piece.rise.number(values))):
             where = f"{numbered(place, index, len(pieces))}.rise"
             found = f"the follower stands {-lift:g} below where the law begins"
             hint = "the base circle is the smallest: let the law begin at its lowest place"
             findings.add(where, found, "0 or more", hint)
+    if slides:
+        return
     whole = 360.0 if unit == "deg" else 6.283185307179586
     if abs(low - whole) > 1e-9 * whole:
         findings.add(place, f"ends at {low:g}", '360 (in rad "2*pi")', "a cam turns round")

@@ -124,7 +124,8 @@ def assembled(
     module = read_module(top, measures)
     title = top.text("title", name)
     frame = read_link(FRAME, top.table(FRAME_WORD), measures, module)
-    links, drivers = read_links(top, frame, measures, module), read_drivers(top, measures)
+    frame, links = read_links(top, frame, measures, module)
+    drivers = read_drivers(top, measures)
     if any(link.has_wheels for link in (frame, *links.values())):
         from graphkin.scene.keepers import with_keepers
 
@@ -185,8 +186,9 @@ def read_module(top: Table, measures: Measures) -> Quantity | None:
 
 def read_links(
     top: Table, fixed: Link, measures: Measures, module: Quantity | None
-) -> dict[str, Link]:
-    """The moving links, by name; what reads touching profiles and cams is loaded for these."""
+) -> tuple[Link, dict[str, Link]]:
+    """The frame, and the moving links by name; what reads touching profiles and cams is loaded for
+    these."""
     table = top.table("links")
     if not table.raw and not measures.findings.inside(table.place):
         measures.findings.add("links", "no link", "a table [links.NAME] for each moving link")
@@ -217,7 +219,7 @@ def read_links(
         from graphkin.scene.read_cams import with_cams
 
         return with_cams(written, fixed, links, measures)
-    return links
+    return fixed, links
 
 
 def as_table(raw: object) -> dict[str, Any]:

@@ -182,6 +182,9 @@ def check_rolling(
     if not link.wheels:
         expected = 'wheel = { centre = "P", radius = … }'
         findings.add(place, f"link {link.name} has no wheel", expected)
+    elif rolling.through is not None and rolling.belt is None and link.rim.inside:
+        expected = "a rim outside; of a hoop: wheels = [{ …, inside = true }, { … }]"
+        findings.add(place, f"the ring of {named(link.name)} on a straight track", expected)
     on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if rolling.through is None and on is not None and not on.wheels and on is not link:
         expected = "a wheel there, or through and angle for a straight track"

@@ -17,6 +17,9 @@ from graphkin.structure.next_group import next_driven, next_group, next_stretche
 from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
+ALONG = 1e-9
+"""Sine of the angle below which a follower's guide lies along the path of a plate."""
+
 
 def decompose(scene: Scene) -> tuple[Group, ...]:
     """The groups in order of construction. StructureError: a follower that misses its cam."""
@@ -62,12 +65,40 @@ def refuse_far_guides(scene: Scene) -> None:
     """Raise StructureError for each follower that cannot rest on the cam's prime circle."""
     problems = []
     for follower, cam in scene.cams.items():
-        refuse = far_lever if cam.lever else far_guide
+        refuse = far_from_plate if cam.slides else far_lever if cam.lever else far_guide
         problem = refuse(scene, follower, cam)
         if problem is not None:
             problems.append(problem)
     if problems:
         raise StructureError(problems)
+
+
+def far_from_plate(scene: Scene, follower: str, cam: Cam) -> Problem | None:
+    """The error for a follower that a plate cannot lift: along its path, or out of a lever's
+    reach."""
+    slide = scene.link(cam.on).slides[0]
+    plate = guide_line(scene, slide)
+    if cam.lever is None:
+        guide = guide_line(scene, scene.link(follower).slides[0])
+        if abs(cross(plate.along, guide.along)) > ALONG:
+            return None
+        found = f"link {follower} slides along the path of link {cam.on}"
+        return Problem(f"links.{follower}.slides.angle", found, "a guide that crosses this path")
+    fixed, own = body(scene, cam.carrier), body(scene, follower)
+    above = abs(
+        cross(plate.along, fixed[cam.lever.pin] - plate.point) - metres(scene, slide.offset)
+    )
+    arm = abs(own[cam.point] - own[cam.lever.pin])
+    prime = metres(scene, cam.base) + metres(scene, cam.roller)
+    if above > ALONG * arm and abs(above - prime) < arm:
+        return None
+    bar = f"{cam.lever.pin}-{cam.point}"
+    found = (
+        f"{cam.lever.pin} stands {1e3 * above:.6g} mm from the path of {cam.pivot}, "
+        f"{bar} is {1e3 * arm:.6g} mm long"
+    )
+    expected = f"a pin beside this path, from which {bar} reaches {1e3 * prime:.6g} mm above it"
+    return Problem(f"links.{follower}.cam.base", found, expected)
 
 
 def far_guide(scene: Scene, follower: str, cam: Cam) -> Problem | None:
@@ -85,7 +116,7 @@ def far_guide(scene: Scene, follower: str, cam: Cam) -> Problem | None:
 
 def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
     """The error for a lever that does not reach the prime circle, or whose face cannot touch it."""
-    lever, fixed, own = cam.lever, body(scene, FRAME), body(scene, follower)
+    lever, fixed, own = cam.lever, body(scene, cam.carrier), body(scene, follower)
     assert lever is not None
     apart = abs(fixed[lever.pin] - fixed[cam.pivot])
     prime = metres(scene, cam.base) + metres(scene, cam.roller)

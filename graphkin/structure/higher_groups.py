@@ -15,7 +15,6 @@ from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Spun
 from graphkin.structure.instant_groups import at_instant
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
-    geared_of,
     next_driven,
     next_group,
     next_stretched,
@@ -23,7 +22,7 @@ from graphkin.structure.next_group import (
     settle,
 )
 from graphkin.structure.pairs import Joint, Pin
-from graphkin.structure.wheel_groups import turned_by_smaller
+from graphkin.structure.wheel_groups import geared_of, turned_by_smaller
 
 MOST_TRIED = 4
 """Links of a group that are tried together at most."""

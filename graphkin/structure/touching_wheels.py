@@ -62,7 +62,7 @@ def touching(
         loose = RollingContact(link.wheels[0], on.wheels[0], None)
     else:
         kept = list(kept_heights(scene, name, rolling, before))
-        loose = RollingContact(link.wheels[0], None, None)
+        loose = RollingContact(link.rim, None, None)
     found = next((apart for apart in kept if apart.touches), None)
     if found is not None:
         return RollingContact(found.wheel, found.track, found.arm)

@@ -21,7 +21,6 @@ from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
 from graphkin.structure.touching_wheels import radius
 from graphkin.text.plain_table import listed
 
-
 FREE = 1e-12
 """Rate of a miss, for one of the tried link, below which rounding alone makes it."""
 

@@ -195,7 +195,7 @@ def paths_of(motion: FrameSequence) -> Iterator[tuple[complex, ...]]:
     import numpy as np
 
     cycle = motion.cycle
-    ask, fixed = cycle.scene.ask, cycle.scene.frame.points
+    ask, fixed = cycle.scene.ask, cycle.scene.fixed_points
     rows = np.isin(cycle.piece, range(1, len(cycle.path.ranges[0]) + 1))
     closes = cycle.sweep.whole and cycle.path.whole and cycle.path.returns
     for name in dict.fromkeys((*ask.velocity, *ask.acceleration, *ask.curves)):

@@ -152,7 +152,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return self.across(mark)
         if first == "moving-centrode":
             return self.binder.carried_by(places.pose(mark.name.partition(" ")[2]))
-        is_fixed = first in FIXED or first in CURVES or mark.name in self.drawing.scene.frame.points
+        is_fixed = first in FIXED or first in CURVES or mark.name in self.drawing.scene.fixed_points
         return still if is_fixed else only_at_start
 
     def across(self, mark: LineMark) -> Binding:

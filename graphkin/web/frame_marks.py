@@ -64,7 +64,7 @@ def driver_marks(drawing: Drawing, field: Field) -> list[Mark]:
 def linked(drawing: Drawing, name: str) -> tuple[str, ...]:
     """The points of the links of a point that moves, except itself."""
     scene = drawing.scene
-    if name in scene.frame.points:
+    if name in scene.fixed_points:
         return ()
     links = [link for link in scene.links.values() if name in link.points]
     others = dict.fromkeys(other for link in links for other in link.points if other != name)

@@ -608,3 +608,256 @@ def test_where_the_pitch_curve_is_straight_the_centre_lies_at_infinity():
     straight = r"K lies at infinity: the pitch curve of link cam is straight at the contact"
     with pytest.raises(ClosureError, match=straight):
         Mechanism(read_text(text, "straight")).solve()
+
+
+PLATE = """
+graphkin = 1
+title = "plate"
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[parameters]
+at = {{ value = 0, min = -1e9, max = 1e9 }}
+[frame]
+O = [{x}, {y}]
+{pin}
+[links.plate]
+A = [0, 0]
+slides = {{ on = 0, through = "O", angle = {way}, offset = {beside} }}
+[links.follower]
+{joint}
+[links.follower.cam]
+on = "plate"
+tip = "{tip}"
+{side}
+base = {base}
+{roller}
+start = {start}
+backward = {back}
+law = [{{ to = {first}, rise = {rise}, motion = "{motion}" }},
+       {{ to = {second}, rise = {fall}, motion = "harmonic" }}]
+[[drivers]]
+slide = "plate"
+position = "at"
+speed = {speed}
+acceleration = {push}
+"""
+CURVED = sorted(MOTIONS.keys() - {"uniform"})
+
+
+def plate(rng, motion, *, swings):
+    """A plate of random size under a follower of either kind, and what it is made of."""
+    size, base, way = 10 ** rng.uniform(-3, 6), rng.uniform(0.2, 0.5), rng.uniform(-np.pi, np.pi)
+    tip = ("roller", "knife")[rng.integers(2)]
+    roller = size * rng.uniform(0.05, 0.1) if tip == "roller" else 0.0
+    place, e = size * complex(*rng.uniform(-3, 3, 2)), np.exp(1j * way)
+    beside, up = size * rng.uniform(-0.5, 0.5), 1j * e * rng.choice([-1, 1])
+    arm, path = size * rng.uniform(0.6, 0.9), place + 1j * e * size * 0
+    prime = size * base + roller
+    pin = path + 1j * e * beside + up * (prime + arm * rng.uniform(0.2, 0.6))
+    pin += e * size * rng.uniform(-1, 1)
+    lean = np.angle(up, deg=True) + rng.uniform(-40, 40)
+    data = {
+        "x": place.real, "y": place.imag, "way": np.degrees(way), "beside": beside,
+        "base": size * base, "start": size * rng.uniform(-2, 2), "tip": tip, "motion": motion,
+        "first": size * rng.uniform(0.8, 1.2), "second": size * rng.uniform(1.7, 2.1),
+        "rise": rng.uniform(5, 20) if swings else size * rng.uniform(0.1, 0.3),
+        "speed": size * 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1]),
+        "back": str(bool(rng.integers(2))).lower(), "side": "", "pin": "",
+    }  # fmt: skip
+    data["fall"] = -data["rise"] * rng.uniform(0.3, 1)
+    data["push"] = data["speed"] ** 2 / size * rng.uniform(-2, 2)
+    numbers = {k: f"{v:.17g}" if isinstance(v, float) else v for k, v in data.items()}
+    if swings:
+        data["side"] = ("left", "right")[rng.integers(2)]
+        numbers |= {
+            "pin": f"Q = [{pin.real:.17g}, {pin.imag:.17g}]",
+            "joint": f"Q-B = {arm:.17g}",
+            "side": f'side = "{data["side"]}"',
+        }
+    else:
+        where = f"[{pin.real:.17g}, {pin.imag:.17g}]"
+        numbers["joint"] = (
+            f"B = [0, 0]\nslides = {{ on = 0, through = {where}, angle = {lean:.17g} }}"
+        )
+    numbers["roller"] = f"roller = {roller:.17g}" if roller else ""
+    return read_text(PLATE.format(**numbers), "plate"), data
+
+
+def along_plate(data, x):
+    """s' and s" of the law of ``PLATE`` at a coordinate x, in its own units."""
+    sense = -1 if data["back"] == "true" else 1
+    way = sense * (x - data["start"])
+    low, high, rise, name = 0.0, data["first"], data["rise"], data["motion"]
+    if way > high:
+        low, high, rise, name = high, data["second"], data["fall"], "harmonic"
+    found, span = MOTIONS[name]((way - low) / (high - low)), high - low
+    return sense * rise * found.rate / span, rise * found.bend / span**2
+
+
+@pytest.mark.parametrize("swings", [False, True])
+@pytest.mark.parametrize("motion", CURVED)
+def test_a_plate_lifts_and_swings_by_its_law(motion, swings):
+    """v = s'ẋ and a = s"ẋ² + s'ẍ, ω = ψ'ẋ and ε = ψ"ẋ² + ψ'ẍ, by both routes along the law."""
+    rng = np.random.default_rng([11, swings, CURVED.index(motion)])
+    scene, data = plate(rng, motion, swings=swings)
+    sense = -1 if data["back"] == "true" else 1
+    away = {"left": -1, "right": 1, "": 1}[data["side"]]
+    unit = np.pi / 180 if swings else 1e-3
+    for share in (0.06, 0.17, 0.36, 0.44, 0.63, 0.81, 0.94):
+        x = data["start"] + sense * share * data["second"]
+        mechanism = Mechanism(replace(scene, values={**scene.values, "at": Fraction(float(x))}))
+        solution = mechanism.solve()
+        rate, bend = along_plate(data, x)
+        speed, push = data["speed"], data["push"]
+        expected = np.array([rate * speed, bend * speed**2 + rate * push]) * unit * away
+        moved = solution.links["follower"] if swings else solution.slides["follower"]
+        found = (moved.omega, moved.epsilon) if swings else (moved.speed, moved.acceleration)
+        scale = abs(data["rise"] * unit / data["first"] * speed)
+        assert found[0] == pytest.approx(expected[0], rel=1e-8, abs=1e-8 * scale)
+        pushed = scale * abs(speed) / data["first"]
+        assert found[1] == pytest.approx(expected[1], rel=1e-7, abs=1e-7 * pushed)
+        assert mechanism.witness(solution).agrees
+
+
+@pytest.mark.parametrize("swings", [False, True])
+def test_the_profile_of_a_plate_is_the_envelope_of_its_roller(swings):
+    """Set at any coordinate, the profile touches the roller, and does not cut into it."""
+    for seed in range(6):
+        scene, _ = plate(np.random.default_rng([5, seed, swings]), "cycloidal", swings=swings)
+        profile = CamProfile(scene, "follower", 4000)
+        outline, size = profile.outline[:-2], float(np.ptp(profile.angles))
+        if profile.sharpest[0] <= 0:
+            continue
+        for number in range(600, 3400, 400):
+            at = profile.plate.along * (outline + profile.angles[number])
+            gap = abs(at - profile.tip.place[number]).min() - profile.roller
+            assert gap == pytest.approx(0, abs=1e-4 * size)
+
+
+def test_a_plate_is_level_before_and_past_its_law_where_no_circle_stands_for_it():
+    scene = load(SCENES / "cam-plate.toml").scene
+    for x in (-3, 170):
+        beside = replace(scene, values={**scene.values, "x": Fraction(x)})
+        with pytest.raises(ClosureError, match=r"straight at the contact.*a guide on the plate"):
+            Mechanism(beside).solve()
+    profile = CamProfile(scene, "2", 2000)
+    assert profile.outline[0].imag == pytest.approx(0.015, abs=1e-12)
+    assert profile.outline[1999].imag == pytest.approx(0.015, abs=1e-12)
+    assert max(profile.outline.imag) == pytest.approx(0.040, abs=1e-6)
+
+
+def test_the_pressure_angle_of_a_plate_is_the_slope_of_its_pitch_curve():
+    """tan α = s' where the guide stands square to the path, as on any wedge."""
+    profile = CamProfile(load(SCENES / "cam-plate.toml").scene, "2")
+    expected = np.degrees(np.arctan(abs(profile.rise.rate)))
+    assert profile.pressure == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["cam-fixed", "cam-fixed-lever", "cam-carried"])
+def test_an_arm_sees_the_cam_move_as_its_law_says(name):
+    """v = s'ω and a = s"ω² + s'ε with the cam's rates against the arm, by both routes."""
+    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    fixed = "fixed" in name
+    data = {"start": 0.0, "clock": str(fixed).lower(), "rise": 1000.0}
+    data |= {"motion": "cycloidal", "back": "3-4-5"}
+    text = text.replace("to = 120", "to = 110").replace("to = 180", "to = 170")
+    text = text.replace("to = 300", "to = 310")
+    for angle in range(5, 360, 20):
+        mechanism = Mechanism(read_text(text, "cam", None, {"angle": angle}))
+        solution = mechanism.solve()
+        assert mechanism.witness(solution).agrees
+        arm = solution.links["1"]
+        own = solution.links["2"]
+        cam = (0.0, 0.0, 0.0) if fixed else (angle + 50, own.omega, own.epsilon)
+        at, speed, push = (a - b for a, b in zip(cam, (angle, arm.omega, arm.epsilon), strict=True))
+        rate, bend = by_hand(data, at)
+        first, second = rate * speed, bend * speed**2 + rate * push
+        if name == "cam-fixed-lever":
+            unit, size = np.radians(20), 1.0
+            found = arm.omega - own.omega, arm.epsilon - own.epsilon
+        else:
+            unit = 0.02 if fixed else 0.01
+            slide = solution.slides["2" if fixed else "3"]
+            found, size = (slide.speed, slide.acceleration), 0.01
+        assert found[0] == pytest.approx(first * unit, rel=1e-9, abs=1e-9 * size)
+        assert found[1] == pytest.approx(second * unit, rel=1e-9, abs=1e-8 * size)
+
+
+@pytest.mark.parametrize("name", ["cam-plate", "cam-plate-lever", "cam-fixed", "cam-fixed-lever"])
+@pytest.mark.parametrize("face", [0, 1, 2])
+def test_a_wrong_law_of_such_a_cam_does_not_pass_the_witness(face, name, monkeypatch):
+    plates = ("plate_lift", "plate_rate", "plate_bend")
+    names = plates if "plate" in name else ("lift", "lift_rate", "lift_bend")
+    right = getattr(cam_centre, names[face])
+    wrong = replace(right, value=lambda *args: right.value(*args) * 1.001)
+    monkeypatch.setattr(cam_centre, names[face], wrong)
+    mechanism = load(SCENES / f"{name}.toml")
+    assert not mechanism.witness(mechanism.solve()).agrees
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "place", "found"),
+    [
+        (
+            "cam-plate",
+            'tip = "roller"\nbase = 15\nroller = 6',
+            'tip = "flat"\nbase = 15',
+            "links.2.cam.tip",
+            "a flat face on a",
+        ),
+        ("cam-plate", "base = 15", "base = 15\nclockwise = true", "links.2.cam.clockwise", "unk"),
+        ("cam-plate", "{ to = 160", "{ to = 60", "links.2.cam.law[1].to", "60 after 80"),
+        ("cam-fixed", "clockwise", "backward", "links.2.cam.backward", "unknown key"),
+        ("cam-fixed", "O-A = 100", "P-A = 100", "links.2.cam.on", "has not one pin on link 1"),
+    ],
+)
+def test_one_mistake_of_such_a_cam_is_one_error(name, old, new, place, found):
+    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
+    text = text.replace('along = "O-A"', 'along = "P-A"') if "P-A" in new else text
+    with pytest.raises(SceneError) as error:
+        read_text(text.replace(old, new), "cam")
+    problems = [each for each in error.value.problems if each.place.startswith("links.2.cam")]
+    assert [problem.place for problem in problems] == [place]
+    assert found in problems[0].found
+
+
+def test_a_table_of_a_plate_and_a_plate_at_rest_are_refused_by_name():
+    text = (SCENES / "cam-plate.toml").read_text(encoding="utf-8")
+    table = turned_tables(text, "[[0, 0], [60, 5], [120, 18], [180, 0]]")
+    with pytest.raises(SceneError, match="a table of a plate that slides"):
+        read_text(table, "cam")
+    rest = text.replace("on = 1\ntip", "on = 0\ntip").replace("[links.2]\n", "[links.2]\n")
+    rest = rest.replace("slides = { on = 0, through = [60, 0]", 'slides = { on = 1, through = "A"')
+    with pytest.raises(SceneError, match="a plate at rest along which link 1 slides"):
+        read_text(rest, "cam")
+
+
+def test_a_follower_that_a_plate_does_not_reach_is_refused():
+    text = (SCENES / "cam-plate-lever.toml").read_text(encoding="utf-8")
+    with pytest.raises(StructureError, match="Q stands 60 mm from the path of C, Q-B is 25 mm"):
+        Mechanism(read_text(text.replace("Q-B = 55", "Q-B = 25"), "cam")).solve()
+    text = (SCENES / "cam-plate.toml").read_text(encoding="utf-8")
+    with pytest.raises(StructureError, match="link 2 slides along the path of link 1"):
+        Mechanism(read_text(text.replace("angle = 90", "angle = 180"), "cam")).solve()
+
+
+@pytest.mark.parametrize("name", ["cam-plate", "cam-plate-lever", "cam-fixed", "cam-fixed-lever"])
+def test_the_table_of_a_cycle_has_the_pressure_angle_of_such_a_cam(name):
+    """Of the bar K-B with the way on which the follower's guide or pin leads B."""
+    scene, follower = load(SCENES / f"{name}.toml").scene, "4" if "plate-" in name else "2"
+    (key,), checked = scene.parameters, 0
+    rows = csv.DictReader(io.StringIO(cycle_table(cycle(Mechanism(scene), steps=40))))
+    for row in rows:
+        value = float(next(iter(row.values()))) * (1000 if key == "x" else 1)
+        values = {**scene.values, key: Fraction(value)}
+        try:
+            points = Mechanism(replace(scene, values=values)).solve().points
+        except ClosureError:
+            continue  # straight there
+        tip = points["B"].position
+        ways = {"cam-plate": 1j, "cam-fixed": tip}
+        way = ways[name] if name in ways else 1j * (tip - points["Q"].position)
+        slope = abs(np.degrees(np.angle((tip - points["K"].position) / way)))
+        slope = min(slope, 180 - slope)
+        assert float(row[f"pressure_{follower} [deg]"]) == pytest.approx(slope, abs=1e-6)
+        checked += 1
+    assert checked > 25

@@ -6,6 +6,7 @@ from cmath import exp, phase
 from functools import cache
 from math import atan, cos, pi, radians, sin, sqrt
 
+import numpy as np
 import pytest
 from msgspec.structs import replace
 
@@ -511,3 +512,144 @@ def test_a_wheel_that_its_driver_turns_on_its_track_is_held(turn, own):
     pin += (rate + (1j * spin - turning**2) * reach,)
     for point, want in (("Q", (centre, speed, rate)), ("R", pin)):
         assert told(found, point) == pytest.approx(want, abs=1e-12)
+
+
+SLOPE = """
+graphkin = 1
+title = "plank"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+R = [0, 0]
+S = { from = "R", length = 200, angle = 20 }
+O = [-320, -60]
+[links.1]
+A = [0, 0]
+wheel = { centre = "A", radius = 40 }
+rolls = [{ on = 0, through = "R", angle = 20 }, TRACK]
+[links.2]
+B = [0, 0]
+wheel = { centre = "B", radius = 40 }
+rolls = [{ on = 0, through = "S", angle = 20 }, TRACK]
+[links.3]
+P = [0, 0]
+""".replace("TRACK", '{ on = 3, through = "P", angle = 0, side = "right" }')
+CRANK = """
+[links.4]
+P-D = 300
+[links.5]
+O-D = 60
+[[drivers]]
+turn = 5
+angle = 50
+speed = 4
+[branches]
+3 = "forward"
+"""
+
+
+def test_rollers_on_a_slope_keep_a_plank_parallel_to_it():
+    """The other line of the slope may be written by its way along it: v of the plank is twice that
+    of the centres."""
+    plank = made(SLOPE + "[[drivers]]\nroll = 1\nposition = 20\nspeed = 100\n")
+    motion = plank.solve()
+    assert plank.witness(motion).agrees
+    along = complex(np.exp(1j * np.radians(20)))
+    assert motion.points["P"].velocity / along == pytest.approx(0.2)
+    assert (motion.points["P"].position / along).imag == pytest.approx(0.08)
+    other = SLOPE.replace("length = 200, angle = 20 }", "length = 200, angle = 21 }")
+    assert other != SLOPE
+    with pytest.raises(StructureError, match="hold link 3, a straight track"):
+        made(other + "[[drivers]]\nroll = 1\nposition = 20\nspeed = 100\n").solve()
+
+
+def test_a_rod_pulls_a_plank_on_rollers_of_one_size():
+    """As a slider-crank beside the slope, by its closed form; the rollers go half as fast."""
+    plank = made(SLOPE + CRANK)
+    motion = plank.solve()
+    assert plank.witness(motion).agrees
+    along = complex(np.exp(1j * np.radians(20)))
+    crank, omega = 0.06 * np.exp(1j * np.radians(50)), 4
+    pin = (complex(-0.32, -0.06) + crank) / along
+    rise = 0.08 - pin.imag
+    rod = np.sqrt(0.3**2 - rise**2)
+    assert (motion.points["P"].position / along).real == pytest.approx(pin.real + rod)
+    speed = 1j * omega * crank / along
+    expected = speed.real + rise * speed.imag / rod
+    assert motion.points["P"].velocity / along == pytest.approx(expected)
+    for roller in "12":
+        assert motion.links[roller].omega == pytest.approx(-expected / 2 / 0.04)
+
+
+@pytest.mark.parametrize("radii", [(60, 60), (30, 60), (60, 30)])
+def test_a_plank_on_two_drums_that_turn_in_place(radii):
+    """Without slip on both: it turns no further, and moves along itself as the rims do."""
+    drums = "".join(
+        f'[links.{k}]\n{c}-{p} = 20\nwheel = {{ centre = "{c}", radius = {r} }}\n'
+        'rolls = { on = 3, through = "P", angle = 0, side = "right" }\n'
+        for k, c, p, r in ((1, "O", "A", radii[0]), (2, "Q", "B", radii[1]))
+    )
+    text = (
+        "graphkin = 1\ntitle = 'drums'\n"
+        "units = { length = 'mm', angle = 'deg', speed = 'rad/s' }\n"
+        f"[frame]\nO = [0, 0]\nQ = [300, 0]\n{drums}[links.3]\nP = [0, 0]\nC = [300, 0]\n"
+        "[[drivers]]\nturn = 1\nangle = 20\nspeed = 3\n[branches]\n3 = 'closure NUMBER'\n"
+    )
+    found = []
+    for number in "12":
+        plank = made(text.replace("NUMBER", number))
+        motion = plank.solve()
+        assert plank.witness(motion).agrees
+        assert motion.links["3"].omega == pytest.approx(0, abs=1e-12)
+        assert abs(motion.points["P"].velocity) == pytest.approx(3 * radii[0] / 1000)
+        assert motion.links["2"].omega == pytest.approx(3 * radii[0] / radii[1])
+        along = motion.points["C"].position - motion.points["P"].position
+        found.append(np.angle(along / abs(along)))
+    lean = np.arcsin((radii[1] - radii[0]) / 300)
+    expected = sorted(angle % (2 * np.pi) for angle in (lean, np.pi - lean))
+    assert np.exp(1j * np.array(found)) == pytest.approx(np.exp(1j * np.array(expected)), abs=1e-9)
+
+
+HOOP = """
+graphkin = 1
+title = "hoop"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+R = [0, 0]
+[links.1]
+A = [0, 0]
+wheels = [{ centre = "A", radius = 100, inside = true }, { centre = "A", radius = 110 }]
+rolls = { on = 0, through = "R", angle = 0 }
+[links.2]
+B-C = 20
+wheel = { centre = "B", radius = 30 }
+rolls = { on = 1 }
+[[drivers]]
+roll = 1
+position = 120
+speed = 100
+[[drivers]]
+turn = 2
+angle = 30
+speed = 3
+"""
+
+
+def test_a_hoop_rolls_on_the_floor_with_a_wheel_inside():
+    """v of the wheel's rim is the hoop's where they touch: the line of centres turns so."""
+    hoop = made(HOOP)
+    motion = hoop.solve()
+    assert hoop.witness(motion).agrees
+    centre, wheel = motion.points["A"], motion.points["B"]
+    way = (wheel.position - centre.position) / 0.07
+    omega = motion.links["1"].omega
+    assert omega == pytest.approx(-0.1 / 0.11)
+    assert abs(way) == pytest.approx(1)
+    expected = 1j * way * (0.1 * omega - 0.03 * 3)
+    assert wheel.velocity - centre.velocity == pytest.approx(expected)
+
+
+def test_a_ring_on_a_straight_track_is_refused_by_name():
+    only = HOOP.replace(', { centre = "A", radius = 110 }]', "]")
+    assert only != HOOP
+    with pytest.raises(SceneError, match="the ring of link 1 on a straight track; expected a rim"):
+        made(only)

@@ -112,6 +112,7 @@ def bare(name: str) -> str:
     letter, rest = name[0], name[1:].replace("_", "").replace(",", "")
     primes = "".join(sign for sign in rest if sign in "′″‴⁗")
     index = "".join(sign for sign in rest if sign not in "′″‴⁗")
+    index = re.sub("II$", "²", index) if index.endswith("II") else re.sub("I$", "¹", index)
     return letter + primes + index
 
 

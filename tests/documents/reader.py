@@ -20,6 +20,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from tests.documents.printed_sheet import NAME, NUMBER, Printed, bare, canonical, number, printed
+from tests.documents.reader_rules import RULES, SET, VECTOR, agrees, factored, says, times
 from tests.documents.ruler_and_compass import (
     APART,
     Circle,
@@ -29,69 +30,11 @@ from tests.documents.ruler_and_compass import (
     crossings,
     dot,
 )
+from tests.documents.trial_reader import Trials
 
-VECTOR = r"[av]_\{[^}]*\}(?:\^\{[^}]*\})?"
-TURNING = r"[ωε]_\{[^}]*\}"
 STEPS = 14_400
 """At how many angles a link is drawn where a locus is sought: each fortieth of a degree."""
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
-
-
-# -- the rules ------------------------------------------------------------------------------------
-
-Rule = Callable[..., None]
-RULES: list[tuple[re.Pattern[str], Rule]] = []
-KINDS = {
-    "point": NAME,
-    "number": NUMBER,
-    "vector": VECTOR,
-    "set": rf"(?:{NUMBER}·)?{VECTOR}(?:/{NUMBER})?",
-    "times": rf"(?:{NUMBER}·)?",
-    "segment": rf"(?:{NUMBER}·)?{NAME}{NAME}(?:/{NUMBER})?",
-    "turning": rf"{TURNING}(?: = (?:[^,;:]*? rad/s(?:\^\{{2\}})?|{VECTOR}/{NAME}{NAME}))?",
-}
-
-
-def pattern(words: str) -> re.Pattern[str]:
-    """A regular expression from words with ⟨places⟩: names of points unless a kind is told."""
-
-    def place(match: re.Match[str]) -> str:
-        name, _, kind = match[1].partition(":")
-        return f"(?P<{name}>{KINDS[kind or 'point']})"
-
-    return re.compile(re.sub(r"⟨([\w:]+)⟩", place, words))
-
-
-def says(*forms: str) -> Callable[[Rule], Rule]:
-    """Marks a method as what these words ask a hand to do."""
-
-    def kept(rule: Rule) -> Rule:
-        RULES.extend((pattern(form), rule) for form in forms)
-        return rule
-
-    return kept
-
-
-SET = KINDS["set"]
-
-
-def factored(words: str) -> tuple[float, str]:
-    """How many times as long as in its plan what is set is taken, and what it is."""
-    match = re.fullmatch(rf"(?:({NUMBER})·)?(.*?)(?:/({NUMBER}))?", words)
-    assert match
-    return number(match[1] or "1") / number(match[3] or "1"), match[2]
-
-
-def agrees(size: float, told: str | None) -> None:
-    """Raises DefectError where a length is not as long as the page tells besides."""
-    if told and abs(size - number(told)) > 0.1:
-        raise DefectError(f"{told} mm is told of what is {size:.2f} mm long")
-
-
-def times(words: str) -> float:
-    """The number before a length that is taken so many times."""
-    return number(words.removesuffix("·") or "1")
-
 
 SIDES = {
     "to the right of": 1,
@@ -111,7 +54,7 @@ def sliding(point: str, link: str) -> str:
 
 
 @dataclass
-class Reader:
+class Reader(Trials):
     """One who draws a scene from its two sheets: the places reached, by their names."""
 
     data: str
@@ -149,6 +92,33 @@ class Reader:
     """The points of links that were moved in steps until they closed."""
     frame: dict[str, complex] = field(default_factory=dict)
     """The fixed points of the data, in mm of the mechanism."""
+    faces: dict[str, complex] = field(default_factory=dict)
+    """The directions of faces of cams' followers, by the blocks that stand for contacts on them."""
+    ahead: list[str] = field(default_factory=list)
+    """The sentences that follow the one at hand."""
+    turn: tuple[str, float] | None = None
+    """The link that was moved in steps, and the angle at which all closes."""
+    tracks: dict[tuple[str, str], Line] = field(default_factory=dict)
+    """Tracks of wheels on links that move, as drawn."""
+    square: list[Line] = field(default_factory=list)
+    """The perpendiculars to velocities on which points were laid off."""
+    normals: dict[str, complex] = field(default_factory=dict)
+    """The directions of lines on which points were laid off, by these."""
+    rolled: dict[str, float] = field(default_factory=dict)
+    """By what angles, in radians, wheels have rolled to the places that were found."""
+    trial: str = ""
+    """The number of the trial plan at hand, I or II."""
+    blocks: dict[str, str] = field(default_factory=dict)
+    """What the first trial plan said, by the points that came of it."""
+    begun: list[str] = field(default_factory=list)
+    before: dict[str, complex] = field(default_factory=dict)
+    """Components as they were laid off, by their symbols."""
+    gaps: tuple[complex, complex] | None = None
+    """The gaps of two trials, as measured last."""
+    tails: dict[str, complex] = field(default_factory=dict)
+    """The tails of the vectors set last with their tips at a point, by trials."""
+    met: dict[str, complex] = field(default_factory=dict)
+    """The points in which two lines met last, by trials."""
 
     def __post_init__(self) -> None:
         self.items = re.split(r"; (?![^(]*\))", self.data)
@@ -218,6 +188,8 @@ class Reader:
             self.senses[name] = 1 if turned > 0 else -1
         if name in self.senses:
             return self.senses[name]
+        if same := re.search(r" = ([ωε]_\{[^}]*\})$", turning):
+            return self.sense(same[1])
         if " = " in turning:
             told = re.findall(NUMBER, turning.rpartition(" = ")[2])
             if told:
@@ -230,10 +202,11 @@ class Reader:
             if not (way := re.search(r"turning (counter-)?clockwise", " ".join(told))):
                 raise DefectError(f"{turning} is given without its sense")
             return 1 if way[1] else -1
-        if turning[0] == "ε":
-            raise DefectError(f"the sense of {turning} is not given")
         points = re.findall(NAME, self.links.get(index, "").split(" ")[-1])
         plan = self.velocity or self.place
+        if turning[0] == "ε":  # as the tangential components say, for the normal ones turn nothing
+            primed = re.compile(r"[a-z]′(_\w+)?")
+            plan = {n.replace("′", ""): z for n, z in self.place.items() if primed.fullmatch(n)}
         for p, q in pairwise(points):
             if not {self.image(p), self.image(q)} <= plan.keys():
                 continue
@@ -402,6 +375,8 @@ class Reader:
     def direction(self, words: str) -> complex:
         """The direction of a bar, a guide or a track, by its name."""
         kind, _, link = words.partition(" ")
+        if kind == "guide" and link in self.faces:
+            return self.faces[link]
         if kind == "guide":
             return self.guide(link).along
         if kind == "track":
@@ -425,13 +400,22 @@ class Reader:
         self.glossed = self.glossed or bool(GLOSS.search(sentence))
         for image, point, _ in POLE_GLOSS.findall(sentence):
             self.image_of[canonical(point)] = canonical(image).replace("′", "")
-        rest = POLE_GLOSS.sub("", GLOSS.sub("", sentence))
+        known = dict(self.senses)
+        rest = self.tried(POLE_GLOSS.sub("", GLOSS.sub("", sentence)))
         self.loci, self.ray, self.end, self.tail, self.offset = [], None, None, None, 0j
+        self.read(rest)
+        if self.trial:
+            self.senses = known  # those of the rates that were tried say nothing of the true ones
+
+    def read(self, rest: str) -> None:
+        """Draws what the clauses of a sentence say."""
         while rest:
             for form, rule in RULES:
                 match = form.match(rest)
                 if match and re.match(r"; |, |$", rest[match.end() :]):
+                    before = {*self.place}
                     rule(self, **match.groupdict())
+                    self.noted(match[0], before)
                     rest = re.sub(r"^(; |, )", "", rest[match.end() :])
                     break
             else:
@@ -441,7 +425,7 @@ class Reader:
 
     @says(
         "draw the mechanism as on the velocity sheet",
-        "transfer .* to the mechanism, each to its point.*",
+        "transfer .* to the mechanism, (?:each )?to its point.*",
         "over the motion .*",
         "nothing is set on the mechanism, because .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
@@ -684,6 +668,20 @@ class Reader:
             raise DefectError(f"{len(found)} tangents from {q} leave it where the data tell")
         self.lies[k] = self.tangent = found[0]
 
+    @says(
+        "guide ⟨k:number⟩ is the face of link ⟨f:number⟩, on which block ⟨k2:number⟩ in ⟨p⟩ stands "
+        "for the contact at this instant"
+    )
+    def face(self, k: str, f: str, **_: str) -> None:
+        """Square to the guide of a follower, or along the bar of a lever."""
+        item = self.told_of(rf"cam \d+ (?:lifts|swings) link {f},")
+        if bar := re.search(rf"a flat face along ({NAME})({NAME})", item):
+            self.faces[k] = self.at(bar[2]) - self.at(bar[1])
+        elif "a flat face square to its guide" in item:
+            self.faces[k] = 1j * self.guide(f).along
+        else:
+            raise DefectError(f"nothing tells how the face of link {f} lies")
+
     @says("draw the guide")
     def draw_the_guide(self) -> None:
         """Drawn when it is cut: the page names its point only then."""
@@ -693,6 +691,15 @@ class Reader:
         item = self.told_of(rf"(?:pin )?{sliding(self.sliding_point(k), k)} slides")
         told = re.search(rf"of link (\w+) through ({NAME}) at .* to the x axis of link", item)
         stands = told and told[1] in self.lies and self.stands(told[2])
+        square = rf"of link \w+ through ({NAME}) at {NUMBER}° to ({NAME})({NAME})(?: |,|$)"
+        bar = re.search(square, item)
+        stands = stands or (bar and all(map(self.stands, bar.groups())))
+        moved = rf"along the line of link {self.turn[0]} through ({NAME}) " if self.turn else "$^"
+        if start := re.search(moved, item):
+            assert self.turn
+            self.ray = Line(self.at(start[1]), cmath.rect(1, self.turn[1]))
+            self.loci.append(self.ray)
+            return
         if p is None and "along the line of link" in item and not stands:
             raise DefectError(f"guide {k} moves: no point is told through which to draw it")
         self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
@@ -725,7 +732,8 @@ class Reader:
         side = re.search(r"on its (right|left)-hand side", rolls)
         if side is None:
             raise DefectError(f"nothing tells on which side of its track wheel {k} lies")
-        track = self.track(k)
+        drawn = [line for line in self.loci[-1:] if isinstance(line, Line)]
+        track = drawn[0] if drawn else self.track(k)  # that of a link that moves was drawn just now
         track = self.positive(track, rolls) if "(positive" in rolls else track
         laid = Line.of(
             track.point, cmath.rect(1, self.angle(re.search(rf"at ({NUMBER}°)", rolls)[1]))
@@ -758,11 +766,8 @@ class Reader:
                 if place[5]:
                     touched.append(self.at(place[5]))
                 else:
-                    link = re.search(r"on the line of link (\w+)", item)
-                    assert link
                     way = complex(number(place[1]), number(place[2])) * MILLIMETRES[place[3]]
-                    along = self.guide(link[1]).along
-                    touched.append(self.at(place[4]) + along * way / self.scale)
+                    touched.append(self.at(place[4]) + way / self.scale)
         if len(touched) != 2 or self.ray is None:
             raise DefectError(f"nothing tells where the tracks of wheel {wheel} were touched")
         middle = sum(touched) / 2 - self.ray.point
@@ -780,13 +785,19 @@ class Reader:
         "⟨g:number⟩)?; it meets it in the point of contact ⟨name⟩"
     )
     def contact(self, k: str, g: str | None, name: str) -> None:
-        track = self.loci[-1] if g else self.track(k)
-        assert isinstance(track, Line)
-        centre = self.centre(k)
+        if g and (k, g) not in self.tracks:
+            raise DefectError(f"the track of wheel {k} on link {g} was not drawn")
+        track, centre = self.tracks[k, g] if g else self.track(k), self.centre(k)
         self.put(name, track.point + track.along * dot(track.along, centre - track.point))
 
     @says("draw the track of wheel ⟨k:number⟩ on link ⟨g:number⟩: (?P<line>the line .*?)(?=;)")
     def draw_track_of(self, k: str, g: str, line: str) -> None:
+        self.put_track(g, line)
+        drawn = self.loci[-1]
+        assert isinstance(drawn, Line)
+        self.tracks[k, g] = drawn
+
+    def put_track(self, g: str, line: str) -> None:
         own = re.search(rf"through \(({NUMBER})[;,] ({NUMBER})\) mm", line)
         if own and g in self.lies and (through := re.findall(NAME, self.links[g])):
             way = self.lies[g] * complex(number(own[1]), number(own[2]))
@@ -796,9 +807,8 @@ class Reader:
             rf"through the point \(({NUMBER})[;,] ({NUMBER})\) mm from ({NAME}) at", line
         )
         if beside:
-            along = self.guide(g).along
-            way = complex(number(beside[1]), number(beside[2])) * along
-            self.loci.append(Line.of(self.at(beside[3]) + way, along))
+            way = complex(number(beside[1]), number(beside[2]))
+            self.loci.append(Line.of(self.at(beside[3]) + way, self.guide(g).along))
             return
         through = re.search(rf"through ({NAME})", line)
         assert through
@@ -822,16 +832,33 @@ class Reader:
 
     @says("it cuts the guide in ⟨name⟩, (?P<side>to the right of|to the left of|above|below) ⟨p⟩")
     def arc_cuts_guide(self, name: str, side: str, p: str) -> None:
-        found = crossings(self.block(name), self.loci[-1])
+        led = self.ray if self.ray is not None else self.block(name)
+        found = crossings(led, self.loci[-1])
         self.one_of(name, [z for z in found if dot(SIDES[side], z - self.at(p)) > 0])
 
     @says(
-        r"(?:with block ⟨k:number⟩ on its guide, )?from ⟨p⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° "
+        r"(?:with block \d+ on its guide, )?from ⟨p⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° "
         r"to the x axis"
-        r"(?:, for link .*? since the start|, as [^:;]*)?: ⟨name⟩"
+        r"(?:, for link ⟨k:number⟩ has turned by ⟨since:number⟩° since the start"
+        r"|, as (?P<why>[^:;]*))?: ⟨name⟩"
     )
-    def at_angle(self, p: str, s: str, t: str, angle: str, name: str, **_: str) -> None:
+    def at_angle(
+        self,
+        p: str,
+        s: str,
+        t: str,
+        angle: str,
+        name: str,
+        k: str,
+        since: str | None,
+        why: str | None,
+    ) -> None:
         along = cmath.rect(1, math.radians(number(angle)))
+        if why == "was found" or (why and "has turned" in why):
+            along = cmath.rect(1, self.turned(cmath.phase(along)))
+        if since and k in self.rolled:
+            told = math.radians(number(since))
+            along *= cmath.rect(1, math.copysign(self.rolled[k], told) - told)
         if found := next((each for each in self.drawn.values() if name in each), None):
             self.put(name, found[name])  # as it was found; the page tells its angle to a tenth
             self.drawn_at(p, along, name)
@@ -875,10 +902,29 @@ class Reader:
         "link ⟨k:number⟩ has moved with the rim, from where it touched the wheel at the start, by "
         "the arc that the wheel has turned through since, ⟨arc:number⟩ mm: ⟨name⟩"
     )
-    def moved_with_rim(self, k: str, name: str, **_: str) -> None:
+    def moved_with_rim(self, k: str, name: str, arc: str) -> None:
         if k not in self.drawn:
-            raise DefectError(f"nothing tells where link {k} lies")
+            self.moved_along(k, name, number(arc))
+            return
         self.put(name, self.drawn[k][name])
+
+    def moved_along(self, k: str, name: str, arc: float) -> None:
+        """A strand or rack that a guide leads past a driven wheel, with the rim of this."""
+        own = re.escape(name)
+        item = self.told_of(rf"wheel \w+ rolls in {NAME} on the line of link {k} through {own} at")
+        told = re.match(
+            rf"wheel (\w+) .*, touching it at {own} when ({NAME}){NAME} is at ({NUMBER}°) to "
+            rf"guide {k}$",
+            item,
+        )
+        if told is None:
+            raise DefectError(f"nothing tells where link {k} lies")
+        guide, centre = self.block(name), self.at(told[2])
+        touched = guide.point + guide.along * dot(guide.along, centre - guide.point)
+        start = self.angle(told[3]) + cmath.phase(guide.along)
+        turned = math.remainder(self.angle("φ") - start, 2 * math.pi)
+        way = (touched - centre) * 1j * math.copysign(1, turned)
+        self.put(name, touched + way / abs(way) * arc)
 
     @says(
         "draw the rolling line of link ⟨g:number⟩: (?P<line>the line .*?); from the centre of the "
@@ -933,14 +979,16 @@ class Reader:
         r"r_\{.*?\}(?: = m·z/2)? \(⟨r:number⟩ mm\) from ⟨o⟩"
     )
     def wheels_touch(self, g: str, k: str, name: str, r: str, o: str) -> None:
-        centres = {}
+        away, centres = 1, {}
         for item in self.items:
-            if match := re.match(rf"(inner )?(?:gear|wheel|ring) (\d+): centre ({NAME})", item):
-                centres[match[2]] = match[3]
-                if match[1]:
-                    raise DefectError("an inner wheel: on which side of the centre do they touch?")
+            form = rf"(inner )?(?:gear|wheel|ring) (\d+|of the frame): centre ({NAME})"
+            if match := re.match(form, item):
+                link = match[2].replace("of the frame", "0")
+                centres[link] = match[3]
+                if match[1] and link in (g, k) and match[3] != o:
+                    away = -1  # seen from the wheel within, beyond its own centre
         other = next(c for link, c in centres.items() if c != o and link in (g, k))
-        along = self.at(other) - self.at(o)
+        along = away * (self.at(other) - self.at(o))
         self.put(name, self.at(o) + along / abs(along) * number(r))
 
     @says(
@@ -997,9 +1045,10 @@ class Reader:
         r"since there is no slip\))? the perpendicular to ⟨p⟩⟨q⟩"
     )
     def square_to(self, s: str, p: str, q: str, c: str | None, d: str | None) -> None:
-        if c:
+        if c and not self.trial:
             self.place.setdefault(canonical(c), self.at(s))
-        self.loci.append(Line.of(self.at(s), (self.at(q) - self.at(p)) * 1j))
+        bar = self.normals.get(canonical(q), self.at(q) - self.at(p))
+        self.loci.append(Line.of(self.at(s), bar * 1j))
 
     @says(
         "through ⟨s⟩ the parallel to (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩)(?:, the "
@@ -1046,6 +1095,7 @@ class Reader:
         if len(self.loci) != 2:
             raise DefectError(f"{len(self.loci)} lines are drawn, of which two should meet")
         self.one_of(name, crossings(*self.loci))
+        self.met[self.trial] = self.at(name)
         self.loci = []
 
     @says(
@@ -1157,7 +1207,8 @@ class Reader:
         if drawn is None and a not in self.lengths:
             raise DefectError(f"{a} has no length")
         size = number(drawn) if drawn else self.lengths[a]
-        self.end = self.at(s) + inward / abs(inward) * size
+        self.before[a] = inward / abs(inward) * size
+        self.end = self.at(s) + self.before[a]
         if foot:
             self.put(foot, self.end)
 
@@ -1188,11 +1239,72 @@ class Reader:
     def parallel_to_end(self, s: str | None, of: str, **_: str) -> None:
         self.loci.append(Line.of(self.at(s) if s else self.its_end(), self.direction(of)))
 
+    @says("from ⟨s⟩ ⟨a:vector⟩ leads to ⟨name⟩, along (?P<of>guide ⟨k:number⟩)")
+    def leads_along(self, s: str, name: str, of: str, **_: str) -> None:
+        """A check: both are known."""
+        way, along = self.at(name) - self.at(s), self.direction(of)
+        if (off := abs(cross(along / abs(along), way))) > 0.3:
+            raise DefectError(f"{name} lies {off:.2f} mm beside the line along {of}")
+
+    @says(
+        "the velocities of ⟨p⟩ and ⟨q⟩ are parallel: set at these points, the line through their "
+        "tips meets ⟨m⟩⟨n⟩ in ⟨name⟩, the instantaneous centre of link ⟨k:number⟩"
+    )
+    def centre_of_parallels(self, p: str, q: str, name: str, **_: str) -> None:
+        one, two = (self.set_off(f"v_{{{point}}}") for point in (p, q))
+        tips = Line.of(self.at(p) + one, self.at(q) + two - self.at(p) - one)
+        self.one_of(name, crossings(tips, Line.of(self.at(p), self.at(q) - self.at(p))))
+
+    @says(
+        "normal component ⟨a:vector⟩ by Klein’s construction: the perpendicular to the guide at "
+        "⟨o⟩ cuts ⟨c⟩⟨p⟩ in ⟨tip⟩, so that .*?; the circle about ⟨c2⟩ through ⟨tip2⟩, and the "
+        "circle on ⟨c3⟩⟨p2⟩ as diameter; their common chord cuts ⟨c4⟩⟨p3⟩ in ⟨cut⟩ and the "
+        r"parallel to the guide through ⟨o2⟩ in ⟨end⟩; ⟨c5⟩⟨cut2⟩ = ⟨a2:vector⟩/ω_\{.*?\}\^\{2\}, "
+        "and ⟨end2⟩⟨o3⟩ is the whole acceleration of ⟨p4⟩, divided by .*? too(?:; the plan draws "
+        "both ⟨times:number⟩ times as long)?"
+    )
+    def klein(
+        self, a: str, o: str, c: str, p: str, tip: str, cut: str, end: str, times: str, **_: str
+    ) -> None:
+        guide, rod = self.block(p).along, Line.of(self.at(c), self.at(p) - self.at(c))
+        (foot,) = crossings(Line.of(self.at(o), 1j * guide), rod)
+        middle, length = (self.at(c) + self.at(p)) / 2, abs(self.at(p) - self.at(c))
+        ends = crossings(Circle(self.at(c), abs(foot - self.at(c))), Circle(middle, length / 2))
+        chord = Line.of(ends[0], ends[1] - ends[0])
+        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        (meets,), (far,) = crossings(chord, rod), crossings(chord, Line.of(self.at(o), guide))
+        for name, where in ((tip, foot), (cut, meets), (end, far)):
+            self.put_triangle(canonical(name) + index, where)
+        self.lengths[a] = number(times or "1") * abs(meets - self.at(c))
+
+    @says(
+        r"on it lay off ⟨p⟩⟨name⟩ = ⟨a:vector⟩ along it/ω_\{.*?\}\^\{2\} "
+        r"\((?:< )?⟨drawn:number⟩ mm\)"
+    )
+    def inflection_of(self, p: str, name: str, drawn: str, **_: str) -> None:
+        """Nothing to lay off where that is less than a ruler shows."""
+        normal = self.loci.pop()
+        assert isinstance(normal, Line)
+        if number(drawn) > 0.01:
+            raise DefectError(f"nothing tells to which side of {p} {name} lies")
+        self.put(name, self.at(p))
+        self.normals[canonical(name)] = normal.along
+        self.square.append(normal)
+
+    @says("⟨name⟩ is where the perpendiculars to the velocities meet")
+    def where_normals_meet(self, name: str) -> None:
+        self.one_of(name, crossings(*self.square))
+
+    @says("(?:and )?the circle on ⟨i⟩⟨w⟩ is the inflection circle of link ⟨k:number⟩: .*")
+    def inflection_circle(self, w: str, **_: str) -> None:
+        self.at(w)
+
     @says("set (?:⟨foot⟩⟨s2⟩ = )?⟨a:vector⟩ with its tip at ⟨s⟩")
     def lay_back(self, foot: str | None, a: str, s: str, **_: str) -> None:
         if a not in self.vectors:
             raise DefectError(f"{a} has no direction")
         self.tail = self.at(s) - self.vectors[a]
+        self.tails[self.trial] = self.tail
         if foot:
             self.put(foot, self.tail)
 
@@ -1338,6 +1450,8 @@ class Followed:
     key: dict[str, complex]
     step: int | None
     defect: str
+    tried: bool = False
+    """Whether trial plans were drawn: ends of components are told in them alone."""
 
     def deviations(self) -> dict[str, float]:
         """How far each point of the key is from where the sentences lead, in mm; not reached: ∞."""
@@ -1379,17 +1493,19 @@ def follow(folder: Path, name: str) -> Iterator[tuple[str, Followed]]:
         try:
             if plan:
                 reader.place["o"] = 0j
-                for sentence in first:
+                for after, sentence in enumerate(first, 1):
+                    reader.ahead = first[after:]
                     reader.follow(sentence)
                 reader.velocity = plan
                 reader.place = {n: z for n, z in reader.place.items() if n[0].isupper() or "′" in n}
             for number_, sentence in enumerate(key.sentences, 1):
-                step = number_
+                step, reader.ahead = number_, key.sentences[number_:]
                 reader.follow(sentence)
             step = None
         except DefectError as told:
             defect = str(told)
-        yield sheet, Followed(reader.place, moved_key(key, task, pole), step, defect)
+        moved, tried = moved_key(key, task, pole), bool(reader.blocks)
+        yield sheet, Followed(reader.place, moved, step, defect, tried)
         if sheet == "velocity":
             first = key.sentences
             plan = {n: z for n, z in reader.place.items() if n[0].islower()}

@@ -41,7 +41,9 @@ PARTS = {Line: 2, Circle: 2, Ratio: 3, Vector: 2}
 EXTRA = {"way": 1, "side": -1, "sense": -1, "place": 1, "size": 1.0}
 """What a step is told beside its arguments."""
 MANY = {f"higher.{name}": ("rrpp", (2,)) for name in ("reach", "span")} | {
-    f"cam_centre.{name}": ("rrrr", (-1.0, 3.0, 4.0)) for name in ("lift", "lift_rate", "lift_bend")
+    f"cam_centre.{name}": ("rrrr", (-1.0, 3.0, 4.0))
+    for laws in (("lift", "lift_rate", "lift_bend"), ("plate_lift", "plate_rate", "plate_bend"))
+    for name in laws
 }
 MANY |= {
     f"cam_centre.{name}": ("rrrrrrrr", (-1.0,))

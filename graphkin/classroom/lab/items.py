@@ -107,7 +107,7 @@ def moving(mechanism: Mechanism) -> Iterator[Item]:
 def moving_points(mechanism: Mechanism) -> list[str]:
     """The points that move, as the scene names them."""
     links = mechanism.scene.links.values()
-    fixed = mechanism.scene.frame.points
+    fixed = mechanism.scene.fixed_points
     return list(dict.fromkeys(p for link in links for p in link.points if p not in fixed))
 
 

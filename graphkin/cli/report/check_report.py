@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import combinations
-from math import degrees
+from math import degrees, isinf
 
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
@@ -20,7 +20,7 @@ from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.mechanism import Mechanism
 from graphkin.scene.known_names import named
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Cam, Scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import driver_problem
 from graphkin.structure.groups import Higher
@@ -152,7 +152,10 @@ def range_words(mechanism: Mechanism, found: ClosingRanges) -> str:
         return "closes for every angle of the driver: it turns fully"
     if not ranges:
         return f"closes for no {what} of the driver"
-    return f"closes for driver {what}s {reached_words(scene, ranges)}"
+    closes = "closes"
+    if any(cam.slides for cam in scene.cams.values()):
+        closes = "plans can be drawn, the plate being curved at the contact,"
+    return f"{closes} for driver {what}s {reached_words(scene, ranges)}"
 
 
 def turns_lines(trace: Trace, scene: Scene) -> list[str]:
@@ -199,7 +202,7 @@ def cam_lines(scene: Scene) -> Iterator[str]:
     unit = scene.units["length"]
     for follower, cam in scene.cams.items():
         moves = "swings" if cam.lever else "lifts"
-        yield f"link {cam.on} {moves} link {follower} by a {cam.tip} follower"
+        yield f"{named(cam.on)} {moves} link {follower} by a {cam.tip} follower"
         for profile in profiles_of(scene, follower):
             if profile.second:
                 yield "  and its second roller on the conjugate profile"
@@ -213,13 +216,21 @@ def profile_lines(profile: CamProfile, unit: str) -> Iterator[str]:
         angle, at = profile.steepest
         steep = STEEP_LEVER if cam.lever else STEEP
         over = f", above the usual {steep:g}°" if angle > steep else ""
-        yield f"  pressure angle at most {angle:.2f}° (at {at:.1f}° of the law){over}"
+        yield f"  pressure angle at most {angle:.2f}° (at {law_place(cam, at, unit)}){over}"
     radius, at = profile.sharpest
     size = f"{radius / METRES[unit]:.4g} {unit}"
-    if radius <= 0:
-        yield f"  undercut at {at:.1f}° of the law: radius {size}; {remedy(cam.tip)}"
+    place = law_place(cam, at, unit)
+    if isinf(radius):
+        yield "  no place of the profile is convex"
+    elif radius <= 0:
+        yield f"  undercut at {place}: radius {size}; {remedy(cam.tip)}"
     else:
-        yield f"  convex profile's least radius {size} (at {at:.1f}° of the law)"
+        yield f"  convex profile's least radius {size} (at {place})"
+
+
+def law_place(cam: Cam, at: float, unit: str) -> str:
+    """A place of a law, by the angle in degrees or the coordinate (m) of a plate."""
+    return f"{at / METRES[unit]:.4g} {unit} of the law" if cam.slides else f"{at:.1f}° of the law"
 
 
 def remedy(tip: str) -> str:

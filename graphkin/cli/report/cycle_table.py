@@ -69,7 +69,7 @@ def columns_of(cycle: Cycle) -> Iterator[Column]:
 def of_points(cycle: Cycle) -> Iterator[Column]:
     """Position, velocity and acceleration of every moving point, by components."""
     for name, motion in cycle.sure.points.items():
-        if name in cycle.scene.frame.points:
+        if name in cycle.scene.fixed_points:
             continue
         yield from own(motion, OF_POINTS, name)
 

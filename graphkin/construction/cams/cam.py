@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from graphkin.construction.acceleration import acceleration
-from graphkin.construction.cams.cam_centre import coordinate, height, set_lever
+from graphkin.construction.cams.cam_centre import (
+    coordinate,
+    curvature_centre,
+    height,
+    over_plate,
+    set_lever,
+)
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
+from graphkin.scene.model import FRAME
 from graphkin.structure.groups import CamFollower
 from graphkin.structure.pairs import Pin, Sliding
 
@@ -18,15 +25,21 @@ def place(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
     """The follower at the coordinate, or turned to the angle, that the law of its cam gives."""
     dyad = group.dyad
     follower = next(link for link in dyad.links if link in pen.scene.cams)
-    lever = pen.scene.cams[follower].lever
+    cam = pen.scene.cams[follower]
+    if cam.carrier != FRAME:
+        pen.want("position", cam.centre, curvature_centre(pen, shapes, cam.centre))
+    lever = cam.lever
     if lever:
         set_lever(pen, shapes, follower, lever)
         if isinstance(dyad.inner, Sliding):
             block_on(pen, shapes, dyad.inner, follower)
         return
-    line = height(pen, shapes, follower)
-    with pen.on(Part.POSITION, Plane.NUMBERS):
-        where = pen.draw(coordinate, *line)
+    if cam.slides:
+        *_, where = over_plate(pen, shapes, follower)
+    else:
+        line = height(pen, shapes, follower)
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            where = pen.draw(coordinate, *line)
     assert not isinstance(dyad.right, Pin)
     led_by(dyad.right).set_at(pen, shapes, follower, where)
     if isinstance(dyad.inner, Sliding):

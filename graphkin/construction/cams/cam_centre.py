@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.bases import Base
 from graphkin.construction.core.determined import Determined
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
+from graphkin.construction.core.vocabulary import coordinate as along_guide
 from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.guides.guides import axis, path_of
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -24,15 +24,18 @@ from graphkin.numbers.cam_followers import (
     TipMotion,
     guided_face,
     guided_tip,
+    level_on_path,
     lever_way,
     start_on_face,
+    start_on_plate,
     start_on_tip,
     swung_face,
     swung_tip,
+    upward,
 )
-from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced
+from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced, displaced_along
 from graphkin.numbers.plane import Line, cross, dot
-from graphkin.scene.model import Cam, CamLever
+from graphkin.scene.model import FRAME, Cam, CamLever
 from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:
@@ -59,6 +62,33 @@ def table(axis: Point, start: Point, *rest: Real) -> Rise:
     slopes = list(zip(begins, finishes, strict=True))
     found = displaced(turn if sense > 0 else turn.conjugate(), ends, rises, (), slopes)
     return Rise(found.at, sense * found.rate, found.bend)
+
+
+def plate_law(place: Real, start: Real, *rest: Real) -> Rise:
+    """The same by the coordinate of a plate."""
+    count = (len(rest) - 1) // 3
+    ends, rises = rest[:count], rest[count : 2 * count]
+    sense, motions = rest[2 * count], [NAMES[int(code)] for code in rest[2 * count + 1 :]]
+    found = displaced_along(sense * (place - start), ends, rises, motions)
+    return Rise(found.at, sense * found.rate, found.bend)
+
+
+@action("cam-lift")
+def plate_lift(place: Real, start: Real, *rest: Real) -> Real:
+    """The displacement of the follower of a plate."""
+    return plate_law(place, start, *rest).at
+
+
+@action("cam-lift")
+def plate_rate(place: Real, start: Real, *rest: Real) -> Real:
+    """Its derivative by the coordinate of the plate."""
+    return plate_law(place, start, *rest).rate
+
+
+@action("cam-lift")
+def plate_bend(place: Real, start: Real, *rest: Real) -> Real:
+    """Its second derivative."""
+    return plate_law(place, start, *rest).bend
 
 
 @action("cam-lift")
@@ -116,6 +146,32 @@ def coordinate(path: Line, pivot: Point, height: Real) -> Real:
     return dot(path.along, pivot - path.point) / abs(path.along) + height
 
 
+@action("cam-coordinate")
+def coordinate_on_plate(path: Line, plate: Line, prime: Real, lift: Real) -> Real:
+    """The coordinate of a follower that a plate lifts."""
+    return level_on_path(path, plate, prime) + lift
+
+
+@action("cam-seen")
+def seen_from(axis: Point, carrier: Point) -> Point:
+    """The axis of a cam as the link sees it that carries its follower."""
+    return axis * carrier.conjugate()
+
+
+@action("cam-seen")
+def seen_at_rest(carrier: Point) -> Point:
+    """The same of a cam at rest."""
+    return carrier.conjugate()
+
+
+@action("cam-swing")
+def swing_on_plate(plate: Line, pin: Point, arm: Real, prime: Real, lift: Real, side: int) -> Point:
+    """The direction of a lever whose roller or knife a plate lifts."""
+    up = upward(plate.along, pin - plate.point)
+    start = start_on_plate(dot(up, pin - plate.point), arm, prime)
+    return lever_way(up, start, side, lift)
+
+
 @action("cam-swing")
 def swing_on_tip(pivot: Point, pin: Point, arm: Real, prime: Real, lift: Real, side: int) -> Point:
     """The direction of a lever whose roller or knife a cam lifts."""
@@ -148,6 +204,41 @@ def curved(motion: TipMotion) -> Real:
     """
     far = abs(motion.centre)
     return abs(motion.place) / (abs(motion.place) + far)
+
+
+def tip_over_plate(path: Line, plate: Line, at: Real, rate: Real, bend: Real) -> TipMotion:
+    """How a roller or a knife moves that a guide leads over a plate; its place in the plane."""
+    along, drift = path.along / abs(path.along), plate.along / abs(plate.along)
+    return TipMotion(path.point + along * at, rate * along, bend * along, drift)
+
+
+def tip_of_lever_over_plate(
+    plate: Line, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
+) -> TipMotion:
+    """How it moves at the end of a lever; its place in the plane."""
+    swung = swung_tip(pin, way * arm, side, rate, bend)
+    return swung._replace(drift=plate.along / abs(plate.along))
+
+
+def curved_over(motion: TipMotion, size: Real) -> Real:
+    """The ``size`` of a law in parts of that and of the radius of the pitch curve."""
+    return size / (size + abs(motion.centre - motion.place))
+
+
+@action("cam-centre", margin=lambda *known: curved_over(tip_over_plate(*known[:5]), known[5]))
+def centre_over_plate(
+    path: Line, plate: Line, at: Real, rate: Real, bend: Real, size: Real
+) -> Point:
+    """The centre of curvature of the pitch curve of a plate under a guided tip."""
+    return tip_over_plate(path, plate, at, rate, bend).centre
+
+
+@action("cam-centre", margin=lambda *known: curved_over(tip_of_lever_over_plate(*known), known[3]))
+def centre_over_plate_by_lever(
+    plate: Line, pin: Point, way: Point, arm: Real, rate: Real, bend: Real, side: int
+) -> Point:
+    """The same under the tip of a lever."""
+    return tip_of_lever_over_plate(plate, pin, way, arm, rate, bend, side).centre
 
 
 @action("cam-centre", margin=lambda *known: curved(tip_on_guide(*known)))
@@ -240,12 +331,17 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
         """No circle stands for the cam where its pitch curve is straight."""
+        hint = (
+            "the follower moves by its law, but no circle stands for the cam here: move the driver"
+        )
+        if isinstance(args[0], Line):  # of a plate
+            hint += ", or write a straight flank as a guide on the plate"
         return Problem(
             f"position of {self.name}",
             f"{self.name} lies at infinity: the pitch curve of link {self.link} is straight at the "
             "contact",
             "a contact at which it is curved",
-            "the follower moves by its law, but no circle stands for the cam here: move the driver",
+            hint,
         )
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
@@ -265,28 +361,74 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         """The displacement of the follower and its derivatives, by numbers."""
         unit, values = drawing.scene.units["length"], drawing.trace.values
         numbers = (values[self.lift], values[self.rate], values[self.bend])
-        if drawing.scene.cams[self.follower].lever:
+        cam, one = drawing.scene.cams[self.follower], drawing.length(1.0)
+        if cam.slides:
+            return self.plate_words(drawing, cam, one)
+        if cam.lever:
             angle, rate, bend = degrees(numbers[0]), *numbers[1:]
             s, rate, bend = (drawing.words.fixed(each, 3) for each in (angle, rate, bend))
             return drawing.words("page.cam_swing", s=s, rate=rate, bend=bend)
         s, rate, bend = (drawing.words.fixed(drawing.length(each), 3) for each in numbers)
         return drawing.words("page.cam_law", s=s, rate=rate, bend=bend, unit=unit)
 
+    def plate_words(self, drawing: Drawing, cam: Cam, one: float) -> str:
+        """The same of a plate, whose coordinate has ``one`` unit of length in a metre."""
+        unit, values, words = drawing.scene.units["length"], drawing.trace.values, drawing.words
+        at, rate, bend = (values[each] for each in (self.lift, self.rate, self.bend))
+        if cam.lever:
+            numbers = degrees(at), rate / one, bend / one**2
+        else:
+            numbers = at * one, rate, bend / one
+        s, slope, turn = (words.significant(each, 5) for each in numbers)
+        key = "page.cam_plate_swing" if cam.lever else "page.cam_plate_law"
+        return words(key, s=s, rate=slope, bend=turn, unit=unit)
+
 
 def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:
     """What the steps of a law start from, and its sense and motions."""
+    place = plate_coordinate(pen, shapes, cam) if cam.slides else seen_axis(pen, shapes, cam)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        start = pen.given("direction", cam.start)
-        ends = [pen.given("number", piece.to) for piece in cam.law]
+        start = pen.given("length" if cam.slides else "direction", cam.start)
+        ends = [pen.given("length" if cam.slides else "number", piece.to) for piece in cam.law]
         form = "number" if cam.lever else "length"
         rises = [pen.given(form, piece.rise) for piece in cam.law]
         slopes = [pen.given(form, each) for pair in zip(*cam.slopes, strict=True) for each in pair]
     if slopes:
-        steps = axis(pen, shapes, cam.on), start, *ends, *rises, *slopes
+        steps = place, start, *ends, *rises, *slopes
         return steps, (float(cam.sense),)
     codes = [float(NAMES.index(piece.motion)) for piece in cam.law]
-    steps = axis(pen, shapes, cam.on), start, *ends, *rises
+    steps = place, start, *ends, *rises
     return steps, (float(cam.sense), *codes)
+
+
+def plate_line(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
+    """The path of the point of a plate that its guide leads."""
+    return path_of(pen, shapes, pen.first_slide(cam.on), cam.on, cam.pivot)
+
+
+def plate_coordinate(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
+    """The coordinate of a plate on its guide."""
+    line = plate_line(pen, shapes, cam)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        return once(pen, ("plate", cam.on), along_guide, line, pen.the("position", cam.pivot))
+
+
+def seen_axis(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
+    """The axis of a cam as its carrier sees it."""
+    if cam.carrier == FRAME:
+        return axis(pen, shapes, cam.on)
+    key, carrier = ("cam seen", cam.on + cam.carrier), axis(pen, shapes, cam.carrier)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        if cam.on == FRAME:
+            return once(pen, key, seen_at_rest, carrier)
+        return once(pen, key, seen_from, axis(pen, shapes, cam.on), carrier)
+
+
+def law_actions(cam: Cam) -> tuple[Action, Action, Action]:
+    """What gives the displacement and its two derivatives."""
+    if cam.slides:
+        return plate_lift, plate_rate, plate_bend
+    return (table_lift, table_rate, table_bend) if cam.slopes else (lift, lift_rate, lift_bend)
 
 
 def once(pen: Pen, key: tuple[str, str], action: Action, *args: int, extra: Any = ()) -> int:
@@ -305,7 +447,7 @@ def lifted(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int]:
         if cam.tip == "roller":
             roller = pen.given("length", cam.roller)
             prime = once(pen, ("cam prime", follower), widened, prime, roller)
-        found = table_lift if cam.slopes else lift
+        found, *_ = law_actions(cam)
         return prime, once(pen, ("cam lift", follower), found, *steps, extra=extra)
 
 
@@ -319,18 +461,31 @@ def height(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
         return path, pivot, once(pen, ("cam height", follower), kind, path, pivot, *begun)
 
 
+def over_plate(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
+    """The path of a follower's point, that of the plate under it, and the follower's coordinate."""
+    cam = pen.scene.cams[follower]
+    path = path_of(pen, shapes, pen.first_slide(follower), follower, cam.point)
+    plate, begun = plate_line(pen, shapes, cam), lifted(pen, shapes, follower)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        key = "cam coordinate", follower
+        return path, plate, once(pen, key, coordinate_on_plate, path, plate, *begun)
+
+
 def swing(
     pen: Pen, shapes: LinkShapes, follower: str, lever: CamLever
 ) -> tuple[int, int, int, int]:
-    """The cam's pivot, the pin of a lever, its direction, and its length or how its face lies."""
+    """The cam's pivot or the path of a plate, the pin of a lever, its direction, and its length or
+    how its face lies."""
     cam = pen.scene.cams[follower]
-    ends = pen.the("position", cam.pivot), pen.the("position", lever.pin)
+    seat = plate_line(pen, shapes, cam) if cam.slides else pen.the("position", cam.pivot)
+    ends = seat, pen.the("position", lever.pin)
     if cam.is_flat:
         with pen.on(Part.POSITION, Plane.NUMBERS):
             size = pen.given("length", lever.face)
     else:
         size = shapes.length(follower, lever.pin, cam.point)
-    begun, kind = lifted(pen, shapes, follower), swing_on_face if cam.is_flat else swing_on_tip
+    begun = lifted(pen, shapes, follower)
+    kind = swing_on_plate if cam.slides else swing_on_face if cam.is_flat else swing_on_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):
         steps = *ends, size, *begun
         way = once(pen, ("cam swing", follower), kind, *steps, extra=(lever.side,))
@@ -357,7 +512,7 @@ def widened(base: Real, roller: Real) -> Real:
     return base + roller
 
 
-def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
+def curvature_centre(pen: Pen, shapes: LinkShapes, name: str) -> int:
     """The centre of curvature of a cam under its follower, in the plane."""
     follower = pen.scene.cam_centres[name]
     cam = pen.scene.cams[follower]
@@ -366,17 +521,20 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int
     if cam.lever:
         where: tuple[int, ...] = swing(pen, shapes, follower, cam.lever)
         kind = centre_under_swung_face if cam.is_flat else centre_under_lever
+        kind = centre_over_plate_by_lever if cam.slides else kind
         extra_side = (cam.lever.side,)
+    elif cam.slides:
+        where, kind = over_plate(pen, shapes, follower), centre_over_plate
     else:
         path, pivot, above = height(pen, shapes, follower)
         where = pivot, path, above
         kind = centre_under_face if cam.is_flat else centre_under_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        rate = pen.draw(table_rate if cam.slopes else lift_rate, *steps, extra=extra)
-        bend = pen.draw(table_bend if cam.slopes else lift_bend, *steps, extra=extra)
+        rate, bend = (pen.draw(each, *steps, extra=extra) for each in law_actions(cam)[1:])
+        size = (pen.given("length", cam.law[-1].to),) if kind is centre_over_plate else ()
     displaced_by = pen.shared["cam lift", follower]
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        point = pen.draw(kind, *where, rate, bend, extra=extra_side, name=name)
+        point = pen.draw(kind, *where, rate, bend, *size, extra=extra_side, name=name)
         roles = {"link": cam.on, "follower": follower, "start": cam.pivot, "name": name}
         made = CurvatureCentre(**roles, lift=displaced_by, rate=rate, bend=bend, point=point)
         pen.make(made)

@@ -40,15 +40,19 @@ def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
             board.marks.append(CircleMark(*field(places[tip]), radius, "profile", follower))
         elif cam.is_flat:
             pin = places[cam.lever.pin] if cam.lever else None
-            (x1, y1), (x2, y2) = map(field, face_ends(profile, pin, places[tip]))
+            carrier = drawing.standing.axis(cam.carrier) or 1 + 0j
+            (x1, y1), (x2, y2) = map(field, face_ends(profile, pin, places[tip], carrier))
             board.marks.append(LineMark(x1, y1, x2, y2, "profile", follower))
 
 
-def face_ends(profile: CamProfile, pin: complex | None, tip: complex) -> tuple[complex, complex]:
-    """The ends of a flat face whose point, or whose lever's, stands at ``tip``."""
+def face_ends(
+    profile: CamProfile, pin: complex | None, tip: complex, carrier: complex
+) -> tuple[complex, complex]:
+    """The ends of a flat face whose point, or whose lever's, stands at ``tip``; the axis of the
+    ``carrier``."""
     lever, far = profile.cam.lever, BEYOND * profile.face
     if lever is None or pin is None:
-        along, aside = profile.guide
+        along, aside = profile.guide[0] * carrier, profile.guide[1]
         foot = tip - 1j * along * aside
         return foot - 1j * along * far, foot + 1j * along * far
     way = (tip - pin) / abs(tip - pin)

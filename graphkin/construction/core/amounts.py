@@ -31,7 +31,12 @@ def in_mm(words: Words, length: OnPaper) -> str:
 def written(scene: Scene, words: Words, quantity: Quantity) -> str:
     """A quantity as printed: in its written unit, in the language's own way."""
     unit = words(f"unit.{quantity.unit}") if words.has(f"unit.{quantity.unit}") else quantity.unit
+    return number_of(scene, words, quantity) + ("" if unit == "°" else " ") + unit
+
+
+def number_of(scene: Scene, words: Words, quantity: Quantity) -> str:
+    """A quantity as printed, without its unit; a long number to as many digits as a hand needs."""
     text = quantity.written(scene.values)
     if len(text) > LONGEST:
         text = f"{float(text):.{LONGEST - 3}g}"
-    return words.decimal(text) + ("" if unit == "°" else " ") + unit
+    return words.decimal(text)

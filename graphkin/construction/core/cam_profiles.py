@@ -1,7 +1,8 @@
 """Profiles of cams over a whole turn: the envelope of the follower, and how well it lifts.
 
 The angle θ of the cam runs over a turn; places are counted from the cam's pivot, in the cam's own
-axes (m), unless the axes of the frame are named.
+axes (m), unless the axes of its carrier are named. The coordinate of a plate runs over its law;
+what is said of its angles is then of coordinates (m).
 """
 
 from __future__ import annotations
@@ -17,18 +18,25 @@ from graphkin.numbers.cam_followers import (
     TipMotion,
     guided_face,
     guided_tip,
+    level_on_path,
     lever_way,
     start_on_face,
+    start_on_plate,
     start_on_tip,
     swung_face,
     swung_tip,
+    upward,
 )
 from graphkin.numbers.cam_motions import Rise
-from graphkin.scene.model import FRAME, Cam, Scene
+from graphkin.numbers.plane import Line
+from graphkin.scene.model import Cam, Scene
+from graphkin.scene.quantity import Quantity
 from graphkin.structure.link_axes import body, guide_line, metres
 
 DRAWN = 180
 """Corners of a profile as it is drawn."""
+BESIDE = 0.15
+"""How far a plate is drawn beyond its law on both sides, in parts of it."""
 EXAMINED = 3600
 """Angles at which a profile is examined."""
 
@@ -55,17 +63,30 @@ class CamProfile(Struct, frozen=True, dict=True):
         """The angles of the cam's axis, in radians."""
         if self.given is not None:
             return np.asarray(self.given)
+        if self.cam.slides:
+            start, whole = (float(q.si(self.scene.values)) for q in (self.cam.start, self.whole))
+            way = np.linspace(-BESIDE, 1 + BESIDE, self.count)
+            return start + self.cam.sense * whole * way
         return np.arange(self.count) * (2 * np.pi / self.count)
 
     @property
+    def whole(self) -> Quantity:
+        """Where the law ends."""
+        return self.cam.law[-1].to
+
+    @property
     def law_angles(self) -> Any:
-        """The angles from which the law counts, in degrees from 0 to 360."""
+        """The angles from which the law counts, in degrees from 0 to 360; lengths in metres."""
         start = self.cam.start.si(self.scene.values)
+        if self.cam.slides:
+            return self.cam.sense * (self.angles - float(start))
         return np.degrees(self.cam.sense * (self.angles - start)) % 360
 
     @cached_property
     def rise(self) -> Rise:
         """The displacement of the follower and its derivatives by the cam's angle."""
+        if self.cam.slides:
+            return self.cam.displacement(self.angles, self.scene.values)
         return self.cam.displacement(np.exp(1j * self.angles), self.scene.values)
 
     @cached_property
@@ -74,23 +95,43 @@ class CamProfile(Struct, frozen=True, dict=True):
         scene = self.scene
         slide = scene.link(self.follower).slides[0]
         line = guide_line(scene, slide)
-        pivot = body(scene, slide.on)[self.cam.pivot]
+        pivot = self.origin
         aside = ((line.point - pivot) * line.along.conjugate()).imag
         return complex(line.along), aside + float(slide.offset.si(scene.values))
 
     @cached_property
+    def plate(self) -> Line:
+        """The path of a plate's pivot, in the carrier's axes, along a unit vector."""
+        slide = self.scene.link(self.cam.on).slides[0]
+        line, offset = guide_line(self.scene, slide), metres(self.scene, slide.offset)
+        return Line(line.point + 1j * line.along * offset, line.along)
+
+    @property
+    def origin(self) -> complex:
+        """The cam's pivot in the carrier's axes; of a plate where its path begins."""
+        return (
+            self.plate.point
+            if self.cam.slides
+            else body(self.scene, self.cam.carrier)[self.cam.pivot]
+        )
+
+    @cached_property
     def bar(self) -> tuple[complex, float]:
         """The pin of a lever from the cam's pivot, and its length from there to the tip."""
-        lever, fixed = self.cam.lever, body(self.scene, FRAME)
+        lever, fixed = self.cam.lever, body(self.scene, self.cam.carrier)
         assert lever is not None
         own = body(self.scene, self.follower)
-        return fixed[lever.pin] - fixed[self.cam.pivot], abs(own[self.cam.point] - own[lever.pin])
+        return fixed[lever.pin] - self.origin, abs(own[self.cam.point] - own[lever.pin])
 
     @cached_property
     def way(self) -> Any:
         """The unit vectors of a lever in the axes of the frame."""
         lever, (pin, arm) = self.cam.lever, self.bar
         assert lever is not None
+        if self.cam.slides:
+            up = upward(self.plate.along, pin)
+            start = start_on_plate((pin * np.conj(up)).real, arm, self.prime)
+            return lever_way(up, start, lever.side, self.rise.at)
         if self.cam.is_flat:
             start = start_on_face(pin, self.base + metres(self.scene, lever.face))
         else:
@@ -122,6 +163,10 @@ class CamProfile(Struct, frozen=True, dict=True):
     @property
     def height(self) -> Any:
         """How far a sliding follower's point stands along the guide from the foot of the pivot."""
+        if self.cam.slides:
+            along, aside = self.guide
+            path = Line(1j * along * aside, along)
+            return level_on_path(path, Line(0j, self.plate.along), self.prime) + self.rise.at
         if self.cam.is_flat:
             return self.base + self.rise.at
         return np.sqrt(self.prime**2 - self.guide[1] ** 2) + self.rise.at
@@ -132,9 +177,10 @@ class CamProfile(Struct, frozen=True, dict=True):
         rates, lever = (self.rise.rate, self.rise.bend), self.cam.lever
         if lever:
             pin, arm = self.bar
-            return swung_tip(pin, self.beside(arm) * self.way, lever.side, *rates)
+            tip = swung_tip(pin, self.beside(arm) * self.way, lever.side, *rates)
+            return tip._replace(drift=self.drift)
         along, aside = self.guide
-        tip = guided_tip(along, aside, self.height, *rates)
+        tip = guided_tip(along, aside, self.height, *rates)._replace(drift=self.drift)
         return tip._replace(place=tip.place + self.beside(0.0) * along)
 
     def beside(self, arm: float) -> complex:
@@ -158,6 +204,19 @@ class CamProfile(Struct, frozen=True, dict=True):
             return swung_face(self.bar[0], self.way, face, lever.side, *rates)
         return guided_face(self.guide[0], self.height, *rates)
 
+    @property
+    def drift(self) -> complex | None:
+        """The unit vector of a plate's path, in the carrier's axes; None where the cam turns."""
+        return complex(self.plate.along) if self.cam.slides else None
+
+    @cached_property
+    def inward(self) -> complex:
+        """The quarter turn from the way of the tip on the pitch curve to the inside of the cam."""
+        if not self.cam.slides:
+            return -1j
+        toward = self.bar[0] if self.cam.lever else self.guide[0]
+        return 1j if (toward / self.plate.along).imag > 0 else -1j
+
     @cached_property
     def outline(self) -> Any:
         """The places of the profile in the cam's axes."""
@@ -165,8 +224,14 @@ class CamProfile(Struct, frozen=True, dict=True):
             place = self.flat.contact
         else:
             way = self.tip.way
-            place = self.tip.place - 1j * way * (self.roller / abs(way))
+            place = self.tip.place + self.inward * way * (self.roller / abs(way))
+        if self.cam.slides:
+            return self.closed(place / self.plate.along - self.angles)
         return place * np.exp(-1j * self.angles)
+
+    def closed(self, outline: Any) -> Any:
+        """The profile of a plate, and its edges down to the path of its point."""
+        return np.concatenate([outline, [outline[-1].real, outline[0].real]])
 
     @property
     def reach(self) -> float:
@@ -206,7 +271,8 @@ class CamProfile(Struct, frozen=True, dict=True):
         if self.is_flat:
             return self.flat.radius
         way = self.tip.way
-        return -(way.conj() * self.tip.turn).imag / abs(way) ** 3
+        across = (way.conj() * self.tip.turn).imag
+        return self.inward.imag * across / abs(way) ** 3
 
     @property
     def radius(self) -> Any:
@@ -233,9 +299,3 @@ def profiles_of(scene: Scene, follower: str, count: int = EXAMINED) -> list[CamP
     """The profile of a follower's cam, and the conjugate one where it has a second roller."""
     both = (False, True) if scene.cams[follower].conjugate else (False,)
     return [CamProfile(scene, follower, count, second=second) for second in both]
-
-
-def profiles_along(scene: Scene, turned: str, angles: Any) -> dict[str, CamProfile]:
-    """The cams on a link by their followers, at the angles of its x axis (radians)."""
-    on = (follower for follower, cam in scene.cams.items() if cam.on == turned)
-    return {follower: CamProfile(scene, follower, given=angles) for follower in on}

@@ -161,7 +161,11 @@ class Drawing(Struct, frozen=True, dict=True):
         from graphkin.construction.core.cam_profiles import DRAWN, profiles_of
 
         for follower, cam in self.scene.cams.items():
-            if cam.pivot in self.positions:
+            axis = self.standing.axis(cam.on)
+            if cam.slides and cam.pivot in self.positions and axis is not None:
+                profile, *_ = profiles_of(self.scene, follower, DRAWN)
+                yield from (self.positions[cam.pivot] + axis * place for place in profile.outline)
+            elif cam.pivot in self.positions:
                 reach = max(each.reach for each in profiles_of(self.scene, follower, DRAWN))
                 yield from (self.positions[cam.pivot] + reach * way for way in (1 + 1j, -1 - 1j))
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from graphkin.construction.core.amounts import in_degrees, written
+from graphkin.construction.core.amounts import in_degrees, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
 from graphkin.construction.core.line_words import axis_of
@@ -23,6 +23,7 @@ from graphkin.construction.core.relation import figure
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.model import (
+    FRAME,
     Angled,
     At,
     Cam,
@@ -133,15 +134,21 @@ def cams(drawing: Drawing) -> Iterator[str]:
         fields = {"g": escape(cam.on), "k": escape(follower)}
         fields["tip"] = cam_tip(scene, words, cam)
         base = written(scene, words, cam.base)
-        sense = words("page.cam_clockwise" if cam.sense < 0 else "page.cam_counter")
+        senses = ("cam_forward", "cam_backward") if cam.slides else ("cam_counter", "cam_clockwise")
+        sense = words(f"page.{senses[cam.sense < 0]}")
         start = words("page.cam_start", angle=written(scene, words, cam.start))
         turned = sense + ("" if cam.start.is_zero() else start)
+        key = "page.cam_plate" if cam.slides else "page.cam"
+        if cam.slides:
+            fields["p"] = symbol(cam.pivot)
         if cam.lever:
-            line = bar(cam.pivot, cam.lever.pin)
+            line, pin = bar(cam.pivot, cam.lever.pin), symbol(cam.lever.pin)
             fields["side"] = words("page.cam_left" if cam.lever.side > 0 else "page.cam_right")
-            yield words("page.cam_lever", base=base, line=line, **fields)
-        else:
-            yield words("page.cam", base=base, **fields)
+            fields |= {"q": pin} if cam.slides else {"line": line}
+            key += "_lever"
+        yield words(key, base=base, **fields)
+        if cam.carrier != FRAME and not cam.slides:
+            yield words("page.cam_seen", g=fields["g"], c=escape(cam.carrier))
         if cam.conjugate:
             radius, at = written(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
             yield words("page.cam_conjugate", radius=radius, p=at, **fields)
@@ -150,7 +157,8 @@ def cams(drawing: Drawing) -> Iterator[str]:
             yield words("page.cam_table", sense=turned, points=points, **fields)
             continue
         first, *rest = (cam_piece(scene, words, piece) for piece in cam.law)
-        yield words("page.cam_by", sense=turned, piece=first, **fields)
+        by = "page.cam_plate_by" if cam.slides else "page.cam_by"
+        yield words(by, sense=turned, piece=first, **fields)
         yield from rest
 
 
@@ -168,7 +176,7 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
     at, lift, unit = exact(0, cam.law[0].to.unit), Fraction(0), cam.law[0].rise.unit
     points = []
     for piece in cam.law:
-        height = words.decimal(exact(lift).written(scene.values))
+        height = number_of(scene, words, exact(lift))
         points.append(f"{written(scene, words, at)}: {height}")
         at, lift = piece.to, lift + piece.rise.number(scene.values)
     return ", ".join(points) + f" ({unit})"
@@ -288,7 +296,7 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:
     """A point's coordinates."""
-    x, y = (words.decimal(q.written(scene.values)) for q in (placing.x, placing.y))
+    x, y = (number_of(scene, words, q) for q in (placing.x, placing.y))
     return words.place(x, y)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from math import degrees
 
-from graphkin.construction.core.amounts import in_mm, written
+from graphkin.construction.core.amounts import in_mm, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.drawing.richtext import escape
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -57,7 +57,7 @@ def place(
     elif pin:
         x, y = (number(drawing, drawing.length(part)) for part in (away.real, away.imag))
     else:
-        x, y = (words.decimal(each.written(drawing.scene.values)) for each in through)
+        x, y = (number_of(drawing.scene, words, each) for each in through)
     if not pin:
         return f"{drawing.words.place(x, y)} {unit}"
     return words("page.away", place=words.place(x, y), unit=unit, point=symbol(pin))

@@ -68,9 +68,13 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
             "s": symbol(letter_at(drawing, self.start)),
             "name": symbol(steps[self.image].name),
             "guide": self.way(drawing),
-            "vector": self.vector_along(drawing, self.image),
+            "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
             "drawn": length_drawn(drawing, self.start, self.image),
         }
+
+    def relative(self, drawing: Drawing) -> str:
+        """The motion of the point against the guide, where no vector of the plan has its name."""
+        return symbol(f"{drawing.vector.letter}_{''.join(self.slider(drawing, self.point))}")
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How it is laid off; where it is nought, why the point falls on the one before."""

@@ -58,11 +58,23 @@ class GuideLine(Construction, frozen=True, kw_only=True):
         return f"the line through {self.start}" if self.start else f"guide {self.block}"
 
     def clause(self, drawing: Drawing, role: str) -> str:
-        """The only guide needs no name."""
-        links = drawing.scene.links
+        """The only guide needs no name; of a link found with its group the angle is told."""
+        links, steps = drawing.scene.links, drawing.trace.program.steps
+        direction = steps[self.line].args[-1]
+        if self.start and any(
+            is_found_by_closing(steps[each]) for each in (direction, *steps[direction].args)
+        ):
+            return found_at_angle(drawing, self.block, self.start, self.line)
         if sum(len(link.paths) for link in links.values()) == 1 and links[self.block].slides:
             return drawing.words("step.guide")
         return drawing.words("step.guide-named", guide=way_of(drawing, self.block))
+
+
+def found_at_angle(drawing: Drawing, block: str, point: str, line: int) -> str:
+    """The guide of a block through a point, at the angle that was found with a group."""
+    angle = drawing.words.fixed(degrees(phase(drawing.trace.values[line].along)), 1)
+    fields = {"q": symbol(point), "guide": way_of(drawing, block)}
+    return drawing.words("step.guide-back-found", angle=angle, **fields)
 
 
 class GuideAlongBar(GuideLine, frozen=True, kw_only=True):
@@ -89,13 +101,11 @@ class GuideThroughBlock(Construction, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through the point of the block; at an angle where that was found with a group."""
-        words, steps = drawing.words, drawing.trace.program.steps
-        point = symbol(drawing.scene.links[self.block].points[0])
-        fields = {"q": point, "guide": way_of(drawing, self.block)}
-        if not is_found_by_closing(steps[self.axis]):
-            return words("step.guide-back", **fields)
-        angle = words.fixed(degrees(phase(drawing.trace.values[self.line].along)), 1)
-        return words("step.guide-back-found", angle=angle, **fields)
+        point = drawing.scene.links[self.block].points[0]
+        if is_found_by_closing(drawing.trace.program.steps[self.axis]):
+            return found_at_angle(drawing, self.block, point, self.line)
+        fields = {"q": symbol(point), "guide": way_of(drawing, self.block)}
+        return drawing.words("step.guide-back", **fields)
 
 
 class ShiftedGuide(Construction, frozen=True, kw_only=True):

@@ -63,7 +63,7 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
     moving = {point for link in drawing.scene.links.values() for point in link.points}
     return {
         name: drawing.positions[name]
-        for name in drawing.scene.frame.points
+        for name in drawing.scene.fixed_points
         if name in moving and name in drawing.positions
     }
 

@@ -9,7 +9,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar
+from graphkin.drawing.symbol_markup import bar, symbol
 
 IDLE = "idle "
 """What the name of a sentence about an idle link begins with; the link's name follows."""
@@ -22,7 +22,10 @@ def points_of(step: Step) -> set[str]:
 
 
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
-    """Each bar that no step lays off, because its pins stand without it: an idle link."""
+    """Each bar that no step lays off, because its pins stand without it: an idle link.
+
+    With it the block that stands for the contact of a cam with a flat face.
+    """
     told = [
         points_of(step)
         for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
@@ -30,6 +33,10 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     ]
     for link in drawing.scene.links.values():
         points = set(link.points)
+        if link.slides and link.name in drawing.scene.cam_links:
+            follower = drawing.scene.cam_links[link.name]
+            fields = {"k": escape(link.name), "f": escape(follower), "p": symbol(link.points[0])}
+            yield Sentence(-1, IDLE + link.name, drawing.words("step.cam-face", **fields))
         laid = any(len(points & names) > 1 for names in told)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}

@@ -12,7 +12,7 @@ from graphkin.construction.core.vocabulary import action, distance, in_proportio
 from graphkin.construction.links.compass_arc import compass
 from graphkin.construction.links.dyad_by_arcs import arcs_meet
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.scene.model import Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
+from graphkin.scene.model import FRAME, Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
 
 Placed = dict[str, int]
 
@@ -72,6 +72,8 @@ class LinkShapes:
                     return self.pen.given("origin")
                 length = self.pen.draw(distance, *(self.pen.the("position", p) for p in points))
                 return self.pen.draw(lay_off, self.pen.given("origin"), length)
+        if link == FRAME:
+            return self.pen.the("position", point)
         start = self.pen.bases[link].start
         ends = (self.pen.the("position", each) for each in (start, point))
         here = self.local(link, start)

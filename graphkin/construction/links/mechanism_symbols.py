@@ -40,7 +40,7 @@ def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_fixed_wheels(board, drawing, field)
     draw_ground(board, drawing, field)
     pinned = moving_points(drawing)
-    for name in drawing.scene.frame.points:
+    for name in drawing.scene.fixed_points:
         radius = FIXED if name in pinned else FREE
         board.marks.append(pin(field(drawing.positions[name]), name, radius))
         letter(board, drawing, field, name)
@@ -59,7 +59,7 @@ def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
 def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
     """The letter of a point: of the frame's beside its pivot, of others away from their bars."""
     at = field(drawing.positions[name])
-    fixed = name in drawing.scene.frame.points
+    fixed = name in drawing.scene.fixed_points
     away = off_ground(drawing, field, name) if fixed else outward(drawing, field, name)
     radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
     board.labels.append(
@@ -179,7 +179,7 @@ def draw_outlines(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 def draw_pins(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The pins with their letters; a circle more for each further link that a pin joins."""
-    fixed, pinned = set(drawing.scene.frame.points), moving_points(drawing)
+    fixed, pinned = set(drawing.scene.fixed_points), moving_points(drawing)
     for name, place in drawing.positions.items():
         at, count = field(place), sharers(drawing, name)
         rings = [PIN + HINGE * i for i in range(1, count - 1)]

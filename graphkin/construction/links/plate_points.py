@@ -21,6 +21,7 @@ from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.construction.links.placed_point import place_point
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Line, crossing_sine, dot
+from graphkin.scene.model import FRAME
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -160,9 +161,11 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
         if pen.has("position", point):
             continue
         if point in pen.scene.cam_centres:
+            if pen.scene.cams[pen.scene.cam_centres[point]].carrier != FRAME:
+                continue  # with the follower, whose carrier may stand later
             from graphkin.construction.cams.cam_centre import curvature_centre
 
-            found = curvature_centre(pen, shapes, base, point)
+            found = curvature_centre(pen, shapes, point)
         elif base.end is None or "@" in base.end:
             found = set_by_axis(pen, shapes, base, point)
         else:

@@ -97,7 +97,7 @@ def draw(ax: Axes, stand: Outline, breadth: float) -> None:
     profiles(ax, stand, stand.scene.frame, size)
     pinned = {point for link in stand.scene.links.values() for point in link.points}
     for name, place in stand.places.items():
-        fixed = name in stand.scene.frame.points
+        fixed = name in stand.scene.fixed_points
         if fixed and name in pinned:
             pivot(ax, place, size)
         if name in pinned:
@@ -120,7 +120,7 @@ def letter(ax: Axes, stand: Outline, name: str, place: complex) -> None:
     away = place - sum(others) / len(others) if others else 1j
     away = away / abs(away) if away else 1j
     way = 9 * away
-    if name in stand.scene.frame.points:
+    if name in stand.scene.fixed_points:
         way = complex(-13 if away.real <= 0 else 13, 3)
     elif (along := block_along(stand, name)) is not None:
         square = 1j * along

@@ -134,7 +134,7 @@ def of_links(found: Sampled, links: Sequence[str]) -> Figure:
 def line_of(found: Sampled, link: str) -> tuple[str, ...]:
     """The first two points of a link, a fixed pivot first."""
     points = [p for p in found.scene.links[link].points if p in found.solution.points]
-    fixed = [p for p in points if p in found.scene.frame.points]
+    fixed = [p for p in points if p in found.scene.fixed_points]
     ordered = dict.fromkeys((*fixed, *points))
     return tuple(ordered)[:2] if len(ordered) > 1 else ()
 

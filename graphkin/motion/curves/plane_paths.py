@@ -37,7 +37,7 @@ Box = tuple[float, float, float, float]
 def path_points(found: Sampled) -> list[str]:
     """The moving points whose paths are worth drawing: those asked, and those of couplers."""
     scene = found.scene
-    fixed = set(scene.frame.points)
+    fixed = set(scene.fixed_points)
     driven = {driver.link for driver in scene.drivers}
     couplers = [
         point

@@ -110,7 +110,7 @@ def moving_points(scene: Scene, solution: Solution) -> list[str]:
         for name, link in scene.links.items()
         if name not in driven
         for point in link.points
-        if point not in scene.frame.points and point in solution.points
+        if point not in scene.fixed_points and point in solution.points
     )
     return list(found)
 
