@@ -161,7 +161,7 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
     closer = closer_of(failed.step)
     assert closer is not None
     trying = closer.trying
-    if trying.facing is not None or trying.inner:
+    if trying.first.facing is not None or trying.several:
         return ""
     known = [np.atleast_1d(value) for value in failed.args_found]
     tried = trying.grid(known, 1).ravel()
@@ -169,7 +169,7 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
     least = np.inf
     for signs in sign_table(len(trying.signs)):
         rows = np.broadcast_to(np.array(signs, dtype=float), (len(tried), len(signs)))
-        missed = np.abs(trying.misfits(here, tried, rows))
+        missed = np.abs(trying.misfits(here, tried[:, None], rows))
         least = np.nanmin(missed, initial=least)
     if not np.isfinite(least):
         return ", wherever the first of them is tried"

@@ -58,7 +58,7 @@ def loci_of(mechanism: Mechanism) -> tuple[Curve, ...]:
         step = steps[number]
         assert step.action is not None and isinstance(step.action.value, ClosureSolver)
         closer = step.action.value
-        round_ = closer.trying.turns and not closer.trying.inner
+        round_ = closer.trying.first.turns and not closer.trying.several
         loci = closer.loci([trace.values[arg] for arg in step.args], trace.values[number])
         kind = construction(step)
         assert isinstance(kind, ClosedGroup)

@@ -26,6 +26,8 @@ PLACES = 720
 
 Between them there are as many as the motion needs.
 """
+FEWER = 120
+"""The same where several links of the group are tried at once: each costs as much as a hundred."""
 CHUNK = 120
 """Places at which closures are found at once."""
 NEAR = 0.3
@@ -155,7 +157,8 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[NumberedPlac
     """
     course = group.course
     whole = course.sweep.usual
-    count = max(int(np.ceil(abs(stop - start) / whole * PLACES)), 2)
+    places = FEWER if course.tries_several else PLACES
+    count = max(int(np.ceil(abs(stop - start) / whole * places)), 2)
     if count > MOST:
         raise too_many(course)
     grid = np.linspace(start, stop, count + 1)

@@ -142,9 +142,9 @@ def closure_number(standing: Standing, mechanism: Mechanism, group: Higher, coun
     trying = step.action.value.trying
     known = [np.atleast_1d(values[arg]) for arg in step.args]
     table = trying.closures(known).table
-    signs = table[:, 2 : 2 + len(trying.signs)]
+    tried, signs = np.split(table[:, 1:-1], [len(trying.unknowns)], axis=1)
     here = [np.broadcast_to(each, len(table)) for each in known]
-    found = trying.found(here, table[:, 1], signs)
+    found = trying.found(here, tried, signs)
     links = [name for name in mechanism.scene.links if name in group.links]
     off = np.max(
         [

@@ -17,18 +17,18 @@ SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 def sought(monkeypatch) -> list[tuple[object, ...]]:
     """What was known at each search for closures."""
     calls: list[tuple[object, ...]] = []
-    closed = Trying.closed
+    closures = Trying.closures
 
-    def counted(self, known, number):
-        calls.append((id(self), tuple(known), number))
-        return closed(self, known, number)
+    def counted(self, known):
+        calls.append((id(self), *(value[0] for value in known)))
+        return closures(self, known)
 
-    monkeypatch.setattr(Trying, "closed", counted)
+    monkeypatch.setattr(Trying, "closures", counted)
     return calls
 
 
 @pytest.mark.parametrize("name", ["rod-and-wheel", "stephenson-3-crank"])
-def test_the_sheets_of_a_scene_seek_each_closure_once(name, sought):
+def test_the_sheets_of_a_scene_seek_its_closures_once(name, sought):
     hand_out(load(str(SCENES / f"{name}.toml")))
     assert 1 <= len(sought) == len(set(sought)) <= KEPT
 

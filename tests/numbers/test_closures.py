@@ -32,7 +32,7 @@ def closings(name):
             trying = step.action.value.trying
             tried, *signs, _ = value
             known = [trace.values[arg] for arg in step.args]
-            yield trying, known, phase(tried) if trying.turns else tried, signs
+            yield trying, known, phase(tried) if trying.first.turns else tried, signs
 
 
 def misfit_of(trying, known, signs):
@@ -43,10 +43,10 @@ def misfit_of(trying, known, signs):
 
     def misfit(tried):
         tried = context.mpf(tried)
-        here = given | {trying.tried: turn_by(tried) if trying.turns else tried}
-        needed = trying.program.behind((trying.misfit,))
+        here = given | {trying.first.tried: turn_by(tried) if trying.first.turns else tried}
+        needed = trying.program.behind((trying.first.misfit,))
         return run(trying.program, needed, trying.values, FINE, overrides=here).values[
-            trying.misfit
+            trying.first.misfit
         ]
 
     return misfit
@@ -94,7 +94,7 @@ def test_the_ball_of_a_closure_holds_what_bisection_finds(name, bits):
             ball = trace.values[number][0]
             assert is_ball(ball)
             # what is known is good to 60 digits here, so is the root
-            near = turn_by(root) if trying.turns else root
+            near = turn_by(root) if trying.first.turns else root
             assert nk.contains(ball, near, Fraction(1, 10**58))
 
 

@@ -143,5 +143,5 @@ def misfits(trying: Trying, known: Sequence[Any], tried: Any, rows: Any) -> Any:
     """By how many metres each of the groups tried together does not close: (N, n)."""
     import numpy as np
 
-    found = trying.found(known, tried if trying.inner else tried[:, 0], rows)
+    found = trying.found(known, tried, rows)
     return np.column_stack([found[one.misfit] for one in trying.unknowns])

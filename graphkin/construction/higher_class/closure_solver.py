@@ -27,6 +27,8 @@ KEPT = 16
 """Closures of a group that are kept."""
 SAME = 1e-7
 """Radians within which two angles count as one when closures are put in order."""
+STEP = 1e-6
+"""Half the step of the differences that give slopes, in radians or in parts of a trial value."""
 
 HIDDEN = 1e-6
 """Sine of crossing below which what doubles take for one closure may be two, or none."""
@@ -56,24 +58,15 @@ class Trying(Trial, frozen=True, dict=True):
         return Action(CLOSE, ClosureSolver(self, number))
 
     def closed_again(self, known: tuple[Any, ...], number: int) -> tuple[Any, ...]:
-        """As closed, for scalars; the last ones found are kept.
-
-        The traces of a sheet, and those by which its scale is chosen, ask the same many times.
-        """
+        """As closed, for scalars, and as balls have settled it where they were asked."""
         if (closings := self.settled.get(known)) is not None:
             settled: tuple[Any, ...] = self.chosen(closings, number)
             return settled
-        found = self.kept.get((known, number))
-        if found is None:
-            found = self.closed(known, number)
-            if len(self.kept) >= KEPT:
-                self.kept.clear()
-            self.kept[known, number] = found
-        return found
+        return self.closed(known, number)
 
     @cached_property
-    def kept(self) -> dict[tuple[tuple[Any, ...], int], tuple[Any, ...]]:
-        """The closures that were found last, by what was known and their number."""
+    def kept(self) -> dict[tuple[Any, ...], Closures]:
+        """The closures that were found last, by what was known."""
         return {}
 
     @cached_property
@@ -96,27 +89,25 @@ class Trying(Trial, frozen=True, dict=True):
         """
         import numpy as np
 
-        single = not any(hasattr(value, "shape") for value in known)
+        if not any(hasattr(value, "shape") for value in known):
+            closures = self.closures_of(known)
+            row = closures.sure(number)[0]
+            if np.isnan(row[1]):
+                raise closures.merging_at(number) or ClosingError(closures.ways(), number)
+            return self.polished(known, row)
         arrays = [np.atleast_1d(value) for value in known]
         size = max((len(array) for array in arrays), default=1)
         arrays = [np.broadcast_to(array, size) for array in arrays]
-        chunk = max(1, MOST // (self.places(arrays, size) * 2 ** len(self.signs)))
-        parts = [
+        chunk = self.together(arrays, size)
+        parts = (
             self.closures([array[start : start + chunk] for array in arrays])
             for start in range(0, size, chunk)
-        ]
-        rows = [row for part in parts for row in part.sure(number)]
-        if single:
-            if np.isnan(rows[0][1]):
-                if merging := parts[0].merging_at(number):
-                    raise merging
-                raise ClosingError(parts[0].ways(), number)
-            return self.polished(known, rows[0])
-        return self.parts(np.array(rows))
+        )
+        return self.parts(np.array([row for part in parts for row in part.sure(number)]))
 
-    def places(self, known: Sequence[Any], size: int) -> int:
-        """At how many places each element is tried."""
-        return int(self.shares(known, size).shape[1])
+    def together(self, known: Sequence[Any], size: int) -> int:
+        """How many elements are closed at once."""
+        return max(1, MOST // (self.shares(known, size).shape[1] * 2 ** len(self.signs)))
 
     def parts(self, table: Any) -> tuple[Any, ...]:
         """Trial values, signs and sines of rows: element, trial values, signs, sine."""
@@ -127,10 +118,19 @@ class Trying(Trial, frozen=True, dict=True):
         return (*tried, *table[:, 1 + len(self.unknowns) :].T)
 
     def closures_of(self, known: Sequence[Any]) -> Closures:
-        """Every closure on known scalars, in the order of their numbers."""
+        """Every closure on known scalars, in the order of their numbers; the last ones are kept.
+
+        The traces of a sheet, and those by which its scale is chosen, ask the same many times.
+        """
         import numpy as np
 
-        return self.closures([np.atleast_1d(value) for value in known])
+        asked = tuple(known)
+        if asked not in self.kept:
+            found = self.closures([np.atleast_1d(value) for value in known])
+            if len(self.kept) >= KEPT:
+                self.kept.clear()
+            self.kept[asked] = found
+        return self.kept[asked]
 
     def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
         """A closure in floats: trial values, signs and the sine of crossing."""
@@ -150,7 +150,7 @@ class Trying(Trial, frozen=True, dict=True):
         here = [np.broadcast_to(array, tried.shape) for array in arrays]
         signs = np.asarray(value[1:-1], dtype=float)
         rows = np.broadcast_to(signs, (tried.size, len(self.signs)))
-        found = self.found(here, tried, rows)
+        found = self.found(here, tried[:, None], rows)
         return [found[number] for number in self.traced]
 
     def closures(self, known: Sequence[Any]) -> Closures:
@@ -158,7 +158,7 @@ class Trying(Trial, frozen=True, dict=True):
         import numpy as np
 
         size = len(known[0]) if known else 1
-        reach = None if self.turns else self.reaches(known, size)
+        reach = None if self.first.turns else self.reaches(known, size)
         windows = Windows(np.arange(size), self.shares(known, size))
         found = zip(*self.fits(known, reach, (), windows), strict=True)
         return self.ordered(known, size, *(np.concatenate(column) for column in found))
@@ -170,8 +170,8 @@ class Trying(Trial, frozen=True, dict=True):
         signs: tuple[int, ...],
         windows: Windows,
     ) -> Iterator[tuple[Any, Any, Any, Any]]:
-        """Every fit for sets of signs that begin so: its element, its trial value, its signs, and
-        whether it only may be one, as the misfit comes near zero without crossing it.
+        """Every fit for sets of signs that begin so: its element, its trial value (K, 1), its
+        signs, and whether it only may be one, as the misfit comes near zero without crossing it.
 
         ``windows`` are where the dyads of the signs that are set can be drawn.
         """
@@ -179,7 +179,7 @@ class Trying(Trial, frozen=True, dict=True):
 
         def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
             tried = share if reach is None else self.along(share, reach[owner])
-            return [array[owner] for array in known], tried, rows
+            return [array[owner] for array in known], tried[:, None], rows
 
         def alike(owner: Any) -> Any:
             return np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
@@ -245,23 +245,55 @@ class Trying(Trial, frozen=True, dict=True):
         return Closures(size, table[~touching[order]], table, touching[order])
 
     def sines(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """Sine of the angle at which the locus crosses what was cut, by a small step each way.
+        """The least sine of the angles at which a locus crosses what was cut, those within closed,
+        by a small step each way.
 
         Where a step leads beyond what can be drawn it is not taken.
         """
         import numpy as np
 
-        step = 1e-6 * (1 if self.turns else np.maximum(abs(tried), 1e-3))
-        here = self.found(known, tried, signs)
-        ends = [self.found(known, tried + way * step, signs) for way in (-1, 1)]
-        for end in ends:
-            drawn = np.isfinite(end[self.misfit]) & np.isfinite(end[self.locus])
-            end |= {n: np.where(drawn, end[n], here[n]) for n in (self.misfit, self.locus)}
-        across = ends[1][self.misfit] - ends[0][self.misfit]
-        way = abs(ends[1][self.locus] - ends[0][self.locus])
-        with np.errstate(all="ignore"):
-            sine = np.minimum(abs(across) / way, 1.0)
-        return np.where(np.isfinite(sine), sine, 0.0)
+        turning = [one.turns for one in self.unknowns]
+        step = STEP * np.where(turning, 1.0, np.maximum(abs(tried), 1e-3))
+        size, here = len(self.unknowns), self.found(known, tried, signs)
+        misfits = np.empty((len(tried), size, size))
+        ways = np.empty(misfits.shape, complex)
+        for k in range(size):
+            away = np.where(np.arange(size) == k, step, 0.0)
+            ends = [self.found(known, tried + way * away, signs) for way in (-1, 1)]
+            for i, one in enumerate(self.unknowns):
+                for end in ends:
+                    drawn = np.isfinite(end[one.misfit]) & np.isfinite(end[one.locus])
+                    end |= {n: np.where(drawn, end[n], here[n]) for n in (one.misfit, one.locus)}
+                misfits[:, i, k] = ends[1][one.misfit] - ends[0][one.misfit]
+                ways[:, i, k] = ends[1][one.locus] - ends[0][one.locus]
+        return crossing_sines(misfits, ways)
+
+
+def crossing_sines(misfits: Any, ways: Any) -> Any:
+    """The least sine of the crossings of each row, from differences (K, n, n) of misfits and loci.
+
+    An unknown moves while those within close; differences without a value count as a sine of zero.
+    """
+    import numpy as np
+
+    count, size, _ = misfits.shape
+    least = np.ones(count)
+    with np.errstate(all="ignore"):
+        for k in range(size):
+            way = np.zeros((count, size))
+            way[:, k] = 1
+            if k + 1 < size:
+                inner = misfits[:, k + 1 :, k + 1 :]
+                good = np.isfinite(inner).all(axis=(1, 2)) & (
+                    abs(np.linalg.det(np.where(np.isfinite(inner), inner, 0))) > 0
+                )
+                inner = np.where(good[:, None, None], inner, np.eye(size - k - 1))
+                led = np.linalg.solve(inner, -misfits[:, k + 1 :, k, None])[..., 0]
+                way[:, k + 1 :] = np.where(good[:, None], led, np.nan)
+            across = abs((misfits[:, k] * way).sum(axis=1))
+            sine = np.minimum(across / abs((ways[:, k] * way).sum(axis=1)), 1.0)
+            least = np.minimum(least, np.where(np.isfinite(sine), sine, 0.0))
+    return least
 
 
 def closer_of(step: Step) -> ClosureSolver | None:

@@ -217,23 +217,15 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     traced = tuple(fork.the("position", point) for point in traced_points(pen, group.last))
     kept = (end for one in unknowns for end in ends_of(one))
     fork.keep_inputs(*kept, *axes, *traced)
-    first, *inner = unknowns
-    kind = Trying if not inner else several_trials()
+    kind = Trying if len(unknowns) == 1 else several_trials()
     trying = kind(
         fork.program(),
         pen.scene.values,
         tuple(fork.inputs),
-        first.tried,
-        first.turns,
+        tuple(unknowns),
         tuple(signs),
-        first.misfit,
-        first.locus,
-        first.facing,
         axes,
-        first.reach,
-        first.rim,
         traced,
-        tuple(inner),
     )
     return trying, list(fork.inputs.values())
 

@@ -71,7 +71,7 @@ def beside(trying: Any, one: Closing, other: Closing) -> bool:
 
 def size(trying: Any, tried: Any) -> Any:
     """What lengths of a trial are measured in: a radian, or the trial value itself (m)."""
-    return 1 if trying.turns else abs(tried) or 1
+    return 1 if trying.first.turns else abs(tried) or 1
 
 
 def both(chain: TrialChain, start: float) -> list[Closing]:

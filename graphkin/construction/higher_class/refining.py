@@ -32,7 +32,7 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
     the group closes, and MergingError where it does not tell which closure has the number.
     """
     doubles = [in_doubles(value) for value in known]
-    if trying.inner:
+    if trying.several:
         from graphkin.construction.higher_class.refined_trials import refined as refined_together
 
         single = not any(hasattr(value, "shape") for value in doubles)
@@ -41,7 +41,7 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
     if kind.name == "ball":
         return closed_in_balls(trying, known, doubles, number, kind)
     found, *signs, sine = trying.closed(doubles, number)
-    start = kind.number(phase(found) if trying.turns else found)
+    start = kind.number(phase(found) if trying.first.turns else found)
     aim = aimed(TrialChain(trying, known, signs, kind), start)
     return closing(aim.chain, refined(aim), sine)
 
@@ -70,7 +70,7 @@ def closed_in_balls(
 def closing(chain: TrialChain, value: Any, sine: Any) -> tuple[Any, ...]:
     """What closes a group, in the kind of a chain: the trial value, signs, sine of crossing."""
     rest = (each if is_ball(each) else chain.kind.number(each) for each in (*chain.signs, sine))
-    return (turn_by(value) if chain.trying.turns else value, *rest)
+    return (turn_by(value) if chain.trying.first.turns else value, *rest)
 
 
 def refuse_confused(
@@ -80,7 +80,7 @@ def refuse_confused(
 
     Only those that lie so near that a secant might lead from one to the other are looked at.
     """
-    turns, tried = chain.trying.turns, one.tried
+    turns, tried = chain.trying.first.turns, one.tried
     for each in closings:
         if each is one or each.signs != tuple(chain.signs) or is_ball(each.tried):
             continue
@@ -122,7 +122,7 @@ def aimed(chain: TrialChain, start: Any) -> Aim:
     Beside the end of a window, where a dyad is stretched flat and doubles do not tell its sign, the
     curve of both signs is followed through the end.
     """
-    turns, trying = chain.trying.turns, chain.trying
+    turns, trying = chain.trying.first.turns, chain.trying
     if hasattr(start, "shape") and start.shape:
         return Aim(chain, start, None)
     size = 1 if turns else abs(start) or 1
@@ -165,7 +165,7 @@ def refined(aim: Aim) -> Any:
     """The trial value of a closure in the kind of its chain."""
     chain, start, step = aim
     if step is None:
-        turns = chain.trying.turns
+        turns = chain.trying.first.turns
         return start if chain.kind.name == "float32" else by_secants(chain.misfit, start, turns)
     if chain.kind.name != "ball":
         return by_secant(chain.misfit, start, step)

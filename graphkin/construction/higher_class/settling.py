@@ -75,7 +75,7 @@ def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -
     closures, found = trying.closures_of(known), None
     before = replace(program, targets={("", str(n)): n for n in step.args})
     needed = before.needed(before.targets)
-    for bits in () if trying.inner else BITS:
+    for bits in () if trying.several else BITS:
         kind = ball_kind(bits)
         with kind.working():
             try:

@@ -7,18 +7,24 @@ dyads can be drawn only within less than a step of the grid, or that all but mer
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property, partial
 from itertools import product
 from typing import Any, NamedTuple
 
+from graphkin.construction.core.batch import Ready, made_ready, run_moving
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
 from graphkin.construction.higher_class.trial import FAR
-from graphkin.numbers.arithmetic import phase
+from graphkin.numbers.arithmetic import batch_kind, phase
 
-ACROSS = {2: 120, 3: 32}
-"""Steps of the grid along each of so many unknowns."""
-FEWEST = 12
-"""Steps along each of more."""
+ACROSS = {2: 120, 3: 32, 4: 12}
+"""Steps of the grid along each unknown, by how many are tried before any misfit tells anything."""
+FEWER = 60
+"""Steps along each where two of more do."""
+TOGETHER = 64
+"""Elements that are closed at once."""
+MOST = 1_000_000
+"""Places at which cells are looked at together."""
 HALVED = 4
 """How often cells are halved."""
 SLACK = 0.5
@@ -32,6 +38,11 @@ CELLS = 40_000
 """Cells looked at together."""
 ROUNDS = 20
 """Steps of Newton's method at most."""
+HOPEFUL = 7
+"""The step before which those are left out that miss by too much still."""
+LEFT = 1e-3
+"""What they may miss by then, in parts of the ranges of misfits; where two closures merge each step
+halves the way that is left."""
 NEAR = 64.0
 """How far it may lead from where it starts, in halves of a cell."""
 BESIDE = 12.0
@@ -40,7 +51,7 @@ STARTS = (0.1, 0.6)
 """Where it starts in v, on the side of the dyad's sign."""
 CLUSTERED = 3
 """The step before which those are left out that come to one place."""
-TOGETHER = 1e-5
+ONE_PLACE = 1e-5
 """Shares that differ less are those of one place then."""
 SHORTER = 8
 """How often a step is halved that leads beyond what can be drawn, or no nearer."""
@@ -71,11 +82,6 @@ Reach = Callable[[Array, Array], Array]
 class SeveralTrials(Trying, frozen=True, dict=True):
     """A trial of several links at once, and where it fits: trial values are rows of an array."""
 
-    @property
-    def across(self) -> int:
-        """Steps of the grid along each unknown."""
-        return ACROSS.get(len(self.unknowns), FEWEST)
-
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go beside a closure while the outermost link is tried, those
         within closed each time: (N,) each, as far as they close."""
@@ -105,7 +111,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         """Trial values at which all groups within close, that of the outermost as it is."""
         import numpy as np
 
-        inner = self.inner
+        inner = self.unknowns[1:]
 
         def missed(row: Array, share: Array) -> Array:
             here = [array[row] for array in known]
@@ -128,13 +134,14 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         )
         return np.array([*angles, *map(float, rest)])
 
-    def places(self, known: Sequence[Any], size: int) -> int:
-        """At how many places each element is tried."""
-        return int((self.across + 1) ** len(self.unknowns))
+    def together(self, known: Sequence[Any], size: int) -> int:
+        """How many elements are closed at once."""
+        return TOGETHER
 
     def work(self, known: Sequence[Any]) -> int:
         """How many steps run where everything that closes is sought on known values, at least."""
-        return int(self.places(known, 1) * 2 ** len(self.signs) * len(self.ready.moving))
+        places = (self.across + 1) ** self.dense
+        return int(places * 2 ** len(self.signs) * len(self.ready.moving))
 
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
@@ -145,40 +152,31 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         owner = np.repeat(np.arange(size), len(table))
         signs = np.tile(table, (size, 1))
         scales = self.scales(known, size)
-
-        def missed(row: Array, share: Array) -> Array:
-            here = [array[owner[row]] for array in known]
-            found = self.found(here, self.valued(share, scales[owner[row]]), signs[row])
-            return np.stack([found[one.misfit] for one in self.unknowns], axis=1)
-
-        choices = [k for k, choice in enumerate(self.choices) if choice is not None]
-        reaches = [self.reaching(k, known, owner, scales, signs) for k in choices]
-        chain = DrawnChain(missed, reaches)
-        cells, half, ranges = candidates(chain, len(owner), *self.grid_of_shares())
-        start = drawn_places(missed, cells, half)
-        found = [closed_in(missed, cells.row, start, NEAR * half, ranges)]
-        for k, reach in zip(choices, reaches, strict=True):
-            bit = 1 << (len(self.signs) - 1 - k)
-            found += FlatDyad(missed, reach, bit).fits(cells, half, ranges)
-        row, share = (np.concatenate(column) for column in zip(*found, strict=True))
+        found, ranges = list[Cells](), np.empty((size, len(self.unknowns)))
+        for each in range(size):
+            here = [array[each] for array in known]
+            cells, ranges[each] = self.cells(here, scales[each])
+            found.append(Cells(each * len(table) + cells.row, cells.middle))
+        cells, ranges = joined(found), np.repeat(ranges, len(table), axis=0)
+        start, way = self.grid_of_shares()
+        half = way / self.across / 2
+        cells = Cells(cells.row, start + (cells.middle + 0.5) * 2 * half)
+        chain = DrawnChain(self, known, owner, signs, scales)
+        cells, half = narrowed(chain, cells, half, ranges)
+        start = drawn_places(chain.missed, cells, half)
+        fits = [closed_in(chain.missed, cells.row, start, NEAR * half, ranges)]
+        for k, choice in enumerate(self.choices):
+            if choice is not None:
+                bit = 1 << (len(self.signs) - 1 - k)
+                flat = FlatDyad(chain.missed, partial(chain.reach, k), bit)
+                fits += flat.fits(cells, half, ranges)
+        row, share = (np.concatenate(column) for column in zip(*fits, strict=True))
         tried = self.valued(share, scales[owner[row]])
         touching = np.zeros(row.size, dtype=bool)
         return self.ordered(known, size, owner[row], tried, signs[row], touching)
 
-    def reaching(
-        self, k: int, known: Sequence[Any], owner: Array, scales: Array, signs: Array
-    ) -> Reach:
-        """How far the dyad of a sign can be drawn (K,), of rows (K,) at shares (K, n)."""
-
-        def reach(row: Array, share: Array) -> Array:
-            here = [array[owner[row]] for array in known]
-            tried = self.valued(share, scales[owner[row]])
-            return self.drawable(k, here, tried, signs[row, :k])
-
-        return reach
-
-    def grid_of_shares(self) -> tuple[Array, Array, int]:
-        """Where the shares of each unknown begin, how far they go, and how many steps they take."""
+    def grid_of_shares(self) -> tuple[Array, Array]:
+        """Where the shares of each unknown begin, and how far they go."""
         import numpy as np
 
         ends = [
@@ -186,7 +184,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             for one in self.unknowns
         ]
         start, way = np.array(ends, dtype=float).T
-        return start, way, self.across
+        return start, way
 
     def scales(self, known: Sequence[Any], size: int) -> Array:
         """What the trial values of each element are measured by, a column for each unknown."""
@@ -207,56 +205,197 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         guided = [not one.turns and one.rim is None for one in self.unknowns]
         return scale * np.where(guided, np.tan(np.where(guided, share, 0.0)), share)
 
-    def sines(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """The least sine of the angles at which a locus crosses what was cut, while all groups
-        within are closed, by a small step each way."""
+    # --- cells in which all may vanish -----------------------------------------------------------
+
+    def readied(self, keep: tuple[int, ...]) -> Ready:
+        """The part of the program that gives some steps, made ready for arrays."""
+        needed = self.program.behind(keep)
+        return made_ready(self.program, needed, self.values, keep, self.outside)
+
+    @cached_property
+    def missing(self) -> Ready:
+        """What gives the misfits."""
+        return self.readied(tuple(one.misfit for one in self.unknowns))
+
+    @cached_property
+    def looked_at(self) -> Ready:
+        """What gives the misfits, and what the dyads are drawn of."""
+        drawn = (arg for choice in self.choices if choice for arg in choice[2])
+        return self.readied((*(one.misfit for one in self.unknowns), *drawn))
+
+    @cached_property
+    def stages(self) -> tuple[Stage, ...]:
+        """What each further unknown lets one look at, from the outermost inwards."""
+        steps = [one.tried for one in self.unknowns]
+
+        def least(number: int) -> int:
+            """With how many unknowns a step can be run."""
+            behind = {*self.program.behind((number,))}
+            return max((k for k, tried in enumerate(steps, 1) if tried in behind), default=1)
+
+        reaches = [(each[1], each[2]) for each in self.choices if each is not None]
+        found, known = list[Stage](), set[int]()
+        for count in range(1, len(steps) + 1):
+            misfits = [k for k, one in enumerate(self.unknowns) if least(one.misfit) == count]
+            within = [each for each in reaches if max(map(least, each[1])) == count]
+            keep = (
+                *(self.unknowns[k].misfit for k in misfits),
+                *(arg for _, args in within for arg in args),
+            )
+            needed = self.program.behind(keep)
+            last = count == len(steps)
+            new = [k for k, n in enumerate(self.signs) if (last or n in needed) and k not in known]
+            known |= {*new}
+            found.append(Stage(self.readied(keep), tuple(misfits), tuple(within), tuple(new)))
+        return tuple(found)
+
+    @cached_property
+    def dense(self) -> int:
+        """How many unknowns have to be tried before any misfit tells anything."""
+        return next(k for k, stage in enumerate(self.stages, 1) if stage.misfits)
+
+    @property
+    def across(self) -> int:
+        """Steps of the grid along each unknown."""
+        return ACROSS[self.dense] if self.dense > 2 or len(self.unknowns) == 2 else FEWER
+
+    def cells(self, known: Sequence[Any], scale: Array) -> tuple[Cells, Array]:
+        """The cells of the grid in which all misfits may vanish on known scalars, each by its row
+        of signs and the number of its steps along each unknown, and how far each misfit ranges.
+        """
         import numpy as np
 
-        size = len(self.unknowns)
-        step = STEP * np.where(
-            [one.turns for one in self.unknowns], 1.0, np.maximum(abs(tried), 1e-3)
-        )
-        misfits, ways = (
-            np.zeros((len(tried), size, size)),
-            np.zeros((len(tried), size, size), complex),
-        )
-        here = self.found(known, tried, signs)
+        row, place = np.zeros(1, dtype=int), np.empty((1, 0), dtype=int)
+        ranges = np.zeros(len(self.unknowns))
+        for stage in self.stages:
+            count = 2 ** len(stage.signs)
+            chunk = max(1, MOST // ((self.across + 1) * count))
+            parts = [
+                self.extended(stage, known, scale, row[k : k + chunk], place[k : k + chunk])
+                for k in range(0, len(row), chunk)
+            ] or [self.extended(stage, known, scale, row, place)]
+            for k, misfit in enumerate(stage.misfits):
+                spans = np.array([part.spans[k] for part in parts])
+                ends = np.fmin.reduce(spans[:, 0]), np.fmax.reduce(spans[:, 1])
+                ranges[misfit] = ends[1] - ends[0]
+            side = self.grid_of_shares()[1] / self.across
+            kept = [part.kept(ranges[[*stage.misfits]], side) for part in parts]
+            row, place = (np.concatenate(column) for column in zip(*kept, strict=True))
+        return Cells(row, place), ranges
+
+    def extended(
+        self, stage: Stage, known: Sequence[Any], scale: Array, row: Array, place: Array
+    ) -> Corners:
+        """Cells (C, k) with each step along one more unknown, and each set of signs that it asks:
+        what is found at their corners.
+        """
+        import numpy as np
+
+        size, across = place.shape[1], self.across
+        start, way = self.grid_of_shares()
+        corners = (place[:, None, :] + corners_of(size)).reshape(len(row) * 2**size, size)
+        code = np.repeat(row, 2**size)
         for k in range(size):
-            away = np.zeros_like(tried)
-            away[:, k] = step[:, k]
-            low, high = (self.found(known, tried + way * away, signs) for way in (-1, 1))
-            for i, one in enumerate(self.unknowns):
-                for slopes, n in ((misfits, one.misfit), (ways, one.locus)):
-                    ends = [np.where(np.isfinite(end[n]), end[n], here[n]) for end in (low, high)]
-                    slopes[:, i, k] = (ends[1] - ends[0]) / (2 * step[:, k])
-        return crossing_sines(misfits, ways)
+            code = code * (across + 1) + corners[:, k]
+        _, first, which = np.unique(code, return_index=True, return_inverse=True)
+        own, nodes = np.repeat(row, 2**size)[first], corners[first]
+        new = np.arange(2 ** len(stage.signs))
+        overrides: dict[int, Any] = dict(zip(self.inputs, known, strict=True))
+        for k, one in enumerate(self.unknowns[: size + 1]):
+            steps = nodes[:, k, None, None] if k < size else np.arange(across + 1)
+            share = start[k] + steps * (way[k] / across)
+            guided = not one.turns and one.rim is None
+            value = scale[k] * (np.tan(share) if guided else share)
+            overrides[one.tried] = np.exp(1j * value) if one.turns else value
+        for k, number in enumerate(self.signs):
+            bit = 1 << (len(self.signs) - 1 - k)
+            if k in stage.signs:
+                bits = (new >> (len(stage.signs) - 1 - stage.signs.index(k)) & 1)[:, None]
+            else:
+                bits = ((own & bit) > 0)[:, None, None]
+            overrides[number] = np.where(bits, -1.0, 1.0)
+        codes = sum(
+            (new >> (len(stage.signs) - 1 - n) & 1) << (len(self.signs) - 1 - k)
+            for n, k in enumerate(stage.signs)
+        )
+        with np.errstate(all="ignore"):
+            trace = run_moving(stage.ready, self.values, batch_kind(), overrides=overrides)
+            shape = len(first), len(new), across + 1
+            misfits = [trace.values[self.unknowns[k].misfit] for k in stage.misfits]
+            reaches = [far(*(trace.values[arg] for arg in args)) for far, args in stage.reaches]
+            misfits, reaches = (
+                [np.broadcast_to(each, shape) for each in some] for some in (misfits, reaches)
+            )
+        return Corners(row, place, codes, which.reshape(len(row), -1), shape, misfits, reaches)
 
 
-def crossing_sines(misfits: Array, ways: Array) -> Array:
-    """The least sine of the crossings of each row, from slopes (K, n, n) of misfits and loci.
+class Stage(NamedTuple):
+    """What one further unknown lets one look at: the program for it, the unknowns whose misfits
+    it tells, how far dyads reach, and the signs on which these depend."""
 
-    An unknown moves while those within close; slopes without a value count as a sine of zero.
+    ready: Ready
+    misfits: tuple[int, ...]
+    reaches: tuple[tuple[Any, tuple[int, ...]], ...]
+    signs: tuple[int, ...]
+
+
+class Corners(NamedTuple):
+    """Cells (C, k), their rows, and what is found where they are taken along one more unknown.
+
+    ``misfits`` and ``reaches`` are those at nodes, for sets of signs and for places along that
+    unknown: arrays of a ``shape``; ``which`` has the nodes of each cell (C, 2^k), and ``codes`` what
+    each set of signs adds to a row.
     """
-    import numpy as np
 
-    count, size, _ = misfits.shape
-    least = np.ones(count)
-    with np.errstate(all="ignore"):
-        for k in range(size):
-            way = np.zeros((count, size))
-            way[:, k] = 1
-            if k + 1 < size:
-                inner = misfits[:, k + 1 :, k + 1 :]
-                good = np.isfinite(inner).all(axis=(1, 2)) & (
-                    abs(np.linalg.det(np.where(np.isfinite(inner), inner, 0))) > 0
-                )
-                inner = np.where(good[:, None, None], inner, np.eye(size - k - 1))
-                led = np.linalg.solve(inner, -misfits[:, k + 1 :, k, None])[..., 0]
-                way[:, k + 1 :] = np.where(good[:, None], led, np.nan)
-            across = abs((misfits[:, k] * way).sum(axis=1))
-            sine = np.minimum(across / abs((ways[:, k] * way).sum(axis=1)), 1.0)
-            least = np.minimum(least, np.where(np.isfinite(sine), sine, 0.0))
-    return least
+    row: Array
+    place: Array
+    codes: Array
+    which: Array
+    shape: tuple[int, ...]
+    misfits: list[Array]
+    reaches: list[Array]
+
+    @property
+    def spans(self) -> list[tuple[float, float]]:
+        """The least and the largest value of each misfit; NaN without any."""
+        import numpy as np
+
+        return [
+            (np.fmin.reduce(each, axis=None), np.fmax.reduce(each, axis=None))
+            for each in self.misfits
+        ]
+
+    def kept(self, ranges: Array, side: Array) -> tuple[Array, Array]:
+        """The cells along one more unknown in which all misfits may vanish: rows and places."""
+        import numpy as np
+
+        cells = len(self.row), self.shape[1], self.shape[2] - 1
+        keep = np.ones(cells, dtype=bool)
+        if self.misfits or self.reaches:
+            finite = np.full(self.shape, bool(self.misfits))
+            for each in self.misfits:
+                finite = finite & np.isfinite(each)
+            ends = [self.ends(np.where(finite, each, np.nan)) for each in self.misfits]
+            whole = self.over(np.logical_and, finite)
+            some = self.over(np.logical_or, finite)
+            keep = may_vanish(ends, [*map(self.ends, self.reaches)], some, whole, ranges, side)
+        cell, code, step = np.nonzero(keep)
+        codes = self.row[cell] + np.broadcast_to(self.codes, self.shape[1])[code]
+        return codes, np.column_stack([self.place[cell], step])
+
+    def ends(self, value: Array) -> tuple[Array, Array]:
+        """The least and the largest at the corners of each cell."""
+        import numpy as np
+
+        return self.over(np.fmin, value), self.over(np.fmax, value)
+
+    def over(self, both: Any, value: Array) -> Array:
+        """What all corners of each cell make of a value."""
+        value = both(value[..., :-1], value[..., 1:])
+        found = value[self.which[:, 0]]
+        for nodes in self.which.T[1:]:
+            found = both(found, value[nodes])
+        return found
 
 
 # --- where all misfits vanish --------------------------------------------------------------------
@@ -276,48 +415,66 @@ def joined(cells: Sequence[Cells]) -> Cells:
     return Cells(*(np.concatenate(column) for column in zip(*cells, strict=True)))
 
 
-class DrawnChain(NamedTuple):
-    """What is looked at in a cell: misfits, and how far each dyad can be drawn, in order."""
+class DrawnChain:
+    """What is looked at, of rows (K,) at shares (K, n): each row has its element and its signs."""
 
-    missed: Misses
-    reaches: Sequence[Reach]
+    def __init__(
+        self, trying: SeveralTrials, known: Sequence[Any], owner: Array, signs: Array, scales: Array
+    ) -> None:
+        self.trying, self.owner, self.signs, self.scales = trying, owner, signs, scales
+        self.known = [array[:1] if (array == array[0]).all() else array for array in known]
 
-    def at(self, row: Array, share: Array) -> tuple[Array, Array]:
-        """Both at places (K, n): misfits (K, n), reaches (K, dyads)."""
+    def run(self, ready: Ready, row: Array, share: Array) -> Mapping[int, Any]:
+        """What a program gives."""
         import numpy as np
 
-        reaches = [reach(row, share) for reach in self.reaches]
-        return self.missed(row, share), np.stack([np.zeros(len(row)), *reaches], axis=1)
+        owner = self.owner[row]
+        here = [array if len(array) == 1 else array[owner] for array in self.known]
+        tried = self.trying.valued(share, self.scales[owner])
+        overrides = self.trying.overrides(here, tried, self.signs[row])
+        with np.errstate(all="ignore"):
+            kind = batch_kind()
+            return run_moving(ready, self.trying.values, kind, overrides=overrides).values
+
+    def missed(self, row: Array, share: Array) -> Array:
+        """The misfits (K, n)."""
+        import numpy as np
+
+        found = self.run(self.trying.missing, row, share)
+        misfits = (found[one.misfit] for one in self.trying.unknowns)
+        return np.stack([np.broadcast_to(each, len(row)) for each in misfits], axis=1)
+
+    def reach(self, k: int, row: Array, share: Array) -> Array:
+        """How far the dyad of a sign can be drawn (K,)."""
+        import numpy as np
+
+        choice = self.trying.choices[k]
+        assert choice is not None
+        ready, far, args = choice
+        found = self.run(ready, row, share)
+        with np.errstate(all="ignore"):
+            return np.broadcast_to(far(*(found[arg] for arg in args)), len(row))
+
+    def at(self, row: Array, share: Array) -> tuple[list[Array], list[Array]]:
+        """Each misfit, and how far each dyad can be drawn, in their order: (K,) each."""
+        import numpy as np
+
+        found = self.run(self.trying.looked_at, row, share)
+        choices = [choice for choice in self.trying.choices if choice is not None]
+        misfits = [found[one.misfit] for one in self.trying.unknowns]
+        with np.errstate(all="ignore"):
+            reaches = [far(*(found[arg] for arg in args)) for _, far, args in choices]
+        return tuple([np.broadcast_to(e, len(row)) for e in some] for some in (misfits, reaches))
 
 
-def candidates(
-    chain: DrawnChain, rows: int, start: Array, way: Array, steps: int
-) -> tuple[Cells, Array, Array]:
-    """Small cells in which all misfits of a row may vanish, half their sides (n,), and how far each
-    misfit of a row ranges (rows, n).
-
-    Shares begin at a start and go so far, in so many steps.
-    """
-    import numpy as np
-
-    size, side = len(start), way / steps
-    lattice = start + np.array([*product(range(steps + 1), repeat=size)]) * side
-    found, ranges = list[Cells](), np.empty((rows, size))
-    strides = (steps + 1) ** np.arange(size)[::-1]
-    first = np.array([*product(range(steps), repeat=size)])
-    corners = (first[:, None, :] + corners_of(size)) @ strides
-    for row in range(rows):
-        value, reach = chain.at(np.full(len(lattice), row), lattice)
-        ranges[row] = spread(value)
-        keep = may_vanish(value[corners], reach[corners], ranges[row], side)
-        found.append(Cells(np.full(keep.sum(), row), start + (first[keep] + 0.5) * side))
-    cells, half = joined(found), side / 2
+def narrowed(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> tuple[Cells, Array]:
+    """Small parts of cells in which all misfits of a row may vanish, and half their sides (n,)."""
     for _ in range(HALVED):
         parts = range(0, len(cells.row), CELLS)
         some = (Cells(cells.row[k : k + CELLS], cells.middle[k : k + CELLS]) for k in parts)
         cells = joined([halved(chain, each, half, ranges) for each in some] or [cells])
         half = half / 2
-    return cells, half, ranges
+    return cells, half
 
 
 def corners_of(size: int) -> Array:
@@ -327,41 +484,32 @@ def corners_of(size: int) -> Array:
     return np.array([*product((0, 1), repeat=size)])
 
 
-def spread(value: Array) -> Array:
-    """The range of each misfit over places (K, n); NaN where it has no value anywhere."""
+def may_vanish(
+    misfits: Sequence[tuple[Array, Array]],
+    reaches: Sequence[tuple[Array, Array]],
+    some: Array,
+    whole: Array,
+    ranges: Array,
+    side: Array,
+) -> Array:
+    """Of which cells all misfits may vanish within: from the least and the largest at the corners,
+    or where no corner can be drawn from how far dyads are from that.
+
+    ``some`` and ``whole`` tell whether some corners, or all, can be drawn; the misfits range so far.
+    """
     import numpy as np
 
-    if not np.isfinite(value).all(axis=1).any():
-        return np.full(value.shape[1], np.nan)
-    return np.nanmax(value, axis=0) - np.nanmin(value, axis=0)
-
-
-def may_vanish(value: Array, reach: Array, ranges: Array, side: Array) -> Array:
-    """Of which cells all misfits may vanish within: from those at the corners (C, 2^n, n), or where
-    no corner can be drawn from how far dyads are from that (C, 2^n, dyads)."""
-    import numpy as np
-
-    finite = np.isfinite(value).all(axis=2)
-    low, high = ends(np.where(finite[..., None], value, np.nan))
-    edge = ~finite.all(axis=1)
+    bent = np.where(whole, BENT * side.max() ** 2, np.sqrt(side.max()))
+    slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
     with np.errstate(all="ignore"):
-        more = (high - low) * np.where(edge, AT_EDGE, SLACK)[:, None]
-        bent = np.where(edge, np.sqrt(side.max()), BENT * side.max() ** 2)
-        more = more + bent[:, None] * ranges
-        crossed = ((low - more <= 0) & (high + more >= 0)).all(axis=1)
-        low, high = ends(reach)
-        drawn = ~(high + (high - low) * SLACK < 0).any(axis=1)
-    return np.where(finite.any(axis=1), crossed, drawn & np.isfinite(ranges).all(axis=-1))
-
-
-def ends(value: Array) -> tuple[Array, Array]:
-    """The least and the largest of the corners (C, K); NaN where none has a value."""
-    import numpy as np
-
-    there = np.isfinite(value)
-    low = np.where(there, value, np.inf).min(axis=1)
-    high = np.where(there, value, -np.inf).max(axis=1)
-    return np.where(low <= high, low, np.nan), np.where(low <= high, high, np.nan)
+        for (low, high), most in zip(misfits, np.moveaxis(ranges, -1, 0), strict=True):
+            more = (high - low) * slack + bent * most
+            crossed = crossed & (low - more <= 0) & (high + more >= 0)
+            drawn = drawn & np.isfinite(most)
+        for low, high in reaches:
+            drawn = drawn & ~(high + (high - low) * SLACK < 0)
+    found: Array = crossed | drawn
+    return found
 
 
 def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells:
@@ -372,11 +520,20 @@ def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells
     nodes = np.array([*product((-1, 0, 1), repeat=size)])
     places = (cells.middle[:, None, :] + nodes * half).reshape(-1, size)
     found = chain.at(np.repeat(cells.row, len(nodes)), places)
-    value, reach = (each.reshape(len(cells.row), len(nodes), -1) for each in found)
+    value, reach = (
+        np.array(each).reshape(len(each), len(cells.row), len(nodes)) for each in found
+    )
+    finite = np.isfinite(value).all(axis=0)
+    value = np.where(finite, value, np.nan)
     strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
-        keep = may_vanish(value[:, at], reach[:, at], ranges[cells.row], half)
+        some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
+        ends = (
+            [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
+            for every in (value, reach)
+        )
+        keep = may_vanish(*ends, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
     return joined(parts)
 
@@ -395,6 +552,8 @@ def closed_in(
     which = np.flatnonzero(np.isfinite(value).all(axis=1))
     found = [np.empty(0, dtype=int)]
     for turn in range(ROUNDS):
+        if turn == HOPEFUL:
+            which = which[far(value[which], ranges[row[which]]) < LEFT]
         if not which.size:
             break
         way = steps_of(missed, row[which], share[which], value[which])
@@ -429,7 +588,7 @@ def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Ar
     """Of those that all but stand at one place only one, with the steps of each."""
     import numpy as np
 
-    place = np.round((share[which] + way) / TOGETHER)
+    place = np.round((share[which] + way) / ONE_PLACE)
     _, first = np.unique(np.column_stack([row[which], place]), axis=0, return_index=True)
     return which[first], way[first]
 

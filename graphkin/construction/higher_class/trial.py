@@ -28,9 +28,11 @@ FAR = 1.565
 
 class Unknown(Struct, frozen=True):
     """What a trial tries: the step ``tried``, a unit vector (``turns``) or a coordinate (m), and
-    what closes it: the ``misfit``, the ``locus`` and what must be positive (``facing``).
+    what closes it: the ``misfit``, the ``locus``, which moves as it is tried, to tell the angle of
+    crossing, and what must be positive at a true fit (``facing``).
 
-    ``reach`` and ``rim`` are those of a trial.
+    ``reach`` holds how far a coordinate may have to be tried (m), ``rim`` the radius of a wheel
+    that is tried along its track (m).
     """
 
     tried: int
@@ -43,44 +45,31 @@ class Unknown(Struct, frozen=True):
 
 
 class Trial(Struct, frozen=True, dict=True):
-    """The program of a trial: its inputs, the tried value, the signs of its dyads, the misfit.
+    """The program of a trial: its inputs, what is tried, the signs of its dyads.
 
-    ``inputs`` are overridden by what is known, ``tried`` by a unit vector (``turns``) or a
-    coordinate in metres, ``signs`` by ±1; ``axes`` are the links' x axes in the order in which
-    closures are numbered; ``locus`` is the point that moves when the tried value does, to tell the
-    angle of crossing, and ``facing`` must be positive at a true fit.
+    ``inputs`` are overridden by what is known, ``unknowns`` from the outermost group inwards by
+    unit vectors and coordinates, ``signs`` by ±1; ``axes`` are the links' x axes in the order in
+    which closures are numbered, ``traced`` the points whose loci a hand draws. Trial values are
+    rows of an array, a column for each unknown: angles, and coordinates in metres.
     """
 
     program: Program
     values: Values
     inputs: tuple[int, ...]
-    tried: int
-    turns: bool
+    unknowns: tuple[Unknown, ...]
     signs: tuple[int, ...]
-    misfit: int
-    locus: int
-    facing: int | None
     axes: tuple[int, ...]
-    reach: int | None
-    """The step that holds how far a coordinate may have to be tried, in metres."""
-    rim: int | None = None
-    """The step that holds the radius of a wheel that is tried along its track."""
     traced: tuple[int, ...] = ()
-    """The steps that hold the points whose loci a hand draws."""
-    inner: tuple[Unknown, ...] = ()
-    """What is tried at once with it, for groups within the group; trial values are then rows."""
 
-    @cached_property
-    def unknowns(self) -> tuple[Unknown, ...]:
-        """All that is tried, from the outermost group inwards."""
-        first = Unknown(
-            self.tried, self.turns, self.misfit, self.locus, self.facing, self.reach, self.rim
-        )
-        return (first, *self.inner)
+    @property
+    def first(self) -> Unknown:
+        """What is tried of the whole group."""
+        return self.unknowns[0]
 
-    def columns(self, tried: Any) -> Any:
-        """The trial values of each unknown, of one or of many rows."""
-        return tried.T if self.inner else (tried,)
+    @property
+    def several(self) -> bool:
+        """Whether links of groups within the group are tried with it."""
+        return len(self.unknowns) > 1
 
     # --- what is run ---------------------------------------------------------------------------
 
@@ -147,7 +136,7 @@ class Trial(Struct, frozen=True, dict=True):
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
         """The lines that cross in a point of the trial, made ready: parallel ones are its poles."""
         found: list[tuple[Ready, tuple[int, ...]]] = []
-        for number in self.program.behind((self.misfit,)):
+        for number in self.program.behind((self.first.misfit,)):
             step = self.program.steps[number]
             if step.action is not None and step.action.value is meet.value:
                 needed = self.program.behind(step.args)
@@ -172,13 +161,13 @@ class Trial(Struct, frozen=True, dict=True):
         import numpy as np
 
         found = dict(zip(self.inputs, known, strict=True))
-        for one, each in zip(self.unknowns, self.columns(tried), strict=True):
+        for one, each in zip(self.unknowns, tried.T, strict=True):
             found[one.tried] = np.exp(1j * each) if one.turns else each
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
 
     def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
         """The misfit alone; NaN where the chain cannot be drawn."""
-        return self.found(known, tried, signs)[self.misfit]
+        return self.found(known, tried, signs)[self.first.misfit]
 
     # --- where it is tried ---------------------------------------------------------------------
 
@@ -189,18 +178,18 @@ class Trial(Struct, frozen=True, dict=True):
         """
         import numpy as np
 
-        return reach * (share if self.rim is not None else np.tan(share))
+        return reach * (share if self.first.rim is not None else np.tan(share))
 
     def shares(self, known: Sequence[Any], size: int) -> Any:
         """Where each element is tried: angles of a round, or shares of a way to both sides."""
         import numpy as np
 
-        if self.turns:
+        if self.first.turns:
             return self.grid(known, size)
-        if self.rim is None:
+        if self.first.rim is None:
             row = np.linspace(-FAR, FAR, 3 * SAMPLES + 1)
         else:
-            turns = np.nanmax(abs(self.reaches(known, size) / self.at_start(known, self.rim)))
+            turns = np.nanmax(abs(self.reaches(known, size) / self.at_start(known, self.first.rim)))
             count = np.clip(A_TURN * turns / np.pi, 2 * SAMPLES, MOST // 4)
             row = np.linspace(-1, 1, int(np.nan_to_num(count, nan=2 * SAMPLES)) + 1)
         return np.broadcast_to(row, (size, len(row)))
@@ -217,7 +206,7 @@ class Trial(Struct, frozen=True, dict=True):
         """The trial values of each element: a round, or as far to both sides as can be needed."""
         import numpy as np
 
-        if self.turns:
+        if self.first.turns:
             round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + 0.123e-3
             return np.broadcast_to(round_, (size, SAMPLES + 1))
         return self.reaches(known, size)[:, None] * np.linspace(-1, 1, 2 * SAMPLES + 1)
@@ -226,8 +215,8 @@ class Trial(Struct, frozen=True, dict=True):
         """How far a coordinate of each element may have to be tried (m), as bars allow."""
         import numpy as np
 
-        assert self.reach is not None
-        return np.broadcast_to(self.at_start(known, self.reach), size)
+        assert self.first.reach is not None
+        return np.broadcast_to(self.at_start(known, self.first.reach), size)
 
     def at_start(self, known: Sequence[Any], step: int) -> Any:
         """A step that does not hang on what is tried."""

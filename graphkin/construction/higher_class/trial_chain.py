@@ -31,7 +31,7 @@ class TrialChain:
 
     def misfit(self, tried: Any, known: dict[int, Any] | None = None) -> Any:
         """By how much the last link misses; ValueError where the chain cannot be drawn."""
-        facing, misfit = self.trying.facing, self.trying.misfit
+        facing, misfit = self.trying.first.facing, self.trying.first.misfit
         wanted = (misfit,) if facing is None else (misfit, facing)
         found = self.drawn(tried, wanted, known)
         if facing is not None and not found[1] > 0:
@@ -49,7 +49,7 @@ class TrialChain:
 
     def locus(self, tried: Any) -> Any:
         """The point that moves as the link is tried."""
-        return self.drawn(tried, (self.trying.locus,))[0]
+        return self.drawn(tried, (self.trying.first.locus,))[0]
 
     def reach(self, k: int, tried: Any) -> Any:
         """How far the dyad of a sign can be drawn, positive where it can: its middle, in balls."""
@@ -62,7 +62,7 @@ class TrialChain:
         """The values of some steps at a trial value; ValueError where they cannot be drawn."""
         trying = self.trying
         overrides = dict(self.known if known is None else known)
-        every = tried if trying.inner else (tried,)
+        every = tried if trying.several else (tried,)
         for one, each in zip(trying.unknowns, every, strict=True):
             overrides[one.tried] = turn_by(each) if one.turns else each
         overrides |= dict(zip(trying.signs, self.signs, strict=True))

@@ -77,6 +77,11 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         return self.first is not None
 
     @property
+    def depth(self) -> int:
+        """Within how many trial plans it lies."""
+        return 0 if self.whole is None else 1 + self.whole.depth
+
+    @property
     def is_second(self) -> bool:
         """Whether it is the second of its two."""
         return self.tag.endswith(SECOND)

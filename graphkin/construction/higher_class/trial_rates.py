@@ -67,7 +67,8 @@ class Spread(Struct, frozen=True):
 
 
 def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
-    """The two rates for each pair of trial plans, by the steps that hold them.
+    """The two rates for each pair of trial plans, by the steps that hold them: those of a group
+    first, then those within its trial plans, which are as large as these make them.
 
     Raises StepFailed where the mechanism does not close.
     """
@@ -75,12 +76,17 @@ def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
     wanted = {*divided} & {*program.targets.values()}
     if not wanted:
         return {}
-    found = run_settled(scene, program, program.behind(wanted)).values
-    rates: dict[int, float] = {}
+    levels: dict[int, list[TwoTrials]] = {}
     for trials in constructions(program, TwoTrials):
-        spread = spread_of(program, found, trials) if trials.share in found else None
-        if spread is not None:
-            rates |= dict(zip(trials.rates, chosen_rates(spread), strict=True))
+        levels.setdefault(trials.depth, []).append(trials)
+    rates: dict[int, float] = {}
+    for _, together in sorted(levels.items()):
+        needed = program.behind(wanted)
+        found = run_settled(scene, program, needed, overrides={**rates}).values
+        for trials in together:
+            spread = spread_of(program, found, trials) if trials.share in found else None
+            if spread is not None:
+                rates |= dict(zip(trials.rates, chosen_rates(spread), strict=True))
     return rates
 
 

@@ -112,6 +112,11 @@ class TwoTrials(Construction, frozen=True):
         return self.plans[0].rate, self.plans[1].rate
 
     @property
+    def depth(self) -> int:
+        """Within how many trial plans its own lie."""
+        return self.plans[0].depth
+
+    @property
     def symbol(self) -> str:
         """Markup of the share, with the tag of the plan to which its trials lead, if of a trial."""
         whole = self.plans[0].whole
