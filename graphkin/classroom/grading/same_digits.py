@@ -112,12 +112,6 @@ def copies(
             return -inf
         return told(pair, sheets, keys, places) - needed(pair)
 
-    def with_slips(who: int) -> AnswerSheet:
-        """A student's numbers, to which the slips that explain some may have led as well."""
-        each, names = sheets[who], {mark.slip for mark in graded[who].marks if mark.slip}
-        made = [slip for slip in slips(graded[who]) if slip.name in names] if names else ()
-        return replace(each, ways=(*each.ways, *by_slips(made, keys, each.variant)))
-
     strong: dict[Pair, float] = {}
     fields: dict[Pair, tuple[int, ...]] = {}
     asked: set[int] = set()
@@ -126,8 +120,9 @@ def copies(
             fields[pair] = tuple(chances)
             odds = odds_of(pair, fields[pair])
             if odds >= log(STRONG) and not asked.issuperset(pair):
-                sheets |= {who: with_slips(who) for who in pair if who not in asked}
-                asked.update(pair)
+                new = [who for who in pair if who not in asked]
+                sheets |= {who: with_slips(sheets[who], graded[who], keys, slips) for who in new}
+                asked.update(new)
                 odds = odds_of(pair, fields[pair])
             if odds >= log(STRONG):
                 strong[pair] = odds
@@ -156,6 +151,13 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
         *from_own_values(graded, answers, keys, variant),
     )
     return AnswerSheet(answers, digits, keys.reading(variant), wrong, variant, ways)
+
+
+def with_slips(each: AnswerSheet, graded: Graded, keys: Keys, slips: Slips) -> AnswerSheet:
+    """A student's numbers, to which the slips that explain some of them may have led as well."""
+    names = {mark.slip for mark in graded.marks if mark.slip}
+    made = [slip for slip in slips(graded) if slip.name in names] if names else ()
+    return replace(each, ways=(*each.ways, *by_slips(made, keys, each.variant)))
 
 
 def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[int, float]]:
