@@ -110,7 +110,8 @@ def copies(
         """The odds of two with the same digits in some fields, as a logarithm."""
         if len(places) < FEW:
             return -inf
-        return told(pair, sheets, keys, places) - needed(pair)
+        enough = log(STRONG) + needed(pair)
+        return told(pair, sheets, keys, places, enough) - needed(pair)
 
     strong: dict[Pair, float] = {}
     fields: dict[Pair, tuple[int, ...]] = {}
@@ -177,22 +178,51 @@ def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[i
     return found
 
 
-def told(pair: Pair, sheets: Mapping[int, AnswerSheet], keys: Keys, places: Sequence[int]) -> float:
+def told(
+    pair: Pair,
+    sheets: Mapping[int, AnswerSheet],
+    keys: Keys,
+    places: Sequence[int],
+    enough: float = -inf,
+) -> float:
     """How much likelier the same digits in some fields are by a copy of just these fields than by
-    chance, as a logarithm: by the chance of whoever is the less likely to have written them.
+    chance, as a logarithm; no more exactly than that it is less than ``enough``.
     """
     import numpy as np
 
     one, other = (sheets[who] for who in pair)
     agree = np.zeros(len(keys.fields), dtype=bool)
     agree[list(places)] = True
+    choice = chosen(keys, one.is_read & other.is_read, agree) + log(2)
+    innocent = -inf
+    for each in by_chance(one, other, keys, agree):
+        innocent = max(innocent, each)
+        if -innocent - choice < enough:
+            break
+    return -innocent - choice
+
+
+def by_chance(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> Iterator[float]:
+    """How likely two write the same digits, by each explanation, as a logarithm: by the chance of
+    whoever is the less likely to have written them, and by what both misunderstood. At least so
+    likely by what is quickly told, which is the key without the rest of the sheets.
+    """
     shared = agree & one.wrong & other.wrong
-    innocent = alone(one, other, keys, agree, agree)
+    yield by_key(one, other, keys, agree)
     if shared.any():
-        apart = alone(one, other, keys, agree & ~shared, agree)
-        same = apart + misunderstood(one, other, keys, shared)
-        innocent = max(innocent, same, both_computed(one, other, keys, agree))
-    return -innocent - chosen(keys, one.is_read & other.is_read, agree) - log(2)
+        same = misunderstood(one, other, keys, shared)
+        yield same + by_key(one, other, keys, agree & ~shared)
+        yield both_computed(one, other, keys, agree)
+        yield same + alone(one, other, keys, agree & ~shared, agree)
+    yield alone(one, other, keys, agree, agree)
+
+
+def by_key(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any) -> float:
+    """How likely the one of two who is the less likely to write some digits does so by the own
+    key, as a logarithm.
+    """
+    both = (one, other)
+    return min(0.0, *(likelihood(s, keys, s.variant, s.ways[0], read, True) for s in both))
 
 
 def chosen(keys: Keys, both: Any, agree: Any) -> float:
