@@ -132,7 +132,7 @@ def graded_class(
     graded = [each for each, _ in found]
     expected = shared(found)
     others = wrong_variants(graded, expected, book.slips)
-    twice = copies(graded, expected)
+    twice = copies(graded, expected, book.slips)
     fits = {each.students[0]: each.fields for each in others}
     flagged = {*fits, *(who for each in twice for who in each.students)}
     free = settled(decisions).union(released)

@@ -14,12 +14,11 @@ from math import log
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from graphkin.classroom.grading.graded import Graded, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
-from graphkin.classroom.grading.likelihood import FAR, Key, drawn, fit, told_odds
-from graphkin.classroom.grading.slip_diagnosis import SHARE
+from graphkin.classroom.grading.likelihood import FAR, drawn, fit, told_odds
+from graphkin.classroom.grading.own_ways import by_own_scales, by_slips, rightly
 from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Expectation
 
@@ -29,8 +28,6 @@ STRONG = 1000.0
 """Odds from which a wrong variant is reported, all that was looked through counted."""
 EXPLAINED = 1000.0
 """Odds of a slip from which an answer is its own, and no evidence but where digits agree."""
-ODD = 1.25
-"""A scale of one's own is at least so many times too large or too small."""
 TRIED = 3
 """Variants that are looked at closely: those nearest to the answers, each answer by itself."""
 
@@ -107,10 +104,15 @@ def best_other(
         plain = drawn(given, rounded, keys.key(mine, read), theirs.fits)
         if theirs.likelihood - plain < enough:
             continue
-        own = by_own(answers, digits, keys, mine, read, theirs.fits)
-        for slip in slips:
-            key = slipped(keys, mine, read, slip)
-            own = max(own, log(SHARE) + fit(given, rounded, key, theirs.fits).likelihood)
+        ways = (
+            rightly(keys, mine),
+            *by_own_scales(answers, keys, mine, read),
+            *by_slips(slips, keys, mine),
+        )
+        own = max(
+            way.share + fit(given, rounded, way.key(keys, mine, read), theirs.fits).likelihood
+            for way in ways
+        )
         odds = theirs.likelihood - own
         fitting = theirs.fits.sum() >= FEW and odds >= enough
         if fitting and (found is None or odds > found.odds):
@@ -118,37 +120,6 @@ def best_other(
             fields = tuple(keys.fields[place] for place in fits)
             found = Best(int(other), fields, int((~np.isnan(answers)).sum()), odds)
     return found
-
-
-def by_own(answers: Any, digits: Any, keys: Keys, mine: int, read: Any, theirs: Any) -> float:
-    """How likely answers are by the own data, as a logarithm: as they stand, or with the values of
-    both plans computed by scales of one's own.
-    """
-    import numpy as np
-
-    key = keys.key(mine, read)
-    given, rounded = answers[read], digits[read]
-    found = fit(given, rounded, key, theirs).likelihood
-    times = np.ones(len(given))
-    for plan in (1, 2):
-        values = keys.plans[read] == plan
-        ratio = np.median(given[values] / key.sizes[values]) if values.sum() >= FEW else 1.0
-        if ratio > 0 and abs(log(ratio)) >= log(ODD):
-            times[values] = ratio
-    if (times == 1).all():
-        return found
-    scaled = fit(given / times, rounded / times, key, theirs).likelihood
-    return max(found, scaled - float(np.log(times).sum()) + log(SHARE))
-
-
-def slipped(keys: Keys, mine: int, read: Any, slip: Slip) -> Key:
-    """The own key as a slip changes it, drawn with the errors of the own drawing."""
-    import numpy as np
-
-    key, right = keys.key(mine, read), keys.standards[mine].key
-    fields = [keys.fields[place] for place in np.flatnonzero(read)]
-    told = np.array([slip.values.get(field, right[field]) for field in fields])
-    return replace(key, sizes=np.where(key.places, told, abs(told)))
 
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Protocol
 
@@ -149,9 +149,8 @@ def places(
     lines: dict[int, str] = {}
     met: set[str] = set()
     twice: list[Problem] = []
-    for line, row in enumerate(book.rows[1:], 1):
-        who = signs.who(text_at(row, where))
-        if who not in marks or who is None or is_possible(row):
+    for line, who in students(book, where, signs, match):
+        if who not in marks:
             continue
         if who in met:
             twice.append(Problem(f"{book.name}, row {line + 1}", f'"{who}" stands there twice'))
@@ -164,6 +163,26 @@ def places(
     replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
     head = book.rows[0][target].text
     return MarkPlaces(target, head, lines, absent, worth_of(book, target), replaced)
+
+
+def students(
+    book: GradebookTable, where: int, signs: Signs, match: Match
+) -> Iterator[tuple[int, str]]:
+    """The student of each line; of one without an id whose e-mail address stands in it, unless
+    ids alone shall match, or another line has that id.
+    """
+    known = {
+        line: who
+        for line, row in enumerate(book.rows[1:], 1)
+        if not is_possible(row) and (who := signs.who(text_at(row, where))) is not None
+    }
+    yield from known.items()
+    for line, row in enumerate(book.rows[1:], 1) if match != "id" else ():
+        found = {signs.emails.get(each.text.casefold()) for each in row} - {None}
+        if text_at(row, where) in EMPTY and len(found) == 1 and not is_possible(row):
+            (who,) = found
+            if who is not None and who not in known.values():
+                yield line, who
 
 
 def refuse_names(book: GradebookTable, column: int, ids: int) -> None:

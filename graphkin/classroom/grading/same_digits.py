@@ -1,11 +1,14 @@
 """Evidence for the lecturer: two students who handed in the same digits.
 
-How likely is it that either of them wrote just these digits alone? From the own drawing, with
-any pencil, a crank laid off badly, lengths read to whole or half millimetres, mistakes; or by
+How likely is it that either of them wrote just these digits alone, with all else on the own sheet
+as it is? From the own drawing, with any pencil, a crank laid off badly, lengths read to whole or
+half millimetres, mistakes; with scales of one's own, a slip, or from own wrong values; or by
 computing all, or drawing with a computer, next to which any pencil is coarse; in fields where both
-are wrong from a misunderstanding that both have, which is held certain. Which of the
-fields agree is counted as a choice, and so is the pair among all pairs with the same data, or with
-other data.
+are wrong from a misunderstanding that both have, which is held certain. Which of the fields agree
+is counted as a choice, and so is the pair among all pairs with the same data, or with other data.
+
+Among the honest the mean of such odds is 1 at most whichever pair is looked at, so that a class
+is expected to have 1/``STRONG`` innocent pairs with odds of ``STRONG``, or fewer.
 """
 
 from __future__ import annotations
@@ -19,15 +22,25 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.copied_answers import Slips, no_slips
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
 from graphkin.classroom.grading.likelihood import PENCILS, Key, fit, told_odds
+from graphkin.classroom.grading.own_ways import (
+    Way,
+    by_own_scales,
+    by_slips,
+    from_own_values,
+    rightly,
+)
 from graphkin.classroom.grading.standard import Expectation
 
 FEW = 3
 """Fewer fields tell nothing."""
 STRONG = 100.0
 """Odds from which a copy is reported, all that was looked through counted."""
+PART = 0.1
+"""How often of a length and the value computed from it only one is copied."""
 RARE = 0.01
 """How often two numbers agree by chance where nothing is known yet."""
 KNOWN = 10.0
@@ -46,12 +59,23 @@ Pair = tuple[int, int]
 
 
 class AnswerSheet(Struct, frozen=True):
-    """A student's numbers, how far each may be rounded, which are wrong, and the own variant."""
+    """A student's numbers, how far each may be rounded by its ``digits``, and at ``least`` as
+    lengths are read, which are wrong, the own variant, and the ways that lead there by its data.
+    """
 
     answers: Any
-    rounding: Any
+    digits: Any
+    least: Any
     wrong: Any
     variant: int
+    ways: tuple[Way, ...]
+
+    @property
+    def rounding(self) -> Any:
+        """How far each may be rounded."""
+        import numpy as np
+
+        return np.maximum(self.digits, self.least)
 
     @property
     def is_read(self) -> Any:
@@ -61,9 +85,12 @@ class AnswerSheet(Struct, frozen=True):
         return ~np.isnan(self.answers)
 
 
-def copies(graded: Sequence[Graded], standards: Sequence[Expectation]) -> tuple[Suspicion, ...]:
+def copies(
+    graded: Sequence[Graded], standards: Sequence[Expectation], slips: Slips = no_slips
+) -> tuple[Suspicion, ...]:
     """Students who handed in the same digits: two, or more of whom any two did in all the fields
-    that are named; the odds are those of the weakest two.
+    that are named; the odds are those of the weakest two. ``slips`` are asked only for whoever
+    would be named without them.
     """
     present = [i for i, each in enumerate(graded) if each.present]
     if len(present) < 2:
@@ -83,14 +110,21 @@ def copies(graded: Sequence[Graded], standards: Sequence[Expectation]) -> tuple[
         """The odds of two with the same digits in some fields, as a logarithm."""
         if len(places) < FEW:
             return -inf
-        return told(pair, sheets, keys, places) - needed(pair)
+        enough = log(STRONG) + needed(pair)
+        return told(pair, sheets, keys, places, enough) - needed(pair)
 
     strong: dict[Pair, float] = {}
     fields: dict[Pair, tuple[int, ...]] = {}
+    asked: set[int] = set()
     for pair, chances in agreeing(sheets, keys).items():
         if -sum(map(log, chances.values())) - needed(pair) >= log(STRONG):
             fields[pair] = tuple(chances)
             odds = odds_of(pair, fields[pair])
+            if odds >= log(STRONG) and not asked.issuperset(pair):
+                new = [who for who in pair if who not in asked]
+                sheets |= {who: with_slips(sheets[who], graded[who], keys, slips) for who in new}
+                asked.update(new)
+                odds = odds_of(pair, fields[pair])
             if odds >= log(STRONG):
                 strong[pair] = odds
     return tuple(
@@ -111,8 +145,20 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
     marks = {mark.item.field: mark for mark in graded.marks}
     wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])
     answers[~keys.known(variant)] = np.nan
-    least = np.maximum(keys.reading(variant), FINE * np.nan_to_num(abs(answers)))
-    return AnswerSheet(answers, np.maximum(digits, least), wrong, variant)
+    digits = np.maximum(digits, FINE * np.nan_to_num(abs(answers)))
+    ways = (
+        rightly(keys, variant),
+        *by_own_scales(answers, keys, variant, ~np.isnan(answers)),
+        *from_own_values(graded, answers, keys, variant),
+    )
+    return AnswerSheet(answers, digits, keys.reading(variant), wrong, variant, ways)
+
+
+def with_slips(each: AnswerSheet, graded: Graded, keys: Keys, slips: Slips) -> AnswerSheet:
+    """A student's numbers, to which the slips that explain some of them may have led as well."""
+    names = {mark.slip for mark in graded.marks if mark.slip}
+    made = [slip for slip in slips(graded) if slip.name in names] if names else ()
+    return replace(each, ways=(*each.ways, *by_slips(made, keys, each.variant)))
 
 
 def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[int, float]]:
@@ -132,25 +178,72 @@ def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[i
     return found
 
 
-def told(pair: Pair, sheets: Mapping[int, AnswerSheet], keys: Keys, places: Sequence[int]) -> float:
+def told(
+    pair: Pair,
+    sheets: Mapping[int, AnswerSheet],
+    keys: Keys,
+    places: Sequence[int],
+    enough: float = -inf,
+) -> float:
     """How much likelier the same digits in some fields are by a copy of just these fields than by
-    chance, as a logarithm: by the chance of whoever is the less likely to have written them.
+    chance, as a logarithm; no more exactly than that it is less than ``enough``.
     """
     import numpy as np
 
     one, other = (sheets[who] for who in pair)
     agree = np.zeros(len(keys.fields), dtype=bool)
     agree[list(places)] = True
+    choice = chosen(keys, one.is_read & other.is_read, agree) + log(2)
+    innocent = -inf
+    for each in by_chance(one, other, keys, agree):
+        innocent = max(innocent, each)
+        if -innocent - choice < enough:
+            break
+    return -innocent - choice
+
+
+def by_chance(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> Iterator[float]:
+    """How likely two write the same digits, by each explanation, as a logarithm: by the chance of
+    whoever is the less likely to have written them, and by what both misunderstood. At least so
+    likely by what is quickly told, which is the key without the rest of the sheets.
+    """
     shared = agree & one.wrong & other.wrong
-    ways = ((one, other), (other, one))
-    alone = min(by_oneself(*way, keys, agree & ~shared, ~agree) for way in ways)
-    innocent = alone + misunderstood(one, other, keys, shared)
+    yield by_key(one, other, keys, agree)
     if shared.any():
-        innocent = float(np.logaddexp(innocent, both_computed(one, other, keys, agree)))
-    measured = keys.beside == np.arange(len(keys.fields))
-    both, taken = (int((each & measured).sum()) for each in (one.is_read & other.is_read, agree))
-    choice = log(both + 1) + log(comb(both, taken))
-    return -innocent - choice - log(2)
+        same = misunderstood(one, other, keys, shared)
+        yield same + by_key(one, other, keys, agree & ~shared)
+        yield both_computed(one, other, keys, agree)
+        yield same + alone(one, other, keys, agree & ~shared, agree)
+    yield alone(one, other, keys, agree, agree)
+
+
+def by_key(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any) -> float:
+    """How likely the one of two who is the less likely to write some digits does so by the own
+    key, as a logarithm.
+    """
+    both = (one, other)
+    return min(0.0, *(likelihood(s, keys, s.variant, s.ways[0], read, True) for s in both))
+
+
+def chosen(keys: Keys, both: Any, agree: Any) -> float:
+    """How often just these of the fields that both have are copied, as a logarithm, with its sign
+    turned: any number of quantities, each mostly with its length and with its value.
+    """
+    import numpy as np
+
+    quantities, places = np.unique(keys.beside, return_inverse=True)
+    there, taken = (np.bincount(places, each, len(quantities)) for each in (both, agree))
+    count, some = int((there > 0).sum()), taken > 0
+    parts, whole = int((some & (taken < there)).sum()), int((some & (taken > 1)).sum())
+    choice = log(count + 1) + log(comb(count, int(some.sum())))
+    return choice - parts * log(PART / 2) - whole * log(1 - PART)
+
+
+def alone(one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, agree: Any) -> float:
+    """How likely the one of two who is the less likely to write some digits does so without the
+    other's, as a logarithm; what does not agree is the own.
+    """
+    return min(by_oneself(*way, keys, read, ~agree) for way in ((one, other), (other, one)))
 
 
 def both_computed(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) -> float:
@@ -169,39 +262,47 @@ def both_computed(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) 
 
 def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, rest: Any) -> float:
     """How likely a student writes just these digits without the other's, as a logarithm: from the
-    own drawing, or from a drawing of the other's data, which then the rest must fit as well.
+    own drawing, by each way that the rest of the sheet was gone, as it tells, or may be gone in
+    these answers alone; or from a drawing of the other's data, which then the rest tells as well.
     """
     import numpy as np
 
     if not read.any():
         return 0.0
-    digits = float(np.log(2 * each.rounding[read]).sum())
-    own = likelihood(each, keys, each.variant, read)
-    if other.variant == each.variant:
-        return min(0.0, own + digits)
-    rest = rest & each.is_read & keys.known(other.variant)
-    astray = likelihood(each, keys, other.variant, read | rest)
-    astray -= likelihood(each, keys, each.variant, rest) + log(len(keys.sizes) / ASTRAY)
-    return min(0.0, float(np.logaddexp(own, astray)) + digits)
+    sources = [(each.variant, way) for way in each.ways]
+    rest = rest & each.is_read
+    if other.variant != each.variant:
+        rest = rest & keys.known(other.variant)
+        astray = replace(rightly(keys, other.variant), share=log(ASTRAY / len(keys.sizes)))
+        sources.append((other.variant, astray))
+    own = np.array([variant == each.variant for variant, _ in sources])
+    shares = np.array([way.share for _, way in sources])
+    told = shares + [likelihood(each, keys, *source, rest) for source in sources]
+    told -= np.logaddexp.reduce(told)
+    shares = np.where(own, np.maximum(shares, told), told)
+    digits = [likelihood(each, keys, *source, read, True) for source in sources]
+    return min(0.0, float(np.logaddexp.reduce(shares + digits)))
 
 
-def likelihood(each: AnswerSheet, keys: Keys, variant: int, read: Any) -> float:
-    """How likely some of a student's answers are by the data of a variant, as a logarithm: drawn
-    by hand, or computed.
+def likelihood(
+    each: AnswerSheet, keys: Keys, variant: int, way: Way, read: Any, exactly: bool = False
+) -> float:
+    """How likely some of a student's answers are, or ``exactly`` their digits, by a way that is
+    gone with the data of a variant, as a logarithm: drawn by hand, or computed.
     """
     import numpy as np
 
     if not read.any():
         return 0.0
-    given = each.answers[read], each.rounding[read]
-    by_hand, computed = (fit(*given, key).likelihood for key in tools(keys, variant, read))
-    odds = (by_hand + log(1 - COMPUTING), computed + log(COMPUTING))
-    return float(np.logaddexp(*odds))
+    rounding = np.maximum(each.digits, each.least * way.times)[read]
+    key = way.key(keys, variant, read)
+    by_hand, computed = (fit(each.answers[read], rounding, k).likelihood for k in tools(key))
+    found = np.logaddexp(by_hand + log(1 - COMPUTING), computed + log(COMPUTING))
+    return float(found + np.log(2 * rounding).sum() if exactly else found)
 
 
-def tools(keys: Keys, variant: int, read: Any) -> tuple[Key, Key]:
+def tools(key: Key) -> tuple[Key, Key]:
     """A key with the errors of a hand, and of a computer, by which no crank is laid off badly."""
-    key = keys.key(variant, read)
     fine = replace(
         key, spread=FINER**2 * key.spread, computed=FINER * key.computed, cranks=0.0 * key.cranks
     )
@@ -219,10 +320,15 @@ def misunderstood(
     if not read.any():
         return 0.0
     finest = pencil or min(pencil_of(each, keys) for each in (one, other))
-    apart = keys.sizes[one.variant][read] - keys.sizes[other.variant][read]
-    rounding = np.maximum(one.rounding, other.rounding)[read]
-    spread = 2 * finest**2 * keys.key(one.variant, read).spread
-    spread = spread + np.diag(2 * rounding**2 / 3 + apart**2)
+    key = keys.key(one.variant, read)
+    apart = key.sizes - keys.sizes[other.variant][read]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        times = np.nan_to_num(one.answers[read] / key.sizes, nan=1.0, posinf=1.0)
+    times = np.where(key.places, 1.0, times)
+    coarse, smaller = np.maximum(1.0, times), np.minimum(1.0, times)
+    rounding = np.maximum(one.rounding, other.rounding)[read] * coarse
+    spread = 2 * finest**2 * key.spread * np.outer(smaller, smaller)
+    spread = spread + np.diag(2 * rounding**2 / 3 + (smaller * apart) ** 2)
     density = -0.5 * np.linalg.slogdet(2 * pi * spread)[1]
     return min(0.0, float(density + np.log(2 * rounding).sum()))
 
@@ -235,7 +341,7 @@ def pencil_of(each: AnswerSheet, keys: Keys) -> float:
     if read.sum() < FEW:
         return PENCILS[0]
     given = each.answers[read], each.rounding[read]
-    drawn, computed = (fit(*given, key) for key in tools(keys, each.variant, read))
+    drawn, computed = (fit(*given, key) for key in tools(keys.key(each.variant, read)))
     is_finer = computed.likelihood + log(COMPUTING) > drawn.likelihood + log(1 - COMPUTING)
     return FINER * computed.pencil if is_finer else drawn.pencil
 

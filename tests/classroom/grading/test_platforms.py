@@ -239,6 +239,20 @@ def test_ids_that_a_spreadsheet_made_numbers_are_found_in_a_gradebook(tmp_path):
     assert found.data == b"Row,ID number,Grade\r\n1,1003,9\r\n2,1004,7.5\r\n"
 
 
+def test_a_row_without_an_id_is_found_by_its_address(tmp_path):
+    """Where that is one student's, who has no row with the id; a foreign id is nobody's."""
+    text = "ID,E-mail,Grade\r\n01003,,\r\n,PAT@example.org,\r\n,ana.s@example.org,\r\n"
+    found = filled(book(tmp_path, text), MARKS, "Grade", SIGNS)
+    rows = found.data.decode().split("\r\n")
+    assert rows[1:4] == ["01003,,9", ",PAT@example.org,7.5", ",ana.s@example.org,"]
+    assert (found.count, found.absent) == (2, ())
+    assert filled(book(tmp_path, text), MARKS, "Grade", SIGNS, "id").absent == ("01004",)
+    foreign = text.replace(",PAT", "77,PAT")
+    assert filled(book(tmp_path, foreign), MARKS, "Grade", SIGNS).absent == ("01004",)
+    with pytest.raises(GradebookError, match='"01004" stands there twice'):
+        filled(book(tmp_path, text + ",pat@example.org,\r\n"), MARKS, "Grade", SIGNS)
+
+
 # --- the command --------------------------------------------------------------------------------
 
 

@@ -1,0 +1,173 @@
+"""The odds of a copy are odds: of honest pairs 1 in N has more than N, or fewer.
+
+Hands share nothing with the marking; those of a pair have the same data and the same slip, or
+other data and other slips.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from itertools import combinations
+from math import comb, exp
+
+import numpy as np
+import pytest
+
+from graphkin.classroom.grading.graded import Answer, Graded, Taker
+from graphkin.classroom.grading.keys import Keys, distinct
+from graphkin.classroom.grading.same_digits import (
+    FEW,
+    by_oneself,
+    chosen,
+    copies,
+    sheet,
+    told,
+    with_slips,
+)
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.roster.student import Student
+from tests.chosen import EVERY
+from tests.classroom.grading import hand
+from tests.classroom.grading.classes import LABS, Kind, book_of, row, written
+
+FINE = Kind("fine", (0.25, 0.25))
+ORDINARY = Kind("ordinary", (0.5, 0.5), digits=3)
+WEAK = Kind("weak", (0.5, 0.5), step=1, digits=2)
+COMPUTED = Kind("computed", (0.0, 0.02), step=0.1)
+KINDS = (FINE, ORDINARY, WEAK, COMPUTED) if EVERY else (ORDINARY, WEAK)
+EACH = 12 if EVERY else 10
+SLIPS = (None, *hand.SLIPS)
+SOME = SLIPS if EVERY else (None, "wrong_scale", "normal_reversed")
+Rows = Sequence[Mapping[str, Answer]]
+
+
+def marked(lab: str, numbers: Sequence[int], rows: Rows) -> list[Graded]:
+    """The marks of students with some numbers."""
+    takers = [
+        Taker(Student(i + 1, f"s{i:03d}"), {"n": exact_text(Fraction(n))})
+        for i, n in enumerate(numbers)
+    ]
+    book = book_of(lab)
+    book.prepare(takers)
+    return [book.mark(*each)[0] for each in zip(takers, rows, strict=True)]
+
+
+def drawings(lab: str, kind: Kind, given: Sequence[tuple[int, str | None]], seed: int) -> Rows:
+    """Honest answers, each to a number, with a slip or none."""
+    rng = np.random.default_rng([seed, *kind.name.encode()])
+    rows = []
+    for number, slip in given:
+        taker = Taker(Student(1, "s"), {"n": exact_text(Fraction(number))})
+        own = Kind(kind.name, kind.sigma, 1.0, kind.step, kind.digits, float(bool(slip)), (slip,))
+        rows.append(row(lab, taker, own, rng))
+    return rows
+
+
+def odds(lab: str, graded: Sequence[Graded], is_pair=lambda i, j: True) -> list[float]:
+    """The odds of a copy of all pairs; nought where too few digits are the same."""
+    book = book_of(lab)
+    standards = [book.expectation(each.taker) for each in graded]
+    own, mine = distinct(standards)
+    keys = Keys.of(own)
+    sheets = {
+        i: with_slips(sheet(each, keys, mine[id(standard)]), each, keys, book.slips)
+        for i, (each, standard) in enumerate(zip(graded, standards, strict=True))
+    }
+    found = []
+    for pair in combinations(range(len(graded)), 2):
+        one, other = (sheets[who].answers for who in pair)
+        places = np.flatnonzero((one == other) & (one != 0)).tolist()
+        if is_pair(*pair):
+            enough = len(places) >= FEW
+            found.append(exp(told(pair, sheets, keys, places)) if enough else 0.0)
+    return found
+
+
+def assert_odds(found: Sequence[float]) -> None:
+    """That of so many pairs no larger share has odds above a number than odds allow."""
+    for number in (3, 10, 30, 100, 1000):
+        assert sum(each > number for each in found) <= max(1.0, len(found) / number), number
+
+
+@pytest.mark.parametrize("lab", LABS if EVERY else LABS[1:2])
+def test_two_honest_hands_with_one_misunderstanding_and_the_same_data(lab):
+    """Whichever they draw with, and however coarsely they write."""
+    found = []
+    for place, slip in enumerate(SOME):
+        for kind in KINDS:
+            numbers = [3 * place + 2] * EACH
+            rows = drawings(lab, kind, [(n, slip) for n in numbers], place)
+            found += odds(lab, marked(lab, numbers, rows))
+    assert len(found) == comb(EACH, 2) * len(KINDS) * len(SOME)
+    assert sum(each > 0 for each in found) > 50
+    assert_odds(found)
+
+
+@pytest.mark.parametrize("slip", hand.SLIPS if EVERY else ["wrong_scale"])
+def test_an_honest_hand_with_a_misunderstanding_and_one_with_other_data(slip):
+    """A value twice as large is another's value: who takes a scale wrongly has that in all."""
+    lab, numbers = "slotted-lever", [*range(1, 31)] * 4
+    given = [(n, slip if i < 60 else None) for i, n in enumerate(numbers)]
+    graded = marked(lab, numbers, drawings(lab, WEAK, given, 7))
+    found = odds(lab, graded, lambda i, j: i < 60 <= j and (j - i) % 30 > 0)
+    assert len(found) == 60 * 58
+    assert slip != "wrong_scale" or sum(each > 0 for each in found) > 3
+    assert_odds(found)
+
+
+# --- one pair ------------------------------------------------------------------------------------
+
+DOUBLED = {
+    "v_C_mm": "128", "v_C": "1.4", "v_A3_mm": "86", "v_A3": "0.94", "a_C_mm": "92", "a_C": "5.5",
+    "a_A3_mm": "48", "a_A3": "2.8", "omega_3": "2.5", "omega_4": "2.2", "epsilon_3": "6.9",
+    "epsilon_4": "4.4", "v_slide_2": "0.93", "a_slide_2": "3.9",
+}  # fmt: skip
+"""Number 1, all values by scales twice as large."""
+RIGHT = {
+    "v_C_mm": "161", "v_C": "1.4", "v_A3_mm": "107", "v_A3": "0.94", "a_C_mm": "49", "a_C": "3.8",
+    "a_A3_mm": "36", "a_A3": "2.8", "omega_3": "2.4", "omega_4": "1.3", "epsilon_3": "4.1",
+    "epsilon_4": "15", "v_slide_2": "0.48", "a_slide_2": "6.2",
+}  # fmt: skip
+"""Number 17."""
+
+
+def test_who_doubles_all_values_has_three_of_another_by_chance():
+    """Alone in their class, where no other pair was looked through: the rest of the sheet tells of
+    the doubling, and then these are as likely as they are for whoever has them rightly."""
+    rows = [{f: Answer(text, float(text)) for f, text in row.items()} for row in (DOUBLED, RIGHT)]
+    graded = marked("slotted-lever", [1, 17], rows)
+    same = [f for f in DOUBLED if DOUBLED[f] == RIGHT[f]]
+    assert same == ["v_C", "v_A3", "a_A3"]
+    book = book_of("slotted-lever")
+    assert copies(graded, [book.expectation(each.taker) for each in graded], book.slips) == ()
+    (found,) = odds("slotted-lever", graded)
+    assert 0 < found < 1
+    keys = Keys.of([book.expectation(each.taker) for each in graded])
+    one, other = (
+        with_slips(sheet(each, keys, i), each, keys, book.slips) for i, each in enumerate(graded)
+    )
+    agree = one.answers == other.answers
+    doubled, right = (
+        by_oneself(*pair, keys, agree, ~agree) for pair in ((one, other), (other, one))
+    )
+    assert doubled == pytest.approx(right, abs=0.5)
+
+
+def test_a_unit_that_is_taken_wrongly_makes_no_pair():
+    """All values a thousand times too small, in three digits, of careful hands with one number."""
+    rows = []
+    for each in drawings("slotted-lever", ORDINARY, [(9, None)] * 8, 3):
+        values = {f: a for f, a in each.items() if not f.endswith(("_mm", "_sense"))}
+        small = {f: written(f, float(a.value or 0) / 1000, 3) for f, a in values.items()}
+        rows.append({**each, **small})
+    found = odds("slotted-lever", marked("slotted-lever", [9] * 8, rows))
+    assert 0 < max(found) < 100
+
+
+def test_what_may_be_copied_of_a_form_has_a_share_that_adds_up_to_one():
+    """Every choice of fields: two quantities with a length and a value, and a value alone."""
+    keys = Keys((), None, None, np.array([0, 0, 2, 2, 4]), None, None, None, ())
+    there = np.ones(5, dtype=bool)
+    every = [np.array([bool(n >> i & 1) for i in range(5)]) for n in range(32)]
+    assert sum(exp(-chosen(keys, there, each)) for each in every) == pytest.approx(1.0)
