@@ -77,6 +77,8 @@ ENOUGH, AS_EXPECTED = 1.8, 0.3
 """
 APART = 1.5
 """Nearer to a known point, in mm, another cannot be told from it."""
+SAME = 0.7
+"""Nearer to each other, in mm, two points are one on paper."""
 TRIED = 10
 """Places that are tried with what would follow from them."""
 
@@ -342,7 +344,7 @@ class PointSearch:
                 there = self.own.get(other)
                 if there is None:
                     there = complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
-                if abs(there - place) < far:
+                if SAME < abs(there - where.middle) and abs(there - place) < far:
                     return False
         return True
 
