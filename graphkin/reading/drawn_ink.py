@@ -50,6 +50,8 @@ SPECKS = 0.3
 """
 MARKS = np.arange(0.45, 2.6, 0.15)
 """Radii of the dots, rings and crosses by which a point is marked, in mm; the last lie beyond."""
+ASIDE = np.arange(0.3, 0.5, 0.05)
+"""How far beside a printed line is seen what is drawn over it, in mm."""
 BEYOND, MARKED = 6, 0.7
 """How many radii on there is paper again; the share of a mark that is drawn at least."""
 ASLANT, MOST_NODES = 12.0, 6
@@ -181,6 +183,27 @@ class DrawnInk(Struct, frozen=True):
         near = marked > marked[best] - 0.1
         near &= abs(places - places[best]) < MARKS[-1] / 2
         return complex(places[near].mean())
+
+    def on_print(self, place: complex, way: complex, reach: float) -> float | None:
+        """How far along a printed line, from a place on it, a dot, a ring or a stroke across it is
+        drawn, or a line that lies on it begins, as seen on both sides of it; None: nowhere.
+        """
+        along = np.arange(-reach - RUN, reach + RUN + PITCH, PITCH)
+        dark, _ = self.at(place + way * (along[:, None] + 1j * np.concatenate([-ASIDE, ASIDE])))
+        sides = np.stack([dark[:, : len(ASIDE)].mean(axis=1), dark[:, len(ASIDE) :].mean(axis=1)])
+        drawn = sides.min(axis=0) - np.median(sides, axis=1).min() > COVERED
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], drawn.astype(int), [0]])))
+        found = []
+        for first, last in edges.reshape(-1, 2):
+            begin, end = float(along[first]), float(along[last - 1])
+            if end - begin < MARKS[-1]:
+                found.append((begin + end) / 2)
+            elif last < len(along):
+                found.append(end - ASIDE[-1])
+            elif first > 0:
+                found.append(begin + ASIDE[-1])
+        near = [each for each in found if abs(each) <= reach]
+        return min(near, key=abs) if near else None
 
     def node(self, place: complex, way: complex, reach: float) -> float | None:
         """How far along a line, from a place on it, most others leave it; None where none does."""

@@ -40,7 +40,7 @@ class Leading(Struct, frozen=True):
     ``given`` tells that the line is printed, ``bow`` that it is the arc of a compass, ``after``
     that it is drawn through the point or from it when that is there, ``arrow`` that it is a vector
     that begins or ends at the point and does not go on, ``back`` that the other end is the tail of
-    a vector.
+    a vector, ``light`` that it is a side of a similar triangle that dividers do without.
     """
 
     far: int
@@ -49,6 +49,7 @@ class Leading(Struct, frozen=True):
     after: bool = False
     arrow: bool = False
     back: bool = False
+    light: bool = False
 
 
 class LetteredSheet(Struct, frozen=True, dict=True):
@@ -172,13 +173,29 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                     yield Leading(arg, self.is_given(arg))
                 elif isinstance(values.get(arg), Circle):
                     yield Leading(arg, bow=True)
+        yield from (Leading(line, given=True) for line in self.printed_through(number))
+        ends = set[int]()
         for tail, tip in self.vectors:
             if number in (tail, tip) and steps[tail].plane is steps[number].plane:
+                ends.add(tip if number == tail else tail)
                 yield Leading(tip if number == tail else tail, arrow=True)
         if steps[number].action is similar_point and hand not in values:
-            yield from (Leading(corner) for corner in steps[number].args[:2])
+            corners = steps[number].args[:2]
+            for corner in corners:
+                yield Leading(corner, light=corner not in ends and bool(ends & set(corners)))
         yield from (Leading(far) for far in self.bars.get(number, ()))
         yield from self.after(number)
+
+    def printed_through(self, number: int) -> Iterator[int]:
+        """The printed guides on which a point of a moving link lies, however a hand finds it."""
+        steps, values = self.exact.program.steps, self.exact.trace.values
+        own = values[number]
+        if steps[number].plane is Plane.MECHANISM and isinstance(own, complex):
+            for line in self.guides:
+                value = values[line]
+                beside = ((own - value.point) * value.along.conjugate()).imag / abs(value.along)
+                if abs(beside) * self.field(number).mm < EXACT and self.is_given(line):
+                    yield line
 
     @cached_property
     def vectors(self) -> tuple[tuple[int, int], ...]:

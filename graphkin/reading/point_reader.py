@@ -36,6 +36,8 @@ VAGUE, MEET, BESIDE = 4.0, 3, 2.5
 lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
 than so many mm.
 """
+AT_KEY = 2.0
+"""The squared distance from the key, in deviations, up to which a point is there."""
 ELSEWHERE = 0.8
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
 WHOLE = 0.9
@@ -181,9 +183,11 @@ class PointReader(PointSearch):
             near = abs(best.place - own.middle) <= BESIDE
             close = abs(best.place - own.middle) <= CLOSE_BY
             met = ((best.count >= MEET and near) or close) and not self.bad
+            there = self.is_there(number, best, key)
             ended = best.ends and close and own.radius <= VAGUE
             ended = ended and self.is_single(number, best.place)
-            vague = (own.radius > VAGUE and not met) or untried  # by an auxiliary plan nobody saw
+            # untried: by an auxiliary plan nobody saw
+            vague = not there and ((own.radius > VAGUE and not met) or untried)
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = (
                 away > SURE
@@ -197,7 +201,8 @@ class PointReader(PointSearch):
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OUTSIDE or abs(best.place - key.middle) > APART
+                ask = ask or from_key > OUTSIDE
+                ask = ask or (abs(best.place - key.middle) > APART and not self.is_met(number, best, from_key))
                 ask = ask or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
@@ -227,6 +232,22 @@ class PointReader(PointSearch):
             round(own.radius, 3),
             *self.tail(number),
         )
+
+    def is_there(self, number: int, best: LinesCrossing, key: ExpectedPlace) -> bool:
+        """Whether lines that are all drawn cross where the key has a point, on a sheet where
+        nothing is wrong so far: then it is right, whatever was not seen of the way to it.
+        """
+        near = abs(best.place - key.middle) <= BESIDE and key.away(best.place, best.error) <= AT_KEY
+        whole = best.count > 1 and self.agreement(number, best.place) >= WHOLE
+        return near and whole and not self.bad
+
+    def is_met(self, number: int, best: LinesCrossing, from_key: float) -> bool:
+        """Whether so many lines meet at a point, and so sure is all before it, that the pencil
+        alone took it far from the key.
+        """
+        behind = self.behind(number)
+        asked = any(self.readings[n].ask for n in self.readings.keys() & behind)
+        return best.count >= MEET and from_key <= SURE and not (asked or self.unread & behind)
 
     def tail(self, number: int) -> tuple[tuple[float, float] | None, str]:
         """A known point from which a point is drawn, and its letter."""

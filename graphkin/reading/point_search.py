@@ -19,7 +19,7 @@ from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk, InkLine
 from graphkin.reading.expected_place import ExpectedPlace, expected
-from graphkin.reading.lettered_points import AHEAD, SHORT, Leading, LetteredSheet
+from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
 from graphkin.reading.line_crossings import (
     CROSSING,
     PASSES,
@@ -58,6 +58,8 @@ RAY, MOST_RAYS, PARTED, BREAK = 7.0, 16, 0.8, 8
 """The shortest ray that counts, in mm; how many of a place do; by how many degrees they differ;
 over how many steps nothing is drawn where a ray ends.
 """
+BROAD = 0.6
+"""A ray that ends so near a longer one, in mm, is nothing but that one's stroke."""
 EXPLAINED = 0.5
 """What is left of a line that leads to a place where it goes on to a point that is known."""
 JOINS = 0.3
@@ -75,6 +77,8 @@ ENOUGH, AS_EXPECTED = 1.8, 0.3
 """
 APART = 1.5
 """Nearer to a known point, in mm, another cannot be told from it."""
+SAME = 0.7
+"""Nearer to each other, in mm, two points are one on paper."""
 TRIED = 10
 """Places that are tried with what would follow from them."""
 
@@ -189,7 +193,7 @@ class PointSearch:
         return [
             found
             for each in self.sheet.leading[number]
-            if not (read and self.is_unsure(each))
+            if not (each.light or read and self.is_unsure(each))
             if (found := self.cover_of(number, each, place)) is not None
         ]
 
@@ -277,7 +281,11 @@ class PointSearch:
         it goes on, or other points are expected about there, the place on it that is expected:
         where others run there as well, too flatly to cross it, that is taken for its end.
         """
-        ends = self.known_ends(number)
+        ends = [
+            self.far_place(each, self.next)
+            for each in self.sheet.leading[number]
+            if self.is_known(each) and not (each.given or each.bow or each.after)
+        ]
         flat = [
             some
             for some in lines
@@ -293,6 +301,10 @@ class PointSearch:
             found = self.ink.stroke(foot, line.way, where.reach)
             if found is not None:
                 shift, along, count = self.ink.node(foot, line.way, where.reach), NODE, 2
+                if shift is None and line.error == PRINTED:
+                    shift, along = self.marked_along(foot, line.way, where.reach), SPOT
+                    if shift is None:
+                        shift = self.ink.on_print(foot, line.way, where.reach)
                 if shift is None:
                     shift, along, count = found.end, END, 1
                     mark = self.marked_along(foot, line.way, where.reach)
@@ -332,7 +344,7 @@ class PointSearch:
                 there = self.own.get(other)
                 if there is None:
                     there = complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
-                if abs(there - place) < far:
+                if SAME < abs(there - where.middle) and abs(there - place) < far:
                     return False
         return True
 
@@ -340,10 +352,7 @@ class PointSearch:
         """The drawn lines that may be what leads to a point."""
         values = self.next
         if leading.given:
-            line = values[leading.far]
-            start = self.far_place(leading, values)
-            way = complex(np.ravel(line.along)[0]).conjugate()
-            return [InkLine(start, start + 100 * way / abs(way), 1.0, PRINTED)]
+            return [self.printed_line(leading)]
         if leading.bow:
             return self.arcs_near(leading, where)
         far = self.far_place(leading, values)
@@ -355,6 +364,12 @@ class PointSearch:
         if not np.isfinite(far) or abs(far - target) < SHORT:
             return []
         return self.ink.lines(far, target, beside, where.reach)
+
+    def printed_line(self, leading: Leading) -> InkLine:
+        """A printed guide, up to where it begins."""
+        start = self.far_place(leading, self.next)
+        way = complex(np.ravel(self.next[leading.far].along)[0]).conjugate()
+        return InkLine(start - LONGEST * way / abs(way), start, 1.0, PRINTED)
 
     def arcs_near(self, leading: Leading, where: ExpectedPlace) -> list[InkLine]:
         """The arc of a compass near where a point is expected, as the line touching it there."""
@@ -374,7 +389,7 @@ class PointSearch:
         """
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
-        places = self.candidates(ends, crossed)
+        places = self.candidates(number, ends, crossed)
         taken = list(self.own.values())
         plausible = [
             place
@@ -429,23 +444,29 @@ class PointSearch:
         """The known ends of what leads to a point, apart from one another."""
         found: list[complex] = []
         for each in self.sheet.leading[number]:
-            if self.is_known(each) and not (each.bow or each.after):
+            if self.is_known(each) and not (each.bow or each.after or each.light):
                 end = self.far_place(each, self.next)
                 if np.isfinite(end) and all(abs(end - other) > SHORT for other in found):
                     found.append(end)
         return found
 
-    def candidates(self, ends: Sequence[complex], crossed: bool) -> list[complex]:
-        """Where the rays that leave some ends end and cross; where rays of one direction are all
-        that is known, also where other lines leave them.
+    def candidates(self, number: int, ends: Sequence[complex], crossed: bool) -> list[complex]:
+        """Where the rays that leave some ends end, and cross each other and printed lines; where
+        rays of one direction are all that is known, also where other lines leave them.
         """
-        rays = [self.rays(end) for end in ends]
+        guides = [self.printed_line(each) for each in self.sheet.leading[number] if each.given]
+        printed = {line.end for line in guides}
+        rays = [[] if end in printed else self.rays(end) for end in ends]
         places: list[complex] = []
         for end, some in zip(ends, rays, strict=True):
             for way, long in some:
                 places.append(end + way * long)
                 if not crossed:
                     places += self.ink.nodes(end, way, long + GUESSED)
+                for line in guides:
+                    place = met(InkLine(end, end + way, 1, 1), line)
+                    if place is not None and SHORT < ((place - end) / way).real < long + 1.5:
+                        places.append(place)
         for (end, some), (other, more) in combinations(zip(ends, rays, strict=True), 2):
             for way, long in some:
                 for way2, long2 in more:
@@ -483,7 +504,8 @@ class PointSearch:
         for i in np.argsort(-strength):
             if lengths[i] < RAY or strength[i] < 5 or len(found) >= MOST_RAYS:
                 break
-            if all(abs(np.angle(ways[i] / way)) > np.radians(PARTED) for way, _ in found):
+            far = complex(ways[i]) * float(lengths[i])
+            if all(is_parted(far, way, long) for way, long in found):
                 found.append((complex(ways[i]), float(lengths[i])))
         return found
 
@@ -584,6 +606,15 @@ def unbroken(drawn: Any) -> Any:
     count[:, BREAK:] -= count[:, :-BREAK].copy()
     count[:, :BREAK] = 1
     return np.logical_and.accumulate(count > 0, axis=1)
+
+
+def is_parted(far: complex, way: complex, long: float) -> bool:
+    """Whether a ray that goes so far is another than one already found, and not its broad stroke
+    that it leaves.
+    """
+    ratio = far / way
+    same = abs(np.angle(ratio)) <= np.radians(PARTED)
+    return not (same or (0 < ratio.real < long and abs(ratio.imag) < BROAD))
 
 
 def in_fields(places: Any) -> Any:
