@@ -222,7 +222,7 @@ def heic(image: np.ndarray) -> bytes:
 
 HOSTILE = {
     "large.png": (png_head(20_000, 10_000), "120 million pixels"),
-    "half.heic": (heic(np.full((1500, 2000), 90, np.uint8))[:900], "cut short"),
+    "half.heic": (heic(np.full((150, 200), 90, np.uint8))[:300], "cut short"),
     "blank.jpg": (sheet_jpeg(np.full((1500, 2000), 230, np.uint8)), "no code is found"),
     "bomb.png": (png_head(60_000, 60_000), "million pixels"),
     "cut.jpg": (sheet_jpeg(np.zeros((1500, 2000), np.uint8))[:2000], "cut short"),
