@@ -49,7 +49,7 @@ TEETH = ("gear", "gear-disc")
 """The outlines of gears."""
 CURVES = ("trajectory", "fixed-centrode", "moving-centrode", "locus")
 """Curves of the whole motion: they are drawn once, and carried with what bears them."""
-PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.38, 0.72)
+PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.72)
 """The places looked at, in parts of the range."""
 
 
