@@ -190,8 +190,13 @@ def test_a_full_disk_is_told_and_nothing_is_half_written(whole, make, monkeypatc
     assert tree(folder / "print") == whole
 
 
-def test_files_of_other_settings_are_not_replaced_without_force(whole, tmp_path):
-    folder, wishes = copied(whole, tmp_path), PrintRequest(language="ro", ink="black")
+@pytest.mark.parametrize(
+    "wishes",
+    [PrintRequest(language="ro"), PrintRequest(ink="black")],
+    ids=["another language", "another ink"],
+)
+def test_files_of_other_settings_are_not_replaced_without_force(whole, tmp_path, wishes):
+    folder = copied(whole, tmp_path)
     with pytest.raises(PageError, match=r"0001-task\.pdf.* and 21 more.*--force"):
         printed(folder, wishes)
     assert tree(folder / "print") == whole
