@@ -263,7 +263,7 @@ def test_a_formula_cell_is_read_as_text_and_never_run(saved):
     assert one.name == '=HYPERLINK("http://x")'
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     some.binary(max_size=300) | some.text(max_size=200).map(lambda t: ("id,number\n" + t).encode())
 )
