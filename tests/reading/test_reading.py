@@ -221,29 +221,31 @@ def heic(image: np.ndarray) -> bytes:
     return out.getvalue()
 
 
-HOSTILE = {
-    "large.png": (png_head(20_000, 10_000), "120 million pixels"),
-    "half.heic": (heic(np.full((150, 200), 90, np.uint8))[:300], "cut short"),
-    "blank.jpg": (sheet_jpeg(np.full((1500, 2000), 230, np.uint8)), "no code is found"),
-    "bomb.png": (png_head(60_000, 60_000), "million pixels"),
-    "cut.jpg": (sheet_jpeg(np.zeros((1500, 2000), np.uint8))[:2000], "cut short"),
-    "text.jpg": (b"no picture at all", "is no picture"),
-    "tiny.png": (png_head(400, 300), "too few"),
-    "empty.jpg": (b"", "is no picture"),
-    "drawn.pdf": (empty_pdf(), "no scanned picture"),
-    "broken.pdf": (b"%PDF-1.7\n", "no PDF file"),
-}
+def hostile() -> dict[str, tuple[bytes, str]]:
+    """Pictures that cannot be read, each with what is said of it."""
+    return {
+        "large.png": (png_head(20_000, 10_000), "120 million pixels"),
+        "half.heic": (heic(np.full((1500, 2000), 90, np.uint8))[:900], "cut short"),
+        "blank.jpg": (sheet_jpeg(np.full((1500, 2000), 230, np.uint8)), "no code is found"),
+        "bomb.png": (png_head(60_000, 60_000), "million pixels"),
+        "cut.jpg": (sheet_jpeg(np.zeros((1500, 2000), np.uint8))[:2000], "cut short"),
+        "text.jpg": (b"no picture at all", "is no picture"),
+        "tiny.png": (png_head(400, 300), "too few"),
+        "empty.jpg": (b"", "is no picture"),
+        "drawn.pdf": (empty_pdf(), "no scanned picture"),
+        "broken.pdf": (b"%PDF-1.7\n", "no PDF file"),
+    }
 
 
 def test_hostile_pictures_get_one_line_each(a_class: Path, tmp_path: Path) -> None:
-    photos = tmp_path / "photos"
+    photos, wrong = tmp_path / "photos", hostile()
     photos.mkdir()
-    for name, (data, _) in HOSTILE.items():
+    for name, (data, _) in wrong.items():
         (photos / name).write_bytes(data)
     found = call("read", a_class, photos, "-o", tmp_path / "read", "--jobs", "1", "--json")
     assert found.exit_code == 1, found.output
     assert "Traceback" not in found.output
-    for name, (_, why) in HOSTILE.items():
+    for name, (_, why) in wrong.items():
         stem = Path(name).stem
         (line,) = [line for line in found.output.splitlines() if line.startswith(f"{stem}: ")]
         assert why in line
