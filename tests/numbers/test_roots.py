@@ -27,14 +27,11 @@ def test_two_roots_close_together_are_both_found(gap):
     assert place == pytest.approx([middle - gap / 2, middle + gap / 2], abs=1e-9)
 
 
-@pytest.mark.parametrize("size", [1.0, 1e8])
-def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip(size):
+def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip():
     """A place that rounding alone puts below nought beside one root does not part the two."""
     grain = 2.0**-40
     for gap in np.linspace(5e-6, 1e-5, 200):
-        place = found(
-            lambda x, gap=gap: size * np.rint(((x - 3.14) ** 2 - gap**2 / 4) / grain) * grain
-        )
+        place = found(lambda x, gap=gap: np.rint(((x - 3.14) ** 2 - gap**2 / 4) / grain) * grain)
         assert place == pytest.approx([3.14 - gap / 2, 3.14 + gap / 2], abs=gap / 4)
 
 
