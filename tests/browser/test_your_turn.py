@@ -44,18 +44,21 @@ DRAW = """([action, inputs, which]) => {
   const called = button => (button.getAttribute('aria-label') ?? button.textContent).trim();
   const button = [...document.querySelectorAll('button')].find(each => called(each) === action);
   if (button.getAttribute('aria-pressed') === 'false') button.click();
-  inputs.forEach((value, place) => {
+  inputs.forEach((wanted, place) => {
     const list = document.querySelectorAll('#inputs select')[place];
-    list.value = value;
-    if (list.value !== value) throw new Error(`${value} is not offered`);
+    const offered = [...list.options].find(each => wanted === (which === null ? each.label.trim() :
+      each.value));
+    if (!offered) throw new Error(`${wanted} is not offered`);
+    list.value = offered.value;
     list.dispatchEvent(new Event('change', { bubbles: true }));
   });
   document.querySelector('#turn-draw').click();
-  const choices = document.querySelector('#which');
-  if (choices.checkVisibility()) choices.querySelectorAll('button')[which].click();
+  const choices = document.querySelector('#which'), told = which !== null;
+  if (told && choices.checkVisibility()) choices.querySelectorAll('button')[which].click();
   return document.querySelector('#turn-say').innerText;
 }"""
-"""A move by the lists, at once: a mouse, a finger and keys are tried one by one above."""
+"""A move by the lists, at once: a mouse, a finger and keys are tried one by one below. What it is
+drawn from is told by its words, or by its key where it is told which of two places is taken."""
 LIT = "[...document.querySelectorAll('.halo > *')].map(mark => mark.outerHTML).join()"
 """All that is lit on the drawings, and the lines and points that a turn lays over them."""
 KNOWN = """() => [...document.querySelectorAll('#results tr[data-found]:not(.unknown)')]
@@ -129,11 +132,8 @@ def take(page: Any, action: str) -> None:
 
 def by_lists(page: Any, action: str, *inputs: str) -> str:
     """Draw by the lists, and hear what the page says of it."""
-    take(page, action)
-    for place, name in enumerate(inputs):
-        page.locator("#inputs select").nth(place).select_option(label=name)
-    page.locator("#turn-draw").click()
-    return said(page)
+    heard: str = page.evaluate(DRAW, [EN(f"turn.action.{action}"), list(inputs), None])
+    return heard
 
 
 def at(page: Any, *letters: str) -> tuple[float, float]:
