@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 from pathlib import Path
 
 import pytest
@@ -24,9 +23,3 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     rooms = {name: number for number, name in enumerate(LONG)}
     root = Path(__file__).parent
     items.sort(key=lambda item: rooms.get(item.path.relative_to(root).parts[0], len(LONG)))
-
-
-def pytest_collection_finish() -> None:
-    """Ten thousand tests stay to the end: looking at them again and again for what can be freed
-    took one part in twenty-five of all time."""
-    gc.freeze()
