@@ -42,5 +42,9 @@ CHOSEN = (
     )
 )
 """Those of them that have every action, driver and question that any has."""
+HALVES = (CHOSEN, CHOSEN) if EVERY else (CHOSEN[::2], CHOSEN[1::2])
+"""Every other one, and the rest: what takes long looks at one half, another test at the other."""
+SPOKEN = ("ro", "en", "it") if EVERY else ("ro",)
+"""The languages in which a page is looked at that differs in its words alone."""
 STUDENTS = range(1, 31) if EVERY else (7, 29)
 """The variants of a lab."""

@@ -7,7 +7,11 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-settings.register_profile("same", derandomize=True, database=None, deadline=None)
+from tests.chosen import EVERY
+
+settings.register_profile(
+    "same", derandomize=True, database=None, deadline=None, max_examples=200 if EVERY else 50
+)
 settings.load_profile("same")
 
 LONG = ("browser", "reading", "web", "classroom", "golden", "documents")

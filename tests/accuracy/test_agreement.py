@@ -12,10 +12,10 @@ from graphkin.accuracy.compared_positions import ground_of, places_around
 from graphkin.accuracy.methods import found_singly
 from graphkin.mechanism import load
 from graphkin.numbers.kinds import ball_kind, decimal_kind
-from tests.chosen import CHOSEN, FOLDER
+from tests.chosen import FOLDER, HALVES
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
-WHICH = ["pump", *(str(FOLDER / f"{name}.toml") for name in CHOSEN)]
+WHICH = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[1])]
 POSITIONS = 4
 TIGHT = 1e4
 """A ball of 53 bits may be so many times the bound of a double."""

@@ -13,7 +13,7 @@ from graphkin.accuracy.pencil.redrawing import followed, read_off, redrawn
 from graphkin.construction.core.program import Plane
 from graphkin.construction.higher_class.closure_solver import closer_of
 from tests.accuracy.originals import pump, scene
-from tests.chosen import CHOSEN
+from tests.chosen import HALVES
 
 COUNT = 2000
 
@@ -27,7 +27,7 @@ def enlarged(exact, times: float):
     )
 
 
-@pytest.mark.parametrize("name", CHOSEN)
+@pytest.mark.parametrize("name", HALVES[1])
 def test_a_perfect_pencil_gives_the_exact_answers_of_every_scene(name):
     many = simulated(scene(name), Pencil(0.0), 2)
     for answer in many.answers:

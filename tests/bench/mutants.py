@@ -2,28 +2,40 @@
 
 A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
 Each is tried in a copy by the tests that import its module, by those of its room and by those of
-what is kept of all outputs, until the first that fails. ``--only PATH…`` takes the mutants from
-some modules. What survives is printed with its line; a survivor wants a test, or is equivalent:
-``survivors.txt`` keeps those of the last run with a word each.
+what is kept of all outputs, until the first that fails; as many at once as ``-j`` says, each in one
+process. ``--only PATH…`` takes the mutants from some modules, ``--from`` goes on in the list. What
+survives is printed with its line; a survivor wants a test, or is equivalent: ``survivors.txt``
+keeps those of the last run with a word each.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import os
 import random
 import re
+import resource
 import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from functools import partial
+from importlib.util import cache_from_source
 from pathlib import Path
+from queue import SimpleQueue
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = 900
-"""Seconds after which a mutant counts as found: it does not come to an end."""
+"""Seconds of a processor after which a mutant counts as found: it does not come to an end."""
+PATIENCE = 4 * 3600
+"""Seconds after which one that only waits counts as found."""
+NOTHING = 5
+"""What pytest ends with where it finds no test."""
 FLAGS = ("strict", "frozen", "slots")
 """Keywords with which zip and dataclass only refuse what no caller does."""
 SWAPPED: dict[type[ast.AST], type[ast.AST]] = {
@@ -114,38 +126,67 @@ def mutants(path: Path) -> Iterator[Mutant]:
 
 
 def nearest(path: Path) -> Iterator[list[str]]:
-    """What tries a module: the tests that import it, those of its room, what is kept of all."""
+    """What tries a module: the tests that import it, those of its own name first, those of its
+    room, what is kept of all."""
     *packages, name = path.with_suffix("").parts
     told = re.compile(
         rf"\b{'.'.join((*packages, name))}\b|from {'.'.join(packages)} import [^\n]*\b{name}\b"
     )
     texts = {each: each.read_text(encoding="utf-8") for each in ROOT.glob("tests/**/test_*.py")}
-    yield [str(each.relative_to(ROOT)) for each, text in texts.items() if told.search(text)]
+    found = [each for each, text in texts.items() if told.search(text)]
+    found.sort(key=lambda each: (name not in each.stem, path.parts[1] not in each.parts))
+    yield [str(each.relative_to(ROOT)) for each in found]
     room = Path("tests") / path.parts[1]
     yield [str(room)] if (ROOT / room).is_dir() else []
     yield ["tests/golden"]
 
 
-def survives(mutant: Mutant) -> bool:
-    """Whether no test of the mutant's room, and no kept output, changes."""
-    with TemporaryDirectory() as name:
-        copy = Path(name) / "copy"
-        listed = subprocess.check_output(["git", "ls-files", "-z"], cwd=ROOT, text=True)
-        for path in filter(None, listed.split("\0")):
-            (copy / path).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / path, copy / path)
-        (copy / mutant.path).write_text(mutant.source, encoding="utf-8")
+def copy_of(folder: Path) -> Path:
+    """A copy of the program and its tests."""
+    copy = folder / "copy"
+    listed = subprocess.check_output(["git", "ls-files", "-z"], cwd=ROOT, text=True)
+    for path in filter(None, listed.split("\0")):
+        (copy / path).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / path, copy / path)
+    return copy
+
+
+def survives(mutant: Mutant, copies: SimpleQueue[Path]) -> bool:
+    """Whether no test of the mutant's room, and no kept output, changes, in one of some copies."""
+    copy = copies.get()
+    module = copy / mutant.path
+    right = module.read_bytes()
+    try:
+        put(module, mutant.source.encode())
         return not any(fails(copy, tests) for tests in nearest(mutant.path) if tests)
+    finally:
+        put(module, right)
+        copies.put(copy)
+
+
+def put(module: Path, source: bytes) -> None:
+    """Write a module, and forget what was compiled of it."""
+    module.write_bytes(source)
+    Path(cache_from_source(str(module))).unlink(missing_ok=True)
 
 
 def fails(copy: Path, tests: Sequence[str]) -> bool:
     """Whether one of some tests fails in a copy."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", *tests]
-    try:
-        ran = subprocess.run(command, cwd=copy, capture_output=True, timeout=ENDLESS, check=False)
-    except subprocess.TimeoutExpired:
-        return True
-    return ran.returncode != 0
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-n", "0", "-p", "no:cacheprovider"]
+    surroundings = {**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": ""}
+    with subprocess.Popen(
+        [*command, *tests],
+        cwd=copy,
+        env=surroundings,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as ran:
+        resource.prlimit(ran.pid, resource.RLIMIT_CPU, (ENDLESS, ENDLESS))
+        try:
+            return ran.wait(PATIENCE) not in (0, NOTHING)
+        except subprocess.TimeoutExpired:
+            ran.kill()
+            return True
 
 
 def main(words: Sequence[str] | None = None) -> None:
@@ -153,13 +194,22 @@ def main(words: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("count", type=int, nargs="?", default=12)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--from", type=int, default=0, metavar="N", dest="first")
+    parser.add_argument("-j", type=int, default=os.cpu_count() or 1, metavar="N", dest="jobs")
     parser.add_argument("--only", nargs="+", type=Path, metavar="PATH")
     told = parser.parse_args(words)
     paths = told.only or sorted((ROOT / "graphkin").rglob("*.py"))
     every = [mutant for path in paths for mutant in mutants(path.resolve())]
-    for mutant in random.Random(told.seed).sample(every, min(told.count, len(every))):
-        fate = "SURVIVES" if survives(mutant) else "found"
-        print(f"{fate:8} {mutant.path}:{mutant.line}: {mutant.before} → {mutant.after}", flush=True)
+    chosen = random.Random(told.seed).sample(every, min(told.count, len(every)))[told.first :]
+    with ExitStack() as stack, ThreadPoolExecutor(told.jobs) as pool:
+        copies: SimpleQueue[Path] = SimpleQueue()
+        for _ in range(told.jobs):
+            copies.put(copy_of(Path(stack.enter_context(TemporaryDirectory()))))
+        fates = pool.map(partial(survives, copies=copies), chosen)
+        for mutant, alive in zip(chosen, fates, strict=True):
+            fate = "SURVIVES" if alive else "found"
+            place = f"{mutant.path}:{mutant.line}"
+            print(f"{fate:8} {place}: {mutant.before} → {mutant.after}", flush=True)
 
 
 if __name__ == "__main__":

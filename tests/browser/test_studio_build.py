@@ -77,7 +77,6 @@ def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
     turned = [links[name].omega / links["2"].omega for name in ("1", "3")]
     assert turned == pytest.approx([-0.5, 1 + 1.5 * 1.5])
     assert hand.page.locator("#canvas circle.wheel").count() == 2
-    assert not barred(hand.page)
 
 
 def test_a_four_bar_is_built_changed_and_taken_back(hand):
@@ -176,7 +175,6 @@ def test_what_is_impossible_is_told_at_the_pointer(hand):
     assert abs(box["y"] - y) < 40
     assert abs(box["x"] - x) < 200
     assert hand.text == text
-    assert not barred(hand.page)
 
 
 def test_comments_and_order_of_an_opened_scene_are_kept(hand, served):

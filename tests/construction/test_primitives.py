@@ -34,7 +34,7 @@ from graphkin.numbers.plane import (
 from tests.mechanisms import angles, directions, log_scaled, signs
 
 EPS = 2.0**-52
-MANY = settings(max_examples=150, deadline=None, derandomize=True, database=None)
+MANY = settings(max_examples=75, deadline=None, derandomize=True, database=None)
 
 
 def mpc(z: complex) -> Any:

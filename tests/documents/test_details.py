@@ -11,10 +11,10 @@ from graphkin.documents.detail import RADIUS
 from graphkin.drawing.label import SMALL
 from graphkin.drawing.marks import CircleMark, Text
 from graphkin.drawing.richtext import runs
-from tests.chosen import CHOSEN
+from tests.chosen import HALVES
 from tests.documents.sheet_tools import drawn, kind_of, kinds_of
 
-NAMES = dict.fromkeys((*CHOSEN, "stephenson-3-crank", "watt-1"))
+NAMES = dict.fromkeys((*HALVES[0], "stephenson-3-crank", "watt-1"))
 
 
 def accelerations(name):

@@ -17,7 +17,7 @@ from graphkin.documents.sheet_documents import by_itself
 from graphkin.drawing.marks import Page, Text, reach
 from graphkin.scene.scene_files import names
 from graphkin.text import LANGUAGES
-from tests.chosen import CHOSEN, EVERY, STUDENTS
+from tests.chosen import HALVES, STUDENTS
 from tests.documents.sheet_tools import (
     VARIANTS,
     Drawn,
@@ -38,10 +38,10 @@ TINY = 0.5
 OTHERS = [language for language in LANGUAGES if language != "en"]
 """The languages whose pages are not looked at elsewhere."""
 TRANSLATED = [(lab, n, language) for lab, n in VARIANTS for language in OTHERS]
-TRANSLATED += [(name, None, OTHERS[i % len(OTHERS)]) for i, name in enumerate(CHOSEN)]
+TRANSLATED += [(name, None, OTHERS[i % len(OTHERS)]) for i, name in enumerate(HALVES[1])]
 TRANSLATED += [(lab, n, "en") for lab in names() if lab not in SHIPPED for n in STUDENTS[:2]]
-VIEWED = [*((lab, 20) for lab in names()), *((name, None) for name in CHOSEN)][:: 1 if EVERY else 2]
-"""Every other one: tests/golden tells any view of the others that changes."""
+VIEWED = [*((lab, 20) for lab in names()), *((name, None) for name in HALVES[0])]
+"""Tests/golden tells any view of the others that changes."""
 
 
 def faults(page: Page) -> str:

@@ -14,10 +14,9 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.text import words
-from tests.chosen import CHOSEN as SOME
-from tests.chosen import FOLDER
+from tests.chosen import FOLDER, HALVES
 
-CHOSEN = [FOLDER / f"{name}.toml" for name in SOME]
+CHOSEN = [FOLDER / f"{name}.toml" for name in HALVES[1]]
 SYMBOL = re.compile(r"\*[vaωελ]\*(?:_(?:\{[^}]*\}|\w))?(?:\^\{?[νταcr]\}?)?")
 """A velocity, an acceleration, a rate, or the ratio of two trial plans."""
 

@@ -8,8 +8,8 @@ from graphkin.documents.sheet import sheet
 from graphkin.drawing.areas import TABLES
 from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
+from tests.chosen import SPOKEN
 from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import collisions, outside
 from tests.documents.test_full_tables import cut
@@ -19,7 +19,7 @@ INDEXED = NAMED.format(crank="B12", rocker="Q_left")
 LONGER = NAMED.format(crank="Crank_pin_moving", rocker="Rocker_pin_moving")
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", SPOKEN)
 @pytest.mark.parametrize("text", [LONG, LONGER], ids=["long", "longer"])
 def test_long_names_cross_no_line_of_a_table(text, language):
     for drawing in drawings_from(text, language):

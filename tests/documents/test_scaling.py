@@ -12,7 +12,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.text.errors import PageError, SceneError
-from tests.chosen import CHOSEN
+from tests.chosen import HALVES
 from tests.documents.sheet_tools import HEAD, OTHERS, mechanism_named
 from tests.scene_files import scene_text
 
@@ -47,7 +47,7 @@ def said(mechanism, kind, view="key", language="en"):
 # --- as large as the page takes ------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", CHOSEN)
+@pytest.mark.parametrize("name", HALVES[1])
 def test_plans_are_drawn_as_many_times_as_large_as_vectors_on_the_mechanism(name):
     """There ka = kv²/kL would hold, as right triangles need it."""
     found = scales(mechanism_named(name))

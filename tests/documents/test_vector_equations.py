@@ -8,11 +8,11 @@ from graphkin.construction.core.vector_equation import VectorEquation
 from graphkin.construction.vector_equations import of_equations
 from graphkin.documents.calculation import calculation
 from graphkin.drawing.marks import LineMark, Text
-from tests.chosen import CHOSEN
+from tests.chosen import HALVES
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
 
-WHICH = [*((name, None) for name in CHOSEN), *((lab, 7) for lab in SHIPPED)]
+WHICH = [*((name, None) for name in HALVES[0]), *((lab, 7) for lab in SHIPPED)]
 
 
 def equations(drawing) -> list[VectorEquation]:

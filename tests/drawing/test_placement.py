@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 from shapely import LineString, MultiLineString, Point, box
@@ -87,7 +87,6 @@ def settled(asked, lines, boxes, field=FIELD):
     return [(w, s, ink(w, s)) for w, s in zip(asked, spots, strict=True) if s.free]
 
 
-@settings(max_examples=150, deadline=None)
 @given(crowds() | knots())
 def test_a_free_label_touches_nothing(crowd):
     asked, lines, boxes = crowd
@@ -104,7 +103,6 @@ def test_a_free_label_touches_nothing(crowd):
         assert one.distance(other) >= PAD - 1e-9
 
 
-@settings(max_examples=150, deadline=None)
 @given(knots())
 def test_leaders_cross_no_label_no_box_and_no_other_leader(crowd):
     asked, lines, boxes = crowd
@@ -118,7 +116,6 @@ def test_leaders_cross_no_label_no_box_and_no_other_leader(crowd):
     assert not any(a.crosses(b) for (a, _), (b, _) in combinations(leaders, 2))
 
 
-@settings(max_examples=60, deadline=None)
 @given(crowds() | knots())
 def test_far_labels_have_a_leader_to_their_subject(crowd):
     for wish, spot, label in settled(*crowd):
@@ -172,7 +169,6 @@ def test_the_higher_priority_gets_the_only_place():
     assert [s.free for s in place([high, low], NONE, NONE, field)] == [True, False]
 
 
-@settings(max_examples=100, deadline=None)
 @given(inner, st.floats(0.2, 9), st.integers(3, 60), st.floats(0.1, 2 * math.pi))
 def test_chords_merged_keep_labels_as_far_as_all_of_them(at, r, count, turn):
     steps = [turn * k / count for k in range(count + 1)]
@@ -186,7 +182,6 @@ def test_chords_merged_keep_labels_as_far_as_all_of_them(at, r, count, turn):
     assert all(kept.distance(Point(point)) <= slack + 1e-9 for point in points)
 
 
-@settings(max_examples=100, deadline=None)
 @given(st.lists(st.tuples(inner, inner), min_size=1, max_size=10), st.lists(inner), sizes)
 def test_what_is_ruled_out_at_a_glance_is_too_near_a_line(ends, at, size):
     lines = np.array([(*a, *b) for a, b in ends])

@@ -28,7 +28,6 @@ def sides(found) -> np.ndarray:
     return np.array(rows).reshape(-1, 4).T
 
 
-@settings(max_examples=100, deadline=None)
 @given(boxes, boxes)
 def test_boxes_that_meet_are_all_found_and_no_others(one, other):
     a, b = sides(one), sides(other)
@@ -39,7 +38,6 @@ def test_boxes_that_meet_are_all_found_and_no_others(one, other):
         assert (i, j) not in found or gap < 0.01
 
 
-@settings(max_examples=100, deadline=None)
 @given(spots, st.floats(0.2, 200), st.floats(0, 360), st.floats(1, 359))
 def test_chords_stay_with_their_arc(at, r, start, turn):
     chords = segments(Arc(*at, r, start, start + turn, "compass"))
@@ -82,7 +80,7 @@ def apart(one, other) -> float:
     return min(room)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(crowded_places(), st.integers(0, 20))
 def test_places_rule_out_those_too_near_and_those_across_their_leader(found, cut):
     clashes = Clashes()
@@ -100,7 +98,6 @@ def test_places_rule_out_those_too_near_and_those_across_their_leader(found, cut
         assert clash or room > -1e-9
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.lists(st.tuples(spots, spots), max_size=12), spots, st.floats(4, 15))
 def test_a_free_disc_is_free(ends, near, room):
     marks = [LineMark(*a, *b, "link") for a, b in ends]
@@ -160,7 +157,6 @@ def test_a_disc_behind_lettering_is_taken_where_there_is_no_other():
     assert not disc.in_sight
 
 
-@settings(max_examples=100, deadline=None)
 @given(spots, spots, spots, st.floats(1, 20))
 def test_what_lies_in_a_circle_is_cut_out_of_a_line(start, end, centre, radius):
     assume(math.dist(start, end) > 0.01)

@@ -37,15 +37,15 @@ def test_the_two_gear_crank_stands_alike_whichever_of_its_links_is_written_first
     assert 30 * rod + 45 * 10 == pytest.approx(75 * arm)
 
 
-@pytest.mark.parametrize("swapped", [False, True])
-def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first(swapped):
+def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first():
     """Tried round the large wheel: round the small one only a third of its turn would be found."""
     text = scene_text("geared-five-bar-from-its-coupler")
     frame, one, two, rest = re.split(r"(?=\[links\.[123]\])", text)
-    text = "".join([frame, two, one, rest] if swapped else [frame, one, two, rest])
+    swapped = "".join([frame, two, one, rest])
+    for each in (text, swapped):
+        assert Mechanism(read_text(each, "made")).groups[1].trial.link == "2"
     with pytest.raises(ClosureError, match="close in 6 ways"):
-        Mechanism(read_text(text.replace("closure 1", "closure 99"), "made")).solve()
-    assert Mechanism(read_text(text, "made")).groups[1].trial.link == "2"
+        Mechanism(read_text(swapped.replace("closure 1", "closure 99"), "made")).solve()
 
 
 def test_the_witness_counts_a_small_wheel_beyond_half_a_turn():

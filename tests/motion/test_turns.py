@@ -15,6 +15,7 @@ from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
 from graphkin.motion.period import strangers, turns_to_return
 from graphkin.scene.read_scene import read_text
+from graphkin.structure.turn_counting import counted_near
 from graphkin.text.errors import GraphkinError
 from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing
@@ -171,6 +172,14 @@ def test_turns_that_cannot_be_meant_are_refused_at_their_place(turns):
     with pytest.raises(GraphkinError, match=r"links\.4\.rolls\.turns") as caught:
         Mechanism(read_text(text, Path("planet.toml"))).solve()
     assert WRONG[turns] in str(caught.value)
+
+
+@pytest.mark.parametrize(("unit", "start"), [("deg", np.pi / 360), ("rad", 0.5)])
+def test_whole_turns_are_added_in_the_unit_of_the_angle(unit, start):
+    rolls = "on = 0, start = { 3 = 0.5 }, turns = { 3 = 2 } }"
+    text = DRAG_LINK.replace("on = 0 }", rolls).replace('angle = "deg"', f'angle = "{unit}"')
+    scene = read_text(text, Path("planet.toml"))
+    assert counted_near(scene)["3"].si(scene.values) == pytest.approx(start + 4 * np.pi)
 
 
 GEARED = """graphkin = 1

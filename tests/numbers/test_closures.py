@@ -15,7 +15,8 @@ from graphkin.numbers.kinds import ball_kind, decimal_kind
 from tests.numbers import number_kinds as nk
 from tests.numbers.test_every_group import NAMES, of_higher_class, work
 
-CLOSED = [name for name in NAMES if of_higher_class(name)]
+CLOSED = ("rapid-return", "stephenson-3-crank", "platform-3rpr", "stephenson-2-ternary")
+"""The scenes with a group of higher class."""
 DIGITS = 60
 FINE = decimal_kind(2 * DIGITS)
 """Decimals in which the bisection is done."""
@@ -61,6 +62,10 @@ def bisected(misfit, low, high):
         value = misfit(middle)
         low, high = (middle, high) if value * at_low > 0 else (low, middle)
     return (low + high) / 2
+
+
+def test_all_scenes_of_higher_class_are_tried():
+    assert {*filter(of_higher_class, NAMES)} == {*CLOSED}
 
 
 @pytest.mark.parametrize("name", CLOSED)

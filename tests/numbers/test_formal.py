@@ -66,6 +66,7 @@ def test_what_a_formal_number_claims_holds_for_its_letters(seed):
         ((1j * U - 1j * U.conjugate()).imag, 0),
         ((1 / (1j * U - 1j * U.conjugate())).imag, 0),
         ((P + R) / (2 * P + 2 * R), Fraction(1, 2)),
+        ((3 * (P + R) * (1 / (P + R).real)).real, 3),
         (cross(P, 3 * P), 0),
         (abs(3 * U), 3),
         ((FORMAL.pi / 2).turn(), 1j),

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import ast
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 from graphkin.text.hooks import DONE_BY, service
+from tests.rooms.sources import HOUSE, ROOT, source
 
-ROOT = Path(__file__).resolve().parents[2]
-HOUSE = ROOT / "graphkin"
 ORDER = (
     "numbers",
     "text",
@@ -54,23 +52,6 @@ def modules(house: Path = HOUSE) -> dict[str, Path]:
     return found
 
 
-def imports(path: Path, house: Path = HOUSE) -> Iterator[tuple[int, str]]:
-    """Line and dotted name, below graphkin, of every import in a module, also inside functions."""
-    package = ("graphkin", *path.relative_to(house).parent.parts)
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            start = package[: len(package) - node.level + 1] if node.level else ()
-            base = ".".join((*start, *filter(None, [node.module])))
-            names = [f"{base}.{alias.name}" for alias in node.names]
-        else:
-            continue
-        for name in names:
-            if name.partition(".")[0] == "graphkin":
-                yield node.lineno, name.partition(".")[2]
-
-
 def module_of(name: str, among: Iterable[str]) -> str:
     """The module in which a dotted name is looked up: the longest that begins it."""
     parts = name.split(".")
@@ -84,7 +65,9 @@ def arrows(house: Path = HOUSE) -> dict[str, set[str]]:
     """The modules that each module imports, the house itself left out: it holds no work."""
     every = modules(house)
     return {
-        module: {module_of(name, every) for _, name in imports(path, house)} - FACES - {module}
+        module: {module_of(name, every) for _, name in source(path, house).imports}
+        - FACES
+        - {module}
         for module, path in every.items()
         if module not in FACES
     }
@@ -155,7 +138,7 @@ def test_no_way_of_importing_passes_unseen(tmp_path, room, statement, found):
     path = tmp_path / room / "module.py"
     path.parent.mkdir()
     path.write_text(statement, encoding="utf-8")
-    ((_, name),) = imports(path, tmp_path)
+    ((_, name),) = source(path, tmp_path).imports
     assert name == found
     other = module_of(name, modules())
     assert upward({f"{room}.module": {other}}) == {(f"{room}.module", other)}

@@ -14,7 +14,9 @@ from graphkin.scene.file_limits import decoded
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
+from tests.chosen import EVERY
 
+MANY = 400 if EVERY else 120
 DATA = Path(__file__).parent / "data"
 SCENES = [path.read_text(encoding="utf-8") for path in sorted(DATA.glob("*.toml"))]
 WORDS = sorted({word for scene in SCENES for word in scene.split()})
@@ -65,13 +67,13 @@ lines = st.tuples(st.sampled_from(KEYS), values).map(" = ".join) | st.sampled_fr
 
 
 @given(st.lists(lines, max_size=12))
-@settings(max_examples=300)
+@settings(max_examples=MANY)
 def test_any_tables(rows: list[str]) -> None:
     safely("\n".join(rows))
 
 
 @given(st.sampled_from(SCENES), st.randoms(use_true_random=False), st.integers(1, 4))
-@settings(max_examples=400, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@settings(max_examples=MANY, suppress_health_check=[HealthCheck.too_slow], deadline=None)
 def test_scenes_with_words_exchanged(scene: str, chance: random.Random, times: int) -> None:
     pieces = scene.split(" ")
     for _ in range(times):
@@ -84,7 +86,7 @@ def test_scenes_with_words_exchanged(scene: str, chance: random.Random, times: i
 
 
 @given(st.sampled_from(SCENES), st.randoms(use_true_random=False))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=MANY, deadline=None)
 def test_scenes_with_lines_lost_and_doubled(scene: str, chance: random.Random) -> None:
     rows = [row for row in scene.splitlines() for _ in range(chance.choice([0, 1, 1, 1, 1, 1, 2]))]
     safely("\n".join(rows))

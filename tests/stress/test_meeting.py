@@ -5,13 +5,14 @@ from __future__ import annotations
 from fractions import Fraction
 from math import inf, nextafter
 
+import flint
 import mpmath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from graphkin.diagnosis.exact_intersection import clearance, meet, stated_loci
+from graphkin.diagnosis.exact_intersection import clearance, gap_of, meet, stated_loci
 from graphkin.numbers.exact import Exact, IrrationalError, root
 from graphkin.numbers.plane import Circle, Line, circle_meets_circle
 from graphkin.text.errors import ClosureError
@@ -87,6 +88,14 @@ def test_where_circles_do_not_meet_no_crossing_is_constructed(sample):
     miss = clearance(Circle(0j, r), Circle(complex(d), t))
     assert miss <= 4 * 2.0**-52 * (r + t + d)
     assert abs(found) == abs(found)
+
+
+@pytest.mark.parametrize(("radii", "gap"), [((1, 2), 2), ((3, 4), -2), ((9, 1), 3)])
+def test_the_gap_of_two_circles_is_told_in_balls(radii, gap):
+    """Of centres 3-4-5 apart: beside, across and within one another."""
+    first, second = (flint.acb(3, 1), flint.acb(6, 5))
+    found = gap_of(Circle(first, flint.arb(radii[0])), Circle(second, flint.arb(radii[1])))
+    assert float(found) == gap
 
 
 # --- a line and a circle -------------------------------------------------------------------------

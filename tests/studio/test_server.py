@@ -227,6 +227,7 @@ def test_a_request_that_is_too_large_is_refused(served):
         '{"text": "", "settings": []}',
         '{"text": "", "settings": {"n": 5}}',
         '{"text": "", "settings": {"n": ""}}',
+        f'{{"text": "", "settings": {{"n": "{"1" * 101}"}}}}',
         '{"text": "", "quick": 1}',
         '{"text": "", "number": -1}',
         '{"text": "", "number": true}',

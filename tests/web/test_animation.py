@@ -25,6 +25,7 @@ from graphkin.web.gif import PAUSE, gif
 from graphkin.web.moving_labels import crossed, obstacles
 from graphkin.web.panes import AIR, AREA, HELD, PICTURE, aside, leaves, room_in, seated
 from graphkin.web.player import player_page
+from tests.chosen import EVERY
 from tests.cli.conftest import Run, run  # noqa: F401
 from tests.scene_files import scene_text
 
@@ -207,7 +208,9 @@ def test_the_driver_is_told_in_its_own_unit(name, unit, ends):
 STRONG = ("link", "guide", "slider", "block", "guide-bar")
 
 
-@pytest.mark.parametrize("name", ["pump", "slotted-lever", "rapid-return", "crank-rocker"])
+@pytest.mark.parametrize(
+    "name", ["pump", "slotted-lever", *(["rapid-return", "crank-rocker"] if EVERY else [])]
+)
 def test_letters_of_the_mechanism_seldom_lie_on_bars_and_never_on_one_another(name):
     """Before, every third one did: on the walls of guides, on blocks, on bars that turn below."""
     set_up = closely(name, beside=True)

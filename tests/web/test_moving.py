@@ -30,7 +30,7 @@ from graphkin.web.branch_tracking import halved_between
 from graphkin.web.moving import Moving, moving, still
 from graphkin.web.page_driver import driven_by, window
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from tests.chosen import CHOSEN, EVERY
+from tests.chosen import EVERY, HALVES
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.web.laid import laid
@@ -41,7 +41,9 @@ CENTRES = ", all its centres"
 """The end of the name of a mechanism of which the centres of all pairs of links are asked."""
 ENDLESS = tuple(f"{name}{CENTRES}" for name in ("slider-crank", "crank-fixed-slot", "trammel"))
 WHICH = tuple(
-    dict.fromkeys((*LABS, *CHOSEN, "belts-arm", "gears-planet", "oscillating-slide", *ENDLESS[1:]))
+    dict.fromkeys(
+        (*LABS, *HALVES[0], "belts-arm", "gears-planet", "oscillating-slide", *ENDLESS[1:])
+    )
 )
 LIMIT = 0.01
 """Millimetres within which a page draws as Python does."""
@@ -49,7 +51,7 @@ TEETH = ("gear", "gear-disc")
 """The outlines of gears."""
 CURVES = ("trajectory", "fixed-centrode", "moving-centrode", "locus")
 """Curves of the whole motion: they are drawn once, and carried with what bears them."""
-PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.38, 0.72)
+PLACES = tuple((k + 0.5) / 24 for k in range(24)) if EVERY else (0.07, 0.72)
 """The places looked at, in parts of the range."""
 
 

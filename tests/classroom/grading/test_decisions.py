@@ -18,7 +18,8 @@ from graphkin.classroom.grading.grading_files import ReportSettings, points_by_i
 from graphkin.classroom.grading.marks_tables import read_marks
 from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student_signs import signs
-from graphkin.text import LANGUAGES, words
+from graphkin.text import words
+from tests.chosen import SPOKEN
 from tests.classroom.grading.students import book_of, key_answers, lab_of, marker_of, taker
 
 LAB = "slotted-lever"
@@ -160,7 +161,7 @@ def test_a_row_releases_who_is_held_and_an_open_request_does_not(decision, held)
     assert ("s008" in points_by_id(found)) != held
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", SPOKEN)
 def test_reasons_stand_on_feedback_in_the_report_and_in_the_marks(language):
     reason = "măsurat <din nou> *pe* foaie"
     found = marked(

@@ -5,13 +5,14 @@ from __future__ import annotations
 from fractions import Fraction
 from math import isnan
 
+import mpmath
 import numpy as np
 import pytest
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.marking import sense_is_open
-from graphkin.classroom.grading.tolerance import FINE, joint_drawings
+from graphkin.classroom.grading.tolerance import FINE, added, joint_drawings
 from graphkin.classroom.lab.rules import exact_text
 from tests.classroom.grading.students import (
     LABS,
@@ -141,3 +142,22 @@ def test_a_computed_value_is_held_to_the_cap():
     assert measured.tolerance["a_D"].value > right
     assert computed.tolerance["a_D"].value == pytest.approx(computed.rubric.cap * right)
     assert computed.tolerance["v_D"] == measured.tolerance["v_D"]
+
+
+@pytest.mark.parametrize("bias", [2.0, 3.0])
+def test_errors_that_lead_to_one_side_widen_the_95th_percentile(bias):
+    """Fifty alike, of variance 1 together, whose bends move their sum by a bias: it is nearly
+    normal, and a scaled chi-square has the mean and the variance of its square."""
+    count, node = 50, np.sqrt(3)
+    off = np.array([way * node / np.sqrt(count) + 3 * bias / count for way in (-1, 1)])
+    ((error,), _) = added(np.broadcast_to(off, (1, count, 2)))
+    places, weights = np.polynomial.hermite_e.hermegauss(8)
+    square = (bias + np.sqrt(1 + 2 * bias**2 / count) * places) ** 2
+    mean = np.average(square, weights=weights)
+    degrees = 2 * mean**2 / np.average((square - mean) ** 2, weights=weights)
+
+    def lacking(x):
+        return mpmath.gammainc(degrees / 2, 0, x / 2, regularized=True) - 0.95
+
+    expected = np.sqrt(float(mpmath.findroot(lacking, degrees + 4)) * mean / degrees)
+    assert error == pytest.approx(expected, rel=0.006)  # of Wilson and Hilferty

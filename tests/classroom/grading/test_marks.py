@@ -230,6 +230,14 @@ def test_each_slip_of_a_field_is_named(field, name, factor):
     assert marked(marker, **{field: value})[field].slip == name
 
 
+@pytest.mark.parametrize(("field", "other"), ["xy", "yx"])
+def test_a_coordinate_of_the_other_axis_is_named(field, other):
+    marker = marker_with("pump", ("J_3_x_mm", "J_3_y_mm"))
+    value = marker.standard.key[f"J_3_{other}_mm"]
+    mark = marked(marker, **{f"J_3_{field}_mm": value})[f"J_3_{field}_mm"]
+    assert (mark.status, mark.slip) == (Status.SLIP, "axes_swapped")
+
+
 def test_rev_per_minute_taken_for_rad_per_second_cost_their_share_once():
     marker = marker_with("pump", (), slips={"rpm_as_rad": 0.5})
     slip = next(s for s in marker.slips if s.name == "rpm_as_rad")

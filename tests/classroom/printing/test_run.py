@@ -159,7 +159,7 @@ def test_two_runs_into_one_folder_are_refused(make):
     assert printed(folder).made == 1
 
 
-@pytest.mark.parametrize("when", [0, 11, 24])
+@pytest.mark.parametrize("when", [11, 24])
 def test_a_full_disk_is_told_and_nothing_is_half_written(whole, make, monkeypatch, when):
     """Whichever file it is that finds no room: of a student, or one for the printer."""
     folder = make("full", IDS)

@@ -223,7 +223,7 @@ HOSTILE = {
     "number,id\n1e3,7\n": '"1e3" is no whole number',
     "number,id\n１,7\n": '"１" is no whole number',
     "number,id\n1_000,7\n": '"1_000" is no whole number',
-    "number,id\n12345678901,7\n": "is no whole number",
+    "number,id\n1234567890,7\n": "is no whole number",
     "number,id\n1,\n": 'row 2, column "id": is missing',
     "number,id\n1,7\n2,8,9\n": "row 3: 3 cells, and the head has 2",
     "number,id,number\n1,7,2\n": 'two columns are called "number"',
@@ -263,7 +263,7 @@ def test_a_formula_cell_is_read_as_text_and_never_run(saved):
     assert one.name == '=HYPERLINK("http://x")'
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     some.binary(max_size=300) | some.text(max_size=200).map(lambda t: ("id,number\n" + t).encode())
 )

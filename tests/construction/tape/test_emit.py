@@ -22,7 +22,7 @@ from graphkin.construction.tape.traced import TracedNumber, UntraceableError
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind, pick
 from graphkin.numbers.plane import Ratio
-from tests.chosen import CHOSEN
+from tests.chosen import HALVES
 
 SCENES = Path(__file__).resolve().parents[3] / "examples" / "scenes"
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
@@ -143,7 +143,7 @@ def peak(values: object, where: np.ndarray) -> float:
     return float(np.max(np.broadcast_to(np.abs(values), where.shape), where=where, initial=0))
 
 
-@pytest.mark.parametrize("name", CHOSEN)
+@pytest.mark.parametrize("name", HALVES[1])
 def test_a_scene_that_can_be_followed_runs_the_same_by_source(name):
     """Driven by arrays of positions, as a cycle is; a group that is closed by iteration cannot."""
     mechanism = load(SCENES / f"{name}.toml")
