@@ -88,13 +88,12 @@ class Certifier(Struct, frozen=True):
                     args = [self.formal[n] for n in step.args]
                     self.formal[number] = formal_value(step, args, stated, value)
                 found[number] = sharpened(value, self.formal[number]) if narrowed else value
-        return Balls(bits, Trace(program, found, margins), blame, self.formal)
+        return Balls(Trace(program, found, margins), blame, self.formal)
 
 
 class Balls(Struct, frozen=True):
     """A run in balls: what was found, and for every other step the failure that it hangs on."""
 
-    bits: int
     trace: Trace
     blame: Mapping[int, StepFailed]
     formal: Mapping[int, Any]

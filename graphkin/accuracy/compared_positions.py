@@ -139,15 +139,10 @@ def places_around(ground: Ground, count: int) -> ComparedPositions:
 def walked(course: Course, start: float, end: float) -> float:
     """How far one can go from a start to an end before a crossing is too flat."""
     way = np.linspace(start, end, TRIED + 1)
-    sines = smallest_sines(course, way)
+    sines = np.asarray(course.margins(way).min(axis=0))
     least = min(STEEP, sines[0] / 2) if np.isfinite(sines[0]) else STEEP
     bad = np.flatnonzero(~(sines[1:] >= least))
     return float(way[bad[0]] if bad.size else way[-1])
-
-
-def smallest_sines(course: Course, at: Reals) -> Reals:
-    """The sine of the flattest crossing of the positions at each place; NaN does not close."""
-    return np.asarray(course.margins(at).min(axis=0))
 
 
 class Approach(Struct, frozen=True, eq=False):

@@ -34,14 +34,12 @@ LOST = 0.1
 class Flattening(Struct, frozen=True, eq=False):
     """Errors (G, 3) in groups of equal sines (G,), by kind of number; NaN where a kind fails.
 
-    ``reference`` are the positions, ``group`` (P,) tells to which group each belongs. ``roots``
-    (G,) are the roots of the distances from the end, in parts of the farthest: at a dead point a
-    sine falls as they do.
+    ``reference`` are the positions. ``roots`` (G,) are the roots of the distances from the end, in
+    parts of the farthest: at a dead point a sine falls as they do.
     """
 
     approach: Approach
     reference: Reference
-    group: Reals
     sines: Reals
     roots: Reals
     errors: Mapping[str, Reals]
@@ -78,7 +76,7 @@ def flattened(approach: Approach, answers: ComparedTargets) -> Flattening:
         errors[kind] = in_groups(missed / units_of(reference.sizes), group)
     sines = in_groups(reference.sines[:, None], group, np.median)[:, 0]
     roots = in_groups(roots_of(approach, reference)[:, None], group, np.median)[:, 0]
-    return Flattening(approach, reference, group, sines, roots, errors)
+    return Flattening(approach, reference, sines, roots, errors)
 
 
 def roots_of(approach: Approach, reference: Reference) -> Reals:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from time import perf_counter
 
 import numpy as np
-from msgspec import Struct, field
+from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.accuracy.agreement import Agreement, agreement
@@ -40,7 +40,6 @@ class Study(Struct, frozen=True, eq=False):
     flattening: Flattening | None
     pencil: tuple[Reals, Reals]
     scopes: tuple[Scope, ...]
-    effort: Effort = field(default_factory=Effort)
 
     def row(self, method: str) -> MethodRow:
         """The row of a method."""
@@ -84,9 +83,7 @@ def study(
         pencil = pencilled(ground, answers, scales, flattening, effort.drawn)
     say("cost by scope")
     costs = scopes(mechanism, reference, watch)
-    return Study(
-        mechanism, reference, agreement(reference), tuple(rows), flattening, pencil, costs, effort
-    )
+    return Study(mechanism, reference, agreement(reference), tuple(rows), flattening, pencil, costs)
 
 
 def every_method(reference: Reference, effort: Effort) -> Iterator[Method]:

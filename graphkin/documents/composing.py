@@ -230,12 +230,6 @@ def coarseness(needs: Needs, kL: float) -> float:
     return max(times * speed, sqrt(times * thrust), COARSEST)
 
 
-def scaled(choice: Composition, seconds: float, of_crank: float, triangles: bool) -> Scales:
-    """The scale factors of a choice."""
-    m, again = (choice.times.get(kind, 1.0) for kind in ("velocity", "acceleration"))
-    return Scales(choice.kL, seconds, m, again, of_crank, triangles)
-
-
 def times_of(stated: Stated, ladder: Sequence[float], of_crank: float) -> Ladders:
     """How many times as large as on the mechanism each plan may be, the largest first."""
     own = {"velocity": of_crank, "acceleration": of_crank**2}

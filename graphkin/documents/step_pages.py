@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing, flattest
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
@@ -38,13 +38,13 @@ LEFT_OUT = "…"
 """What stands for the sentences that are done and have no room."""
 
 
-def growing(drawing: Drawing, number: str, layout: Layout | None = None) -> tuple[Page, ...]:
+def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     """A page for each sentence of the construction: what it draws stands out, the rest follows.
 
     ``number`` is that of the sheet; each page adds which step it is, of how many. Every mark and
     letter has on each page the place that it has on the finished sheet.
     """
-    layout = layout or lay_out(drawing)
+    layout = lay_out(drawing)
     said = sentences(drawing)
     staged = stages(drawing, said)
     boards = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")

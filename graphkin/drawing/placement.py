@@ -17,7 +17,7 @@ from graphkin.drawing.shapes import NOWHERE, Box
 Point = tuple[float, float]
 Segment = tuple[Point, Point]
 
-CLEAR = 0.6  # mm between a label and a drawn line, unless the caller says otherwise
+CLEAR = 0.6  # mm between a label and a drawn line
 SIDE = 1.5  # cost of a place square to the preferred side; all costs are in mm of distance
 UNPLACED, OPTIONAL = 1000.0, 100.0  # a label without a place, and one that may stay so
 DEAR = 7.4  # what a label may pay before places with a leader are looked for
@@ -61,20 +61,18 @@ def place(
     lines: ArrayLike,
     boxes: ArrayLike,
     field: Box | Sequence[Box],
-    clearance: ArrayLike = CLEAR,
     strong: ArrayLike = (),
 ) -> list[Spot]:
     """Return a place for every wish, in the order of the wishes; lengths in mm.
 
-    ``lines`` are drawn segments x0, y0, x1, y1 and ``clearance`` is how far labels stay from
-    them (one length or one for each line), ``strong`` those that leaders should not cross;
+    ``lines`` are drawn segments x0, y0, x1, y1, ``strong`` those that leaders should not cross;
     ``boxes`` are taken rectangles xmin, ymin, xmax, ymax; no label leaves the rectangle ``field``,
     or its own one if there is one for each. A label that is ``free`` touches nothing; one that is
     not is returned where it would like to be.
     """
     if not wishes:
         return []
-    offers = CandidateSet(Clearance(_subjects(wishes), lines, boxes, field, clearance, strong))
+    offers = CandidateSet(Clearance(_subjects(wishes), lines, boxes, field, CLEAR, strong))
     seats = Assignment(offers, [_fine(wish) for wish in wishes])
     seats.settle(seats.order())
     seats.improve(seats.regretted(BAD), SHORT)

@@ -33,6 +33,8 @@ HIP = 4 / 7
 """Half its width, in parts of its height."""
 STRIP, HATCH = 5.2, 2.0
 """Half the length of the hatched line on which it stands, and the depth of hatching, in mm."""
+SQUARE = 2.0
+"""Side of the mark of a right angle in mm."""
 BLOCK = (11.0, 6.4)
 """Length and width of a block in mm."""
 SLOT = 1.75
@@ -188,9 +190,9 @@ def sense_head(centre: XY, radius: float, way: XY, side: float, cls: str) -> Mar
     return polygon(tuple(across(centre, way, *c) for c in corners), f"arrowhead {cls}")
 
 
-def square_mark(corner: XY, first: XY, second: XY, step: int | None, size: float = 2.0) -> Mark:
+def square_mark(corner: XY, first: XY, second: XY, step: int | None) -> Mark:
     """The small square that marks a right angle; the ways are unit vectors on the page."""
-    (x, y), (a, b), (c, d) = corner, first, second
+    (x, y), (a, b), (c, d), size = corner, first, second, SQUARE
     points = (
         (x + size * a, y + size * b),
         (x + size * (a + c), y + size * (b + d)),

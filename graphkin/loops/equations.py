@@ -128,13 +128,11 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         slipped = self.slips.residual(unknowns)
         return np.concatenate([slipped, self.drives.residual(unknowns)], axis=1)
 
-    def linear_rows(self, driven: bool = True) -> Reals:
+    def linear_rows(self) -> Reals:
         """Derivative of the linear equations: shape (N, R + D, K + m).
 
         Of a follower that a cam lifts that by its own coordinate.
         """
-        if not driven:
-            return self.slips.rows
         shape = (self.numbers.count, *self.drives.selects.shape)
         return np.concatenate(
             [self.slips.rows, np.broadcast_to(self.drives.selects, shape)], axis=1
@@ -154,10 +152,10 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         slips = np.zeros((len(closed), len(self.slips.links)))
         return np.concatenate([closed, slips, self.drives.second(linear.unknowns, u, v)], axis=1)
 
-    def guide_index(self, block: str, on: str | None = None) -> int | None:
-        """The slide or track of a link: on a given link, or the one it names first."""
+    def guide_index(self, block: str) -> int | None:
+        """The slide or track that a link names first."""
         for index, guide in enumerate(self.guides):
-            if guide.block == block and (guide.on == on if on is not None else guide.first):
+            if guide.block == block and guide.first:
                 return index
         return None
 

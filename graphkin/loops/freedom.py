@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping
 
 import numpy as np
 
 from graphkin.loops.assemble import anywhere, completed
-from graphkin.loops.constraints import Constraint, constraints
 from graphkin.loops.equations import Equations, equations
 from graphkin.loops.newton_start import start_values
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.numbers.arithmetic import Point
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import Scene
 
 SHARE = 1e-8
 """Share of the largest singular value below which a direction is not constrained."""
@@ -21,17 +19,6 @@ SHARE = 1e-8
 
 FIRM = 1e-4
 """Share of the largest singular value below which a direction may be rounding near a dead point."""
-
-
-class Idle(NamedTuple):
-    """What could be taken away without setting anything free.
-
-    ``joints`` gives, by name, how many of a joint's constraints the others make too; of several
-    such joints one may be relieved, not all at once. ``links`` may each be taken away alone.
-    """
-
-    joints: Mapping[str, int]
-    links: tuple[str, ...]
 
 
 def true_mobility(scene: Scene, positions: Mapping[str, Point] | None = None) -> int:
@@ -58,37 +45,6 @@ def firmness(rows: Reals) -> tuple[int, float]:
     values = np.linalg.svd(rows, compute_uv=False)
     count = rank(rows)
     return count, float(values[count - 1] / values[0]) if count else 0.0
-
-
-def idle(scene: Scene, positions: Mapping[str, Point] | None = None) -> Idle:
-    """Which joints hold what others hold already, and which links could go; positions as above.
-
-    A joint is idle by as many of its rows as the rank does not miss; a link where the mobility
-    stays the same without it and its joints.
-    """
-    loops = equations(scene)
-    free, joints = constraints(loops, position_of(scene, loops, positions))
-    whole = stacked_rank(joints, free)
-    spare: dict[str, int] = {}
-    for left in joints:
-        others = [joint for joint in joints if joint is not left]
-        count = len(left.rows) - (whole - stacked_rank(others, free))
-        if count > 0:
-            spare[left.name] = count
-    links = [link for link in scene.links if link != FRAME]
-    same = [link for link in links if without(link, joints, free) == free - whole]
-    return Idle(spare, tuple(same) if spare else ())
-
-
-def without(link: str, joints: Sequence[Constraint], free: int) -> int:
-    """The mobility when a link and its joints are taken away."""
-    left = [joint for joint in joints if link not in joint.links]
-    return free - 3 - stacked_rank(left, free)
-
-
-def stacked_rank(joints: Sequence[Constraint], free: int) -> int:
-    """The rank of all rows of some joints."""
-    return rank(np.concatenate([np.zeros((1, free)), *(joint.rows for joint in joints)]))
 
 
 def rank(rows: Reals) -> int:

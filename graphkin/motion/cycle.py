@@ -139,13 +139,10 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         axes = columns_at(self.sweep, self.path, self.at, [target]).columns[target]
         return np.asarray(np.angle(axes))
 
-    def along(self, at: Sequence[float] | Reals, *, geometric: bool = False) -> Cycle:
-        """The same cycle at other places u, those that have no motion left out.
-
-        ``geometric`` gives rates by the driver's position in place of those by the time.
-        """
+    def along(self, at: Sequence[float] | Reals) -> Cycle:
+        """The same cycle at other places u, those that have no motion left out."""
         rows = np.asarray(at, float)
-        return filled(self.mechanism, self.sweep, self.path, rows, geometric, self.targets)
+        return filled(self.mechanism, self.sweep, self.path, rows, self.targets)
 
 
 def cycle(
@@ -249,11 +246,10 @@ def filled(
     sweep: Sweep,
     path: Path,
     at: Reals,
-    geometric: bool = False,
     targets: tuple[Target, ...] | None = None,
 ) -> Cycle:
     """The rows of a cycle: each place run with the closures of its piece, in batches."""
-    found = columns_at(sweep, path, at, targets, geometric=geometric)
+    found = columns_at(sweep, path, at, targets)
     moves = found.piece > 0
     for value in found.columns.values():
         moves &= np.ones(len(at), bool) if isinstance(value, Ratio) else np.isfinite(value)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Literal
 
 import numpy as np
 from msgspec import Struct
@@ -46,7 +45,6 @@ class Follower(Struct, frozen=True):
     """
 
     name: str
-    what: Literal["swing", "stroke"]
     line: tuple[str, str] | None
     limits: tuple[Limit, ...]
     low: Limit
@@ -162,7 +160,6 @@ def follower(
     full = line is not None and whole(cycle, number) and around
     return Follower(
         name,
-        "stroke" if line is None else "swing",
         line,
         limits,
         low,

@@ -201,13 +201,8 @@ def sheets_of(order: PrintOrder, variant: Variant, language: str) -> Sheets:
     kept = drawn_for(variant.code, settings, language, order.scene)
     if "" not in kept:
         told = PrintOrder(order.lab, order.scene, language, order.ink)
-        kept[""] = Sheets(told, variant_in(variant, language))
+        kept[""] = Sheets(told, replace(variant, language=language))
     return kept[""]
-
-
-def variant_in(variant: Variant, language: str) -> Variant:
-    """A student whose sheets are in a language."""
-    return replace(variant, language=language)
 
 
 Points = tuple[tuple[PointReading, ...], dict[int, tuple[float, float]]]

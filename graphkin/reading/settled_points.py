@@ -7,7 +7,7 @@ computer that stops loses no decision.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import msgspec
@@ -109,8 +109,3 @@ def latest_of(
             if other is None or rank(record) < rank(other):
                 found[place] = record
     return found
-
-
-def asked(points: Sequence[PointReading]) -> int:
-    """How many points a person is to look at."""
-    return sum(point.ask for point in points)

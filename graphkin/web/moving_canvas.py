@@ -104,13 +104,13 @@ class MovingCanvas(Struct, frozen=True):
         seen = self.seen
         return shown if seen is None else smaller(shown, seen)
 
-    def within(self, point: Any, margin: float = 2.0) -> Any:
-        """How far a point lies within what the field can grow to, less a margin, in mm."""
+    def within(self, point: Any) -> Any:
+        """How far a point lies within what the field can grow to, less 2 mm, in mm."""
         left, top, right, bottom = self.binder.room
         place = self.binder.page(point)
         x, y = place.real, place.imag
         across = smaller(x - left, right - x)
-        return smaller(across, smaller(y - top, bottom - y)) - margin + ALIKE
+        return smaller(across, smaller(y - top, bottom - y)) - 2.0 + ALIKE
 
     # --- on the mechanism ----------------------------------------------------------------------
 

@@ -105,7 +105,7 @@ def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]
     return list(names[:most]), f" ({most} of {len(names)} {noun}; the table holds all)"
 
 
-def legend(ax: Axes, *, columns: int = 8) -> None:
+def legend(ax: Axes) -> None:
     """The legend above the panel, at the right, where no curve runs."""
     handles, labels = ax.get_legend_handles_labels()
     if handles:
@@ -114,7 +114,7 @@ def legend(ax: Axes, *, columns: int = 8) -> None:
             labels,
             loc="lower right",
             bbox_to_anchor=(1.0, 1.0),
-            ncols=min(len(handles), columns),
+            ncols=min(len(handles), 8),
             borderaxespad=0.2,
             handlelength=2.2,
             columnspacing=1.4,

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from graphkin.loops.assemble import assemble
-from graphkin.loops.constraints import constraints
 from graphkin.loops.freedom import true_mobility
 from graphkin.text.errors import WitnessError
 from tests.loops.differences import agree, central, degrees, unit
@@ -273,26 +272,3 @@ def test_a_batch_of_wheels_equals_its_scalars(read):
         one = assemble(read(text, q=each)).motion
         for many, single in zip(batch.point("Q"), one.point("Q"), strict=True):
             assert abs(many[n] - single[0]) <= 1e-12 * max(1, abs(single[0]))
-
-
-@pytest.mark.parametrize("text", ["roller", "plates", "planet", "rack", "rod"])
-def test_every_joint_forbids_what_the_motion_does_not_do(text, read):
-    """Constraints written link by link, against velocities found by chains."""
-    scene = read(
-        {
-            "roller": ROLLER.format(side="right", driver="roll = 1\nposition = 2\nspeed = 3"),
-            "plates": PLATES,
-            "planet": PLANET.format(ring="", arm=0.9, more="", links="", sun=40, driver=ARM),
-            "rack": RACK.format(driver='turn = "wheel"\nangle = 40\nspeed = 3'),
-            "rod": ROD_AND_WHEEL.replace("NUMBER", "1"),
-        }[text]
-    )
-    found = assemble(scene)
-    loops, motion = found.loops, found.motion
-    count, joints = constraints(loops, found.unknowns)
-    links = [i for link, i in motion.index.items() if link != "0"]
-    velocity, omega = motion.origin.velocity[0, links], motion.omega[0, links]
-    moves = np.stack([velocity.real, velocity.imag, omega * loops.size[0]], axis=1).ravel()
-    assert len(moves) == count
-    for joint in joints:
-        assert abs(joint.rows @ moves).max() < 1e-11 * abs(moves).max(), joint.name

@@ -50,7 +50,6 @@ def test_stroke_and_time_ratio_of_an_offset_slider_crank(r, c, d):
     far, near = sqrt((c + r) ** 2 - d**2), sqrt((c - r) ** 2 - d**2)
     assert block.high.value == pytest.approx(far, rel=1e-12)
     assert block.low.value == pytest.approx(near, rel=1e-12)
-    assert block.what == "stroke"
     out, back = degrees(asin(d / (c + r))) % 360, 180 + degrees(asin(d / (c - r)))
     assert [limit.at % 360 for limit in block.limits] == pytest.approx(
         sorted([out % 360, back]), abs=EXACT

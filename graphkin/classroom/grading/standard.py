@@ -19,7 +19,6 @@ from graphkin.classroom.grading.tolerance import (
     Reading,
     Tolerance,
     pencil_errors,
-    readings_of,
     tolerances,
 )
 from graphkin.classroom.lab.lab_model import Item, Rubric
@@ -140,7 +139,11 @@ class Standard(Struct, frozen=True, dict=True):
     @cached_property
     def readings(self) -> list[Reading]:
         """The fields but senses, each with its key."""
-        return readings_of(self.probes, self.key, self.exact)
+        return [
+            Reading(probe, self.exact, self.key[probe.item.field])
+            for probe in self.probes
+            if probe.item.what != "sense"
+        ]
 
     @cached_property
     def tolerance(self) -> Mapping[str, Tolerance]:

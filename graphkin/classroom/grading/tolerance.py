@@ -66,17 +66,6 @@ class Errors(NamedTuple):
     together: Any
 
 
-def readings_of(
-    probes: Sequence[Probe], key: Mapping[str, float], exact: Original
-) -> list[Reading]:
-    """The fields of a form but senses, as the forecast of the pencil wants them."""
-    return [
-        Reading(probe, exact, key[probe.item.field])
-        for probe in probes
-        if probe.item.what != "sense"
-    ]
-
-
 def tolerances(
     readings: Sequence[Reading],
     errors: Sequence[float],

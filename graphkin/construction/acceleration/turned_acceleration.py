@@ -184,7 +184,7 @@ def turned_image(
     epsilon, image = None, None
     if not steady:
         epsilon = pen.the(EPSILON, link)
-        with pen.calls_for(tangential_effect(pen, epsilon)):
+        with pen.calls_for(Effect.DRIVER if accelerated(pen, epsilon) else Effect.TANGENTIAL):
             image = pen.draw(driven_tangential, end, *places, epsilon, name=name)
         component_arrow(pen, end, image, "τ", pin, pivot)
     pen.make(
@@ -203,11 +203,6 @@ def turned_image(
         )
     )
     return end if image is None else image
-
-
-def tangential_effect(pen: Pen, rate: int) -> Effect:
-    """A tangential component is a driver's where its rate holds what that is accelerated by."""
-    return Effect.DRIVER if accelerated(pen, rate) else Effect.TANGENTIAL
 
 
 def accelerated(pen: Pen, rate: int) -> bool:

@@ -31,7 +31,7 @@ def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) ->
     if lean is not None:
         turn = lean * complex(path.angle.direction(drawing.scene.values))
         return words("page.line_moved", angle=f"{number(drawing, degrees(phase(turn)))}°", **fields)
-    if path.angle.is_zero() and not has_axis(drawing, link):
+    if path.angle.is_zero() and not (len(link.points) > 1 or bool(link.slides)):
         return words("page.line_free", **fields)
     turn_to = written(drawing.scene, words, path.angle)
     return words("page.line_of", angle=turn_to, axis=axis_of(drawing, link), **fields)
@@ -75,11 +75,6 @@ def leaning(drawing: Drawing, link: Link) -> complex | None:
     if len(link.points) != 1:
         return None
     return drawing.standing.axis(link.name)
-
-
-def has_axis(drawing: Drawing, link: Link) -> bool:
-    """True for a link whose axis its own points or its own guide tell."""
-    return len(link.points) > 1 or bool(link.slides)
 
 
 def axis_of(drawing: Drawing, link: Link) -> str:

@@ -16,7 +16,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND, SWEEP, arc_span
 from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
-from graphkin.construction.core.plot import Plot, above_foot, line_ends, line_part, middle
+from graphkin.construction.core.plot import Plot, above_foot, line_part, middle
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.too_short import NEAR, TINY
 from graphkin.drawing.field import XY, clipped
@@ -184,7 +184,7 @@ class PaperCanvas(Struct, frozen=True):
 
     def own(self, look: str, name: str | None = None) -> bool:
         """The step's own line as far as the layout says; False where none of it is in the field."""
-        ends = line_ends(self.plot, self.number, self.value(self.number))
+        ends = line_part(self.plot, self.value(self.number), *self.plot.layout.spans[self.number])
         if ends:
             self.thin(*ends, look, name)
         return ends is not None

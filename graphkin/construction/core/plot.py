@@ -35,11 +35,6 @@ class Plot(Struct, frozen=True):
         return self.drawing.kind
 
 
-def line_ends(plot: Plot, number: int, value: Any) -> tuple[XY, XY] | None:
-    """Both ends of the drawn part of a line, within its field."""
-    return line_part(plot, value, *plot.layout.spans[number])
-
-
 def line_part(plot: Plot, value: Any, low: float, high: float) -> tuple[XY, XY] | None:
     """The part of a line between two distances in mm from its anchor, within its field."""
     unit = value.along / abs(value.along) / plot.field.mm

@@ -78,7 +78,7 @@ def wish(
         inside = label_inside(link, body, others)
         return inside or labelled(link, beside_plate(body))
     short = body is None or abs(body.sides[0][1] - body.sides[0][0]) < LONG
-    if aside and (short or on_frame(link)):
+    if aside and (short or any(slide.on == FRAME for slide in link.slides)):
         return labelled(link, aside)
     if body is not None:
         return label_beside(link, *body.sides[0], others)
@@ -89,11 +89,6 @@ def wish(
 def labelled(link: Link, subject: XY | tuple[XY, XY], away: XY | None = None) -> Label:
     """A link's number that wants a place at a subject."""
     return Label(escape(link.name), "", subject, 2.5, link.name, away=away, priority=3, ring=True)
-
-
-def on_frame(link: Link) -> bool:
-    """True for a block on a guide of the frame, whose number stands at the block."""
-    return any(slide.on == FRAME for slide in link.slides)
 
 
 def body_of(drawing: Drawing, field: Field, link: Link) -> Body | None:

@@ -127,13 +127,8 @@ def wheel(drawing: Drawing, field: Field, disc: Disc) -> Iterator[Mark]:
     else:
         yield CircleMark(*centre, radius, "wheel" if fixed else "disc", name)
     if fixed:
-        edge = disc.outer * field.mm if ring else root_of(disc, field)
+        edge = disc.outer * field.mm if ring else (disc.radius - ROOT * disc.module) * field.mm
         yield from within(hatching(centre, edge, outward=ring), field.rect)
-
-
-def root_of(disc: Disc, field: Field) -> float:
-    """Radius of the circle that the teeth of a wheel stand on, in mm; of a plain wheel its rim."""
-    return (disc.radius - ROOT * disc.module) * field.mm
 
 
 def hatching(centre: XY, radius: float, *, outward: bool) -> Iterator[Mark]:

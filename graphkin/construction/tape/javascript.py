@@ -39,8 +39,6 @@ CALLS = {
     "atan2": "atan2",
 }
 """Operations that are functions of JavaScript's own Math."""
-TRUTHS = frozenset({"less", "at_most", "equal", "both", "either", "not"})
-"""Operations that give a condition."""
 MATH = "const {" + ",".join(sorted(set(CALLS.values()))) + "}=Math;"
 """The line by which those functions are known by their names."""
 DEEP = 40

@@ -22,12 +22,8 @@ ROOM = 0.09
 """Free space around, in the longer side of what is drawn."""
 MOST_PATHS = 16
 """Paths in one picture: each ink twice."""
-MARKS = 12
-"""Dots on the path of a point in a whole turn: one every 30 degrees."""
 FAR = 1.6
 """Breadths of the mechanism beyond its box at which centrodes leave the picture."""
-CLOSE = 7200
-"""Places at which centrodes are sampled."""
 LETTERS = 11.5
 """Letters of a legend in an inch."""
 
