@@ -6,14 +6,17 @@ What the last contact misses grows in proportion to how far the tried link has t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.bases import bases
+from graphkin.construction.core.bases import bases, contact_name, under
 from graphkin.construction.core.determined import Determined
-from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
+from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
+from graphkin.construction.higher_class.misclosure import Misclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.links.plate_points import plate_points
@@ -25,13 +28,47 @@ from graphkin.construction.rolling.rolling import (
     touch_wheels,
 )
 from graphkin.construction.rolling.touching import by_contact
+from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.structure.groups import CoupledTrain
+from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact
 from graphkin.text.errors import Problem
 
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+
 FREE = 1e-12
 """Ratios that differ less than this leave the tried link free."""
+
+
+class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
+    """The gap at a contact, across its radius: between the images of both wheels there.
+
+    ``ends`` are the ends of the radius, ``start`` is the known wheel's image, ``tip`` the other's.
+    """
+
+    ends: tuple[str, str]
+    normal: int
+    start: int
+    tip: int
+
+    def point(self, drawing: Drawing) -> str:
+        """The image of the point of contact."""
+        return symbol(drawing.trace.program.steps[self.tip].name)
+
+    def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
+        """The image of the known wheel; of accelerations the parallel to the radius through it."""
+        start = symbol(drawing.trace.program.steps[self.start].name)
+        key = "image" if drawing.kind == "velocity" else "radius"
+        return key, {"bar": bar(*self.ends), "s": start}
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The gap, where no crossing settles it."""
+        if self.is_measured(canvas.drawing):
+            normal, start, tip = map(canvas.value, (self.normal, self.start, self.tip))
+            self.draw_gap(canvas, start, start, tip, 1j * normal.along / abs(normal.along))
 
 
 class SettledTurn(Determined, frozen=True, kw_only=True):
@@ -112,3 +149,35 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
     with pen.on(Part.POSITION, Plane.NUMBERS):
         found = (rates.get(each, pen.given("nought")) for each in (contact.arm or "", side.other))
         return pen.draw(rolled_on_wheel, *found, side.track_radius, side.radius)
+
+
+# --- in the plans --------------------------------------------------------------------------------
+
+
+def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
+    """The images of known wheels where those of a train touch them, before any trial.
+
+    The last of them by the name of the point of the train's own last wheel, which has the same
+    velocity.
+    """
+    for contact in (*(wheel.contact for wheel in group.chain), group.last):
+        for link in {*contact.links} - {*group.links}:
+            rim = carried(pen, link, contact_name(contact), quantity)
+    return {under(contact_name(group.last), group.closing): rim}
+
+
+def missed(pen: Pen, group: CoupledTrain, quantity: str, part: Part) -> ContactMisclosure:
+    """What a trial plan misses where the last wheel touches a known one: across the radius.
+
+    They must not slip.
+    """
+    contact, own = group.last, group.closing
+    name, wheel = contact_name(contact), contact.wheel_of(own)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        radius = (pen.the("position", point) for point in (wheel.centre, name))
+        normal = pen.draw(line_through, *radius)
+    start, tip = (carried(pen, x, name, quantity) for x in (partner(contact, own), own))
+    with pen.on(part, Plane.NUMBERS):
+        size = pen.draw(lacks_across, normal, start, tip)
+    ends = letter(wheel.centre), letter(name)
+    return ContactMisclosure(size=size, ends=ends, normal=normal, start=start, tip=tip)

@@ -155,34 +155,6 @@ class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
             self.draw_gap(canvas, start, start, tip, 1j * guide.along / abs(guide.along))
 
 
-class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
-    """The gap at a contact, across its radius: between the images of both wheels there.
-
-    ``ends`` are the ends of the radius, ``start`` is the known wheel's image, ``tip`` the other's.
-    """
-
-    ends: tuple[str, str]
-    normal: int
-    start: int
-    tip: int
-
-    def point(self, drawing: Drawing) -> str:
-        """The image of the point of contact."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
-
-    def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
-        """The image of the known wheel; of accelerations the parallel to the radius through it."""
-        start = symbol(drawing.trace.program.steps[self.start].name)
-        key = "image" if drawing.kind == "velocity" else "radius"
-        return key, {"bar": bar(*self.ends), "s": start}
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The gap, where no crossing settles it."""
-        if self.is_measured(canvas.drawing):
-            normal, start, tip = map(canvas.value, (self.normal, self.start, self.tip))
-            self.draw_gap(canvas, start, start, tip, 1j * normal.along / abs(normal.along))
-
-
 class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
     """What a plan has too much of a driver's given rate: the step that has it, ``found``.
 

@@ -15,19 +15,20 @@ from graphkin.construction.acceleration import acceleration as accelerations
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
-from graphkin.construction.core.bases import bases, contact_name, ending, under
+from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
-from graphkin.construction.core.pen import Pen, image, letter, second_image
+from graphkin.construction.core.pen import Pen, image, second_image
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
 from graphkin.construction.core.vocabulary import action, distance, part_along, sum_of
-from graphkin.construction.guides.coincident_points import carried, image_under, omega_of
+from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
+from graphkin.construction.higher_class import coupled_train
 from graphkin.construction.higher_class.divided_point import (
     CrossedLine,
     DividedPoint,
@@ -35,12 +36,10 @@ from graphkin.construction.higher_class.divided_point import (
     between,
     crossed_point,
     crossing,
-    line_through,
 )
 from graphkin.construction.higher_class.higher import Each, inverse, less, product, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
-    ContactMisclosure,
     DrivenMisclosure,
     GuideMisclosure,
     Misclosure,
@@ -399,12 +398,8 @@ def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> d
     """
     if not isinstance(group, CoupledTrain):
         return {}
-    for contact in (*(wheel.contact for wheel in group.chain), group.last):
-        for link in {*contact.links} - {*group.links}:
-            rim = carried(pen, link, contact_name(contact), kind.quantity)
-    if kind is ACCELERATION:
-        return {}
-    return {under(contact_name(group.last), group.closing): rim}
+    found = coupled_train.known_rims(pen, group, kind.quantity)
+    return {} if kind is ACCELERATION else found
 
 
 def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> int:
@@ -468,7 +463,7 @@ def missed(
 ) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
     if isinstance(group, CoupledTrain):
-        return missed_contact(pen, group, kind)
+        return coupled_train.missed(pen, group, kind.quantity, kind.part)
     last = group.last
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
@@ -504,23 +499,6 @@ def missed(
         case Driver() as driver:
             return missed_slide(pen, shapes, driver, kind)
     raise AssertionError(last)
-
-
-def missed_contact(pen: Pen, group: CoupledTrain, kind: TrialQuantity) -> Misclosure:
-    """What a trial plan misses where the last wheel touches a known one: across the radius.
-
-    They must not slip.
-    """
-    contact, own = group.last, group.closing
-    name, wheel = contact_name(contact), contact.wheel_of(own)
-    with pen.on(Part.POSITION, Plane.NUMBERS):
-        radius = (pen.the("position", point) for point in (wheel.centre, name))
-        normal = pen.draw(line_through, *radius)
-    start, tip = (carried(pen, x, name, kind.quantity) for x in (partner(contact, own), own))
-    with pen.on(kind.part, Plane.NUMBERS):
-        size = pen.draw(lacks_across, normal, start, tip)
-    ends = letter(wheel.centre), letter(name)
-    return ContactMisclosure(size=size, ends=ends, normal=normal, start=start, tip=tip)
 
 
 def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: TrialQuantity) -> Misclosure:
