@@ -404,7 +404,9 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
                 own = pen.draw(difference, held, lean)
             else:
                 own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
-            turn = pen.draw(difference, turn, pen.want("turned", link, own))
+                if not pen.has("turned", link):
+                    pen.want("turned", link, own)
+            turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
