@@ -46,7 +46,7 @@ class Lift(Struct, frozen=True, eq=False):
         return self.law.at(place, self.numbers, self.start)
 
 
-class Base(Struct, frozen=True, eq=False):
+class DrivenAgainst(Struct, frozen=True, eq=False):
     """The link against which driver ``row`` turns another, where it turns as one with others.
 
     It is ``lean`` (radians) ahead of its ``turning``, and stands within half a turn of ``near``
@@ -83,7 +83,7 @@ class Drives(Struct, frozen=True, eq=False):
     speed: Reals
     acceleration: Reals
     lifts: tuple[Lift, ...] = ()
-    bases: tuple[Base, ...] = ()
+    bases: tuple[DrivenAgainst, ...] = ()
 
     def residual(self, unknowns: Reals) -> Reals:
         """Driven coordinate less given value, angles within half a turn unless whole: (N, D)."""
@@ -197,7 +197,7 @@ def bases_of(
     near: Mapping[str, Real],
     rolling: Collection[str],
     numbers: Numbers,
-) -> tuple[Base, ...]:
+) -> tuple[DrivenAgainst, ...]:
     """The links that drivers turn others against, where these turn as one with further links.
 
     Those that a driver turns count with it.
@@ -210,7 +210,7 @@ def bases_of(
             continue
         if list(turned.of.values()).count(k) > 1 and driver.against not in rolling:
             lean, start = turned.angle[driver.against], near.get(driver.against, 0.0)
-            found.append(Base(d, k, numbers.reals(lean), numbers.reals(start)))
+            found.append(DrivenAgainst(d, k, numbers.reals(lean), numbers.reals(start)))
     return tuple(found)
 
 

@@ -89,7 +89,7 @@ def equations(standing: Standing) -> list[Equation]:
         found.append(({slide.block, slide.on}, sliding(standing, slide)))
     for straight in standing.straights:
         found.append(({straight.wheel, straight.on}, rolling(straight)))
-    for gear in standing.gears:
+    for gear in (each for each in standing.gears if not each.idle):
         found.append(({gear.wheel, gear.on, gear.arm}, meshing(gear)))
     for cam in standing.cams:
         found.append(({cam.follower, cam.on}, lifting(standing, cam)))

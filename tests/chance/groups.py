@@ -8,7 +8,7 @@ from random import Random
 
 from tests.chance.lifts import MOTIONS, lifted
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, CamLaw, Gear, Standing, Straight
+from tests.chance.records import FRAME, ROUND, CamLaw, Gear, Standing, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 
@@ -522,6 +522,70 @@ def series(m: Maker) -> None:
     mesh(planets[1], suns[1], (second, -large), (pins[1][0], centre[0]))
 
 
+def twins(m: Maker) -> None:
+    """A driven ring and a free sun about one pin, two planets on a free arm, and a rod to one.
+
+    The other planet's contact with the sun is idle.
+    """
+    on = m.any_body()
+    centre = m.anchor(on)
+    small, own = m.length(), m.length()
+    large = small + 2 * own
+    ring, sun = (wheel_body(m, centre) for _ in range(2))
+    m.turn(ring, m.rng.choice([on, FRAME]))
+    way = (small + own) * m.direction()
+    pins = [(m.name(), centre[1] + way), (m.name(), centre[1] + m.across(way) * abs(way))]
+    arm = m.body(dict([centre, *pins]))
+    m.standing.bodies[ring].wheels.append((centre[0], -large))
+    m.standing.bodies[sun].wheels.append((centre[0], small))
+    turned = {arm: m.rng.uniform(-2, 2), ring: m.rng.uniform(-2, 2)}
+    seen = turned[ring] - turned[arm]
+    turned[sun] = turned[arm] - large / small * seen
+    planets = [wheel_body(m, pin) for pin in pins]
+    for number, (planet_, pin) in enumerate(zip(planets, pins, strict=True)):
+        m.standing.bodies[planet_].wheels.append((pin[0], own))
+        turned[planet_] = turned[arm] + large / own * seen
+        for wheel, radius in ((ring, -large), (sun, small)):
+            names = planet_, wheel, arm
+            start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
+            counted = {name: turned[name] for name in names}
+            ends, radii = (pin[0], centre[0]), (own, radius)
+            idle = number == 1 and wheel == sun
+            m.standing.gears.append(
+                Gear(planet_, wheel, arm, ends, radii, "", start, counted, idle)
+            )
+    spot = pins[0][1] + m.vector()
+    rod = m.point(planets[0], spot), spot
+    known = m.any_body(but=[ring, sun, arm, *planets])
+    bar(m, rod, m.anchor(known))
+
+
+def plank(m: Maker) -> None:
+    """A plank on two rollers of one size on a body, the first driven."""
+    on, along = m.any_body(), m.direction()
+    place, radius, side = m.somewhere() + m.vector(), m.length(), m.sign()
+    lower = place - along * (m.length() + 1j * side * radius)
+    upper = place + along * (m.length() + 1j * side * radius)
+    name = m.body({m.name(): upper + m.vector()}, along)
+    lean = phase(along * m.standing.bodies[on].axis.conjugate())
+    way = 0.0
+    for number in range(2):
+        spot = place + along * way
+        wheel = wheel_body(m, (m.name(), spot))
+        centre = next(p for p, z in m.standing.bodies[wheel].points.items() if z == spot)
+        m.standing.bodies[wheel].wheels.append((centre, radius))
+        for body, through, facing in ((on, lower, side), (name, upper, -side)):
+            gone = ((spot - through) * along.conjugate()).real
+            zero = m.angle(wheel) - m.angle(on) + facing * gone / radius
+            zero -= 0.0 if body == on else lean if lean > ROUND - math.pi else lean + math.tau
+            m.standing.straights.append(
+                Straight(wheel, body, centre, radius, through, along, facing, math.degrees(zero))
+            )
+        if number == 0:
+            m.drive("roll", wheel, on, ((spot - lower) * along.conjugate()).real)
+        way = m.length() * m.sign()
+
+
 def kept_bar(m: Maker) -> None:
     """A bar that a pin and a wheel alone hold: on a roller about a pin of a body, or on a drum.
 
@@ -617,10 +681,19 @@ GROUPS = {
     "cam": cam,
     "belt": belted,
     "series": series,
+    "twins": twins,
+    "plank": plank,
 }
 STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
 TRIES = 60
-ADDED = {"kept bar": (13, 5), "cam": (11, 7), "belt": (9, 7), "series": (13, 9)}
+ADDED = {
+    "kept bar": (13, 5),
+    "cam": (11, 7),
+    "belt": (9, 7),
+    "series": (13, 9),
+    "twins": (17, 3),
+    "plank": (17, 11),
+}
 """Groups at the end of every so many seeds, those that leave such a rest.
 
 Thus a new kind of group changes no other seed: tests name seeds for what is special in them.

@@ -65,6 +65,8 @@ class Gear:
     belt: str = ""
     start: dict[str, float] = field(default_factory=dict)
     turned: dict[str, float] = field(default_factory=dict)
+    idle: bool = False
+    """Whether other contacts make the wheels turn so already."""
 
 
 @dataclass

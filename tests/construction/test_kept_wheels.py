@@ -419,6 +419,26 @@ def test_what_hangs_on_a_track_does_not_hold_it():
     alike(example("bar-on-roller"), laden, "123", "ABCD")
 
 
+CARRIED = """P = [0, 0]
+H = [100, 40]
+[links.4]
+H-E = 50
+[[drivers]]
+turn = 4
+against = 3
+angle = 60
+speed = 2
+"""
+
+
+def test_a_crank_on_a_plank_leaves_it_to_its_rollers():
+    """The slide that two rollers stand for is put in all the same."""
+    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
+    laden = made(text.replace("P = [0, 0]\n", CARRIED))
+    assert laden.scene.links["3"].slides
+    alike(example("plank-rollers"), laden, "123", "ABCDP")
+
+
 ROCKED = """
 graphkin = 1
 title = "A roller on a crank rocks a bar"

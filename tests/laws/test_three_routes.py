@@ -15,12 +15,22 @@ SEEN = {
     690: "guides that lead a plate farther than its bars reach",
     695: "kilometres beside radians in one system of equations",
     766: "a wheel driven against a block, whose angles add up to more than half a turn",
+    762: "a wheel that its driver turns on its track, and that carries a track itself",
     798: "a wheel on a block of a driven crank that has gone more than half round",
     1187: "a sun driven against a block that pins alone turn",
     1263: "a closure close beside the end of where the chain can be drawn",
+    1292: "a bar on the wheel of a block whose way is stated",
+    1318: "a wheel on pins, more than half a turn from the bar that lies on it",
     1495: "a wheel driven against a link turned half round, but for rounding",
+    1627: "trains on a rod and on the block that slides along it",
+    1661: "a guide along two points close together, far from the origin",
+    1734: "a cam on a link that is a track",
     1856: "an acceleration a hundred million times the driver's",
     2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
+    2878: "links that hang on a track by a driver",
+    3012: "a sun driven against a block of a link that rolls",
+    3857: "a sun driven against a block that slides on a wheel that rolls",
+    4503: "a wheel on pins beside a bar that the loops cannot assemble by another count",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 

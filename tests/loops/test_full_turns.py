@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
 from types import SimpleNamespace
 
@@ -13,6 +15,12 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
 from tests.scene_files import FOLDER, scene_text
+
+TRAINS = (
+    (("G", "H"), 25, 80, ("M", "N")),
+    (("A", "B"), 25, -30, ("Q", "R")),
+)
+"""Two points of the link that a sun is driven against, the angles of sun and arm, the planet."""
 
 
 @pytest.mark.parametrize(
@@ -51,6 +59,36 @@ def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first():
 def test_the_witness_counts_a_small_wheel_beyond_half_a_turn():
     found = load(FOLDER / "geared-five-bar-from-its-coupler.toml")
     assert found.witness(found.solve()).agrees
+
+
+@pytest.mark.parametrize(("base", "drive", "arm", "planet"), TRAINS)
+def test_a_rod_and_the_block_on_it_count_each_from_its_own_start(base, drive, arm, planet):
+    """The block stands 170° ahead of the rod: at -174°, not at 186°, and its train by that.
+
+    A planet has turned by φ_arm - (φ_sun - φ_arm)·12/20 (Willis).
+    """
+    name = "loops/trains-on-a-rod-and-its-block"
+    one = Mechanism(read_text(scene_text(name), name))
+    found = one.solve()
+    assert one.witness(found).agrees
+    start, end = base
+    at = {p: found.points[p].position for p in {start, end, *planet}}
+    standing = cmath.phase(at[end] - at[start])
+    turned = math.radians(drive) + standing
+    led = math.radians(arm) - (turned - math.radians(arm)) * 12 / 20
+    off = cmath.phase(at[planet[1]] - at[planet[0]]) - led
+    assert math.remainder(off, math.tau) == pytest.approx(0, abs=1e-9)
+
+
+def test_a_stated_way_of_a_wheel_is_not_that_of_a_bar_that_lies_on_it():
+    """The block of a swivelling guide carries a drum: its way says nothing of the bar there."""
+    name = "loops/bar-on-a-swivelling-wheel"
+    for way in ("forward", "backward"):
+        text = scene_text(name).replace('3 = "forward"', f'3 = "{way}"')
+        one = Mechanism(read_text(text, name))
+        verdict = one.witness(one.solve())
+        assert verdict.branches == ()
+        assert verdict.agrees
 
 
 def test_an_angle_that_no_linear_equation_ties_is_counted_by_itself():

@@ -475,6 +475,8 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
                 own = pen.draw(difference, held, lean)
             else:
                 own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
+                if not pen.has("turned", link):
+                    pen.want("turned", link, own)
             turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)
