@@ -196,3 +196,16 @@ def test_the_flattest_right_triangle_leans_as_its_velocity_says(run: Run) -> Non
     drawn = abs(b.velocity - a.velocity) / crank
     lean = math.degrees(math.atan2(abs(b.position - a.position), drawn))
     assert f"{lean:.2f}°" in line
+
+
+def test_the_closures_of_a_rope_are_told_by_where_it_leaves_the_drum() -> None:
+    """Its ends stand in both: only T, where the tangent touches, tells them apart."""
+    mechanism = load(ROOT / "examples" / "scenes" / "rope-on-drum.toml")
+    (choice,) = choices(mechanism.scene, mechanism.groups, mechanism.program)
+    one, other = (closure.place for closure in choice.closures)
+    points = mechanism.solve().points
+    assert choice.pin == "T"
+    assert abs(one - other) > 0.1
+    for place in (one, other):
+        tangent = (points["A"].position - place) * (place - points["O"].position).conjugate()
+        assert tangent.real == pytest.approx(0, abs=1e-12)

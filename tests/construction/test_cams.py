@@ -759,8 +759,11 @@ def test_an_arm_sees_the_cam_move_as_its_law_says(name):
     fixed = "fixed" in name
     data = {"start": 0.0, "clock": str(fixed).lower(), "rise": 1000.0}
     data |= {"motion": "cycloidal", "back": "3-4-5"}
-    text = text.replace("to = 120", "to = 110").replace("to = 180", "to = 170")
-    text = text.replace("to = 300", "to = 310")
+    begin, end = text.index("law = ["), text.index("[[drivers]]")
+    rise = {"cam-fixed": 20, "cam-fixed-lever": 20, "cam-carried": 10}[name]
+    law = f"""law = [{{ to = 110, rise = {rise}, motion = "cycloidal" }}, {{ to = 170 }},
+      {{ to = 310, rise = -{rise}, motion = "3-4-5" }}, {{ to = 360 }}]\n"""
+    text = text[:begin] + law + text[end:]
     for angle in range(5, 360, 20):
         mechanism = Mechanism(read_text(text, "cam", None, {"angle": angle}))
         solution = mechanism.solve()

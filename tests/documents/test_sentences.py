@@ -122,3 +122,17 @@ def test_italian_parts_equal_vowels_alone():
     assert spoken("step.square-to", s="b", bar="*A**B*") == "per b la perpendicolare ad *A**B*"
     assert spoken("step.square-to", s="b", bar="*O**B*") == "per b la perpendicolare a *O**B*"
     assert spoken("step.kennedy-line", m="*I*", n="*E*") == "congiungere *I* ed *E*"
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_one_vector_is_transferred_to_its_point_and_several_each_to_its_own(language):
+    both = {"en": "each", "ro": "fiecare", "it": "ciascuna"}
+    for name, one in (("cam-roller", True), ("pump", False)):
+        for drawing in drawings(name, 7 if name == "pump" else None, language):
+            last = plain(sentences(drawing)[-1].markup)
+            assert (both[language] in last) is not one
+
+
+def test_coordinates_that_do_not_end_have_the_digits_that_a_hand_needs():
+    drawing, _ = drawings("geneva-wheel")
+    assert "O2 (70.7107, 0) mm" in map(plain, given(drawing))

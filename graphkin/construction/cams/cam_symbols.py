@@ -40,8 +40,9 @@ def draw_cams(board: FieldContent, drawing: Drawing, field: Field) -> None:
             board.marks.append(CircleMark(*field(places[tip]), radius, "profile", follower))
         elif cam.is_flat:
             pin = places[cam.lever.pin] if cam.lever else None
-            carrier = drawing.standing.axis(cam.carrier) or 1 + 0j
-            (x1, y1), (x2, y2) = map(field, face_ends(profile, pin, places[tip], carrier))
+            carrier = drawing.standing.axis(cam.carrier)
+            seen = 1 + 0j if carrier is None else carrier
+            (x1, y1), (x2, y2) = map(field, face_ends(profile, pin, places[tip], seen))
             board.marks.append(LineMark(x1, y1, x2, y2, "profile", follower))
 
 
