@@ -25,6 +25,8 @@ PARTS = 16
 """Parts into which it is cut, all at once."""
 FEWER, FEWER_PARTS = 36, 4
 """The same where several links are tried at once: each position costs as much as a hundred."""
+SOUGHT = 2
+"""Links tried at once with which positions are searched at all."""
 NOISE = 1e-12
 """Sine of crossing of lines that are parallel throughout, but for rounding."""
 MOST = 3
@@ -45,15 +47,22 @@ class ClosingRanges(Struct, frozen=True):
     """Where a mechanism closes while one driver moves: ranges of its position (degrees or m).
 
     ``searched`` counts the positions that were looked at, where a bound on the work left out some;
-    it is 0 elsewhere.
+    it is 0 elsewhere. ``tried`` counts the links tried at once where these are too many for any
+    search; there are no ranges then.
     """
 
     ranges: list[Range]
     searched: int = 0
+    tried: int = 0
 
     @property
     def bound(self) -> str:
-        """Words for a search that was bounded; empty elsewhere."""
+        """Words for a search that was bounded, or left out; empty elsewhere."""
+        if self.tried:
+            return (
+                f"not searched: {self.tried} links are tried at once, which takes seconds for "
+                "each position of the driver"
+            )
         if not self.searched:
             return ""
         return (
@@ -74,6 +83,8 @@ def closings(scene: Scene) -> list[ClosingRanges]:
 
 def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> str:
     """Words for where each driver closes a mechanism."""
+    if left_out := next((found.bound for found in known if found.tried), ""):
+        return f"where it closes is {left_out}"
     bound = next((f" ({found.bound})" for found in known if found.bound), "")
     if len(scene.drivers) == 1:
         noun = "angle" if scene.drivers[0].kind == "turn" else "position"
@@ -129,6 +140,8 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
     try:
         if course.sweep.whole and wheels(course) and not course.closing_work:
             return ClosingRanges(ranges_followed(course))
+        if course.tried_at_once > SOUGHT:
+            return ClosingRanges([], tried=course.tried_at_once)
         fewest = FEWER if course.tries_several else FEWEST
         count = min(GRID, max(fewest, WORK // max(course.closing_work, 1)))
         found = ranges_of(course, count)

@@ -142,9 +142,14 @@ class Course(Struct, frozen=True, dict=True):
         return work
 
     @property
+    def tried_at_once(self) -> int:
+        """How many links a group tries at once, at most; 0 without one that tries any."""
+        return max((len(g.nested) for g in self.groups if isinstance(g, Higher)), default=0)
+
+    @property
     def tries_several(self) -> bool:
         """Whether a group closes only when several of its links are tried at once."""
-        return any(len(g.nested) > 1 for g in self.groups if isinstance(g, Higher))
+        return self.tried_at_once > 1
 
     def margins(self, at: Any) -> Reals:
         """The sine of every crossing (rows as ``crossings``) for each u (N,); NaN does not close.

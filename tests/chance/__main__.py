@@ -1,6 +1,7 @@
 """Many mechanisms made at random: which routes differ.
 
-As many as the first argument says, the first seed being the second argument.
+As many as the first argument says, the first seed being the second argument. A third one names
+a kind of group, with which then each of them ends.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 
 from tests.chance.checking import case, checked
+from tests.chance.groups import ADDED
 
 
 def judged(seed: int) -> tuple[str, str]:
@@ -30,9 +32,12 @@ def judged(seed: int) -> tuple[str, str]:
 
 def main() -> None:
     """Print every seed at which the routes differ, and how many agree."""
-    count, start = (int(each) for each in (*sys.argv[1:], *("2000", "0")[len(sys.argv) - 1 :]))
+    count, start, kind = (*sys.argv[1:], *("2000", "0", "")[len(sys.argv) - 1 :])
+    step, rest = ADDED[kind] if kind else (1, 0)
+    first = int(start) + (rest - int(start)) % step
+    seeds = range(first, first + int(count) * step, step)
     with ProcessPoolExecutor() as pool:
-        rows = list(pool.map(judged, range(start, start + count), chunksize=10))
+        rows = list(pool.map(judged, seeds, chunksize=10 if step == 1 else 1))
     for _, words in rows:
         if words:
             print(words)

@@ -226,6 +226,38 @@ def loop_of_four(m: Maker) -> None:
         bar(m, *ends)
 
 
+def coupled_plates(m: Maker) -> None:
+    """Two plates on two legs each, and two bars between them: two links are tried at once."""
+    known = m.bodies()
+    plates = []
+    for _ in range(2):
+        place = m.somewhere() + m.vector()
+        plates.append(m.body({m.name(): place, m.name(): place + m.vector()}))
+        for _ in range(2):
+            but = [name for name in m.bodies() if name not in known]
+            leg(m, plates[-1], place + m.vector(), but)
+    for _ in range(2):
+        ends = []
+        for plate in plates:
+            start, *_ = m.standing.bodies[plate].points.values()
+            place = start + m.vector()
+            ends.append((m.point(plate, place), place))
+        bar(m, *ends)
+
+
+def ring_of_plates(m: Maker) -> None:
+    """Four plates in a ring, a leg on each: two links are tried at once."""
+    known = m.bodies()
+    places = [m.somewhere() + m.vector()]
+    for _ in range(3):
+        places.append(places[-1] + m.vector())
+    pins = [(m.name(), place) for place in places]
+    for k, pin in enumerate(pins):
+        plate = m.body(dict([pin, pins[k - 1]]))
+        but = [name for name in m.bodies() if name not in known]
+        leg(m, plate, pin[1] + m.vector(), but)
+
+
 def inner_turn(m: Maker) -> None:
     """Three bars in a row, the second turned by a driver against the first or the frame."""
     a = m.any_body()
@@ -683,6 +715,8 @@ GROUPS = {
     "series": series,
     "twins": twins,
     "plank": plank,
+    "coupled plates": coupled_plates,
+    "ring of plates": ring_of_plates,
 }
 STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
 TRIES = 60
@@ -693,6 +727,8 @@ ADDED = {
     "series": (13, 9),
     "twins": (17, 3),
     "plank": (17, 11),
+    "coupled plates": (23, 4),
+    "ring of plates": (23, 18),
 }
 """Groups at the end of every so many seeds, those that leave such a rest.
 

@@ -12,18 +12,22 @@ import numpy as np
 import pytest
 
 from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.program import Plane
 from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.refined_trials import determinant, refined, solved
 from graphkin.construction.higher_class.refining import in_doubles
 from graphkin.construction.higher_class.two_trials import TwoTrials
+from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.kinds import ball_kind, decimal_kind
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
+from tests.construction.rods import rods_of
 from tests.structure.test_unresolved import CYLINDERS
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes" / "construction"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 NAMES = ("double-triad", "quadrilateral-of-plates")
 FIXED = ("O", "B", "C", "D")
 LINKS = {
@@ -129,6 +133,87 @@ def test_random_mechanisms_move_as_the_loops_say(seed):
     for closure in (1, 2):
         found = Mechanism(read_text(written("quad", placed("quad", seed), closure), "random"))
         assert found.witness(found.solve()).agrees
+
+
+# --- against rods between pins, without any construction ------------------------------------------
+
+
+def points_of(found: Mechanism) -> list[dict[str, complex]]:
+    """Where the points stand in each closure of the only group of higher class (m)."""
+    (choice,) = choices(found.scene, found.groups, found.program)
+    here = {name: each.position for name, each in found.solve().points.items()}
+    return [here if each.picked else dict(each.points) for each in choice.closures]
+
+
+def same(found: dict[str, complex], pins: dict[str, complex]) -> bool:
+    """Whether pins (mm) stand where a closure has them (m)."""
+    return max(abs(1000 * found[pin] - place) for pin, place in pins.items()) < 1e-6
+
+
+@pytest.mark.parametrize("name", ["plates-coupled", "plates-ring"])
+def test_examples_stand_and_move_as_rods_between_pins(name):
+    """Newton's method on the lengths of bars from random places of all pins, and the rates at which
+    no bar grows longer."""
+    path = EXAMPLES / f"{name}.toml"
+    rods, found = rods_of(path), Mechanism(read_text(path.read_text(encoding="utf-8"), name))
+    ours, theirs = points_of(found), rods.closures(starts=600, seed=1, size=600.0)
+    assert len(ours) == len(theirs) == 2
+    for pins in theirs:
+        assert any(same(each, pins) for each in ours)
+    solution = found.solve()
+    (pins,) = [pins for pins in theirs if same(ours[1], pins)]
+    for pin, (velocity, acceleration) in rods.motion(pins).items():
+        here = solution.points[pin]
+        assert here.velocity == pytest.approx(velocity / 1000, rel=1e-9, abs=1e-9)
+        assert here.acceleration == pytest.approx(acceleration / 1000, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "tried", "starts", "least"),
+    [("three-plates", 3, 6000, 4), ("four-plates", 4, 2000, 1)],
+)
+def test_three_and_four_links_are_tried_at_once(name, tried, starts, least):
+    """Both close in four ways, as random places of all pins tell (6000 of them, seed 1)."""
+    path = SCENES / f"{name}.toml"
+    rods, found = rods_of(path), Mechanism(read_text(path.read_text(encoding="utf-8"), name))
+    assert len(found.groups[1].nested) == tried
+    size = 500.0 if tried == 3 else 400.0
+    ours, theirs = points_of(found), rods.closures(starts, seed=1, size=size)
+    assert len(ours) == 4
+    assert least <= len(theirs) <= 4
+    for pins in theirs:
+        assert sum(same(each, pins) for each in ours) == 1
+    assert found.witness(found.solve()).agrees
+
+
+def test_a_batch_closes_three_links_in_the_closure_of_a_number():
+    text = (SCENES / "three-plates.toml").read_text(encoding="utf-8")
+    text = text.replace("title", "parameters = { phi = { value = 330 } }\ntitle", 1)
+    text = text.replace("angle = 330", 'angle = "phi"')
+    angles = [330.0, 331.0, 332.5]
+    batch = Mechanism(read_text(text, "three")).batch(phi=np.array(angles))
+    for k, angle in enumerate(angles):
+        one = Mechanism(read_text(text, "three", None, {"phi": angle})).solve()
+        for point, here in one.points.items():
+            many = batch.points[point]
+            place, rate = (np.broadcast_to(x, 3)[k] for x in (many.position, many.acceleration))
+            assert place == pytest.approx(here.position, abs=1e-12)
+            assert rate == pytest.approx(here.acceleration, rel=1e-8, abs=1e-8)
+
+
+@pytest.mark.parametrize("name", ["plates-coupled", "plates-ring"])
+def test_trial_plans_within_trial_plans_are_about_as_large_as_the_plan(name):
+    """Rates within a trial plan suit the rate with which that is drawn, not any other."""
+    found = Mechanism(read_text((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"), name))
+    trace = found.trace(by_hand=True)
+    steps = found.program.steps
+    for plane in (Plane.VELOCITIES, Plane.ACCELERATIONS):
+        named = (n for n in trace.values if steps[n].plane is plane and steps[n].name)
+        drawn = [n for n in named if isinstance(trace.values[n], complex)]
+        tried = {n for n in drawn if steps[n].name[-1] in "¹²"}
+        far = max(abs(trace.values[n]) for n in drawn if n not in tried)
+        assert tried
+        assert all(abs(trace.values[n]) < 2.5 * far for n in tried)
 
 
 def test_six_cylinders_in_one_group_are_constructed():

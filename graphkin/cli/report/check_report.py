@@ -134,6 +134,8 @@ def range_lines(mechanism: Mechanism) -> list[str]:
     if len(mechanism.scene.drivers) != 1:
         return ["not swept: it is for mechanisms with one driver"]
     found = closing(mechanism.scene)
+    if found.tried:
+        return [found.bound]
     return [range_words(mechanism, found), *([found.bound] if found.bound else [])]
 
 

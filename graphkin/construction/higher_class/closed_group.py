@@ -135,7 +135,8 @@ class ClosedGroup(Construction, frozen=True):
         drawn = seen(drawing, (link for link in self.links_drawn(drawing) if link not in inner))
         key = "step.close-links" if len(drawn) > 1 else "step.close-link"
         first = drawing.words(key, list=escape(", ".join(drawn)))
-        return drawing.words("list_mark").join((first, *self.tried_within(drawing)))
+        mark, within = drawing.words("list_mark"), [*self.tried_within(drawing)]
+        return mark.join((first, *within)) + (mark.rstrip() if within else "")
 
     def tried_within(self, drawing: Drawing) -> Iterator[str]:
         """How each group within it is closed."""

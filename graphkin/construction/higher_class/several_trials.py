@@ -26,7 +26,7 @@ TOGETHER = 64
 MOST = 1_000_000
 """Places at which cells are looked at together."""
 HALVED = 4
-"""How often cells are halved."""
+"""How often cells of two unknowns are halved; those of more are too many."""
 SLACK = 0.5
 """By how much a misfit may vanish beyond what it is at a cell's corners, in parts of its range
 there: what curves it."""
@@ -343,8 +343,8 @@ class Corners(NamedTuple):
     """Cells (C, k), their rows, and what is found where they are taken along one more unknown.
 
     ``misfits`` and ``reaches`` are those at nodes, for sets of signs and for places along that
-    unknown: arrays of a ``shape``; ``which`` has the nodes of each cell (C, 2^k), and ``codes`` what
-    each set of signs adds to a row.
+    unknown: arrays of a ``shape``; ``which`` has the nodes of each cell (C, 2^k), and ``codes``
+    what each set of signs adds to a row.
     """
 
     row: Array
@@ -469,7 +469,7 @@ class DrawnChain:
 
 def narrowed(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> tuple[Cells, Array]:
     """Small parts of cells in which all misfits of a row may vanish, and half their sides (n,)."""
-    for _ in range(HALVED):
+    for _ in range(HALVED if len(half) == 2 else 0):
         parts = range(0, len(cells.row), CELLS)
         some = (Cells(cells.row[k : k + CELLS], cells.middle[k : k + CELLS]) for k in parts)
         cells = joined([halved(chain, each, half, ranges) for each in some] or [cells])
@@ -495,7 +495,8 @@ def may_vanish(
     """Of which cells all misfits may vanish within: from the least and the largest at the corners,
     or where no corner can be drawn from how far dyads are from that.
 
-    ``some`` and ``whole`` tell whether some corners, or all, can be drawn; the misfits range so far.
+    ``some`` and ``whole`` tell whether some corners, or all, can be drawn; ``ranges`` how far
+    misfits range.
     """
     import numpy as np
 
@@ -520,9 +521,7 @@ def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells
     nodes = np.array([*product((-1, 0, 1), repeat=size)])
     places = (cells.middle[:, None, :] + nodes * half).reshape(-1, size)
     found = chain.at(np.repeat(cells.row, len(nodes)), places)
-    value, reach = (
-        np.array(each).reshape(len(each), len(cells.row), len(nodes)) for each in found
-    )
+    value, reach = (np.array(each).reshape(len(each), len(cells.row), len(nodes)) for each in found)
     finite = np.isfinite(value).all(axis=0)
     value = np.where(finite, value, np.nan)
     strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
