@@ -7,8 +7,8 @@ computing all, or drawing with a computer, next to which any pencil is coarse; i
 are wrong from a misunderstanding that both have, which is held certain. Which of the fields agree
 is counted as a choice, and so is the pair among all pairs with the same data, or with other data.
 
-Among the honest the mean of such odds is 1 at most whichever pair is looked at, so that a class
-is expected to have 1/``STRONG`` innocent pairs with odds of ``STRONG``, or fewer.
+The odds of an honest pair have a mean of 1 at most: one pair of N has odds above N, or none. Since
+all pairs of a class are counted, ``INNOCENT`` pairs of it have odds above ``STRONG``, or fewer.
 """
 
 from __future__ import annotations
@@ -37,7 +37,9 @@ from graphkin.classroom.grading.standard import Expectation
 
 FEW = 3
 """Fewer fields tell nothing."""
-STRONG = 100.0
+INNOCENT = 0.001
+"""How many innocent pairs are expected to be named in a class, at most."""
+STRONG = 1 / INNOCENT
 """Odds from which a copy is reported, all that was looked through counted."""
 PART = 0.1
 """How often of a length and the value computed from it only one is copied."""
@@ -313,20 +315,22 @@ def misunderstood(
     one: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, pencil: float | None = None
 ) -> float:
     """How likely two write the same digits who misunderstood the same: as far as pencils like
-    theirs do, or one that is stated, and their data, as a logarithm.
+    theirs do, or one that is stated, and their data, as a logarithm. What they make many times as
+    large is read as many times as coarsely; what smaller, off by less, and less apart.
     """
     import numpy as np
 
     if not read.any():
         return 0.0
     finest = pencil or min(pencil_of(each, keys) for each in (one, other))
-    key = keys.key(one.variant, read)
-    apart = key.sizes - keys.sizes[other.variant][read]
+    key, others = keys.key(one.variant, read), keys.sizes[other.variant][read]
+    apart, mean = key.sizes - others, (key.sizes + others) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
-        times = np.nan_to_num(one.answers[read] / key.sizes, nan=1.0, posinf=1.0)
+        times = np.nan_to_num(one.answers[read] / mean, nan=1.0, posinf=1.0)
     times = np.where(key.places, 1.0, times)
     coarse, smaller = np.maximum(1.0, times), np.minimum(1.0, times)
-    rounding = np.maximum(one.rounding, other.rounding)[read] * coarse
+    least = np.maximum(one.least, other.least)[read] * coarse
+    rounding = np.maximum(np.maximum(one.digits, other.digits)[read], least)
     spread = 2 * finest**2 * key.spread * np.outer(smaller, smaller)
     spread = spread + np.diag(2 * rounding**2 / 3 + (smaller * apart) ** 2)
     density = -0.5 * np.linalg.slogdet(2 * pi * spread)[1]
