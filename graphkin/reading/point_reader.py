@@ -38,8 +38,10 @@ than so many mm.
 """
 AT_KEY = 2.0
 """The squared distance from the key, in deviations, up to which a point is there."""
-ELSEWHERE = 0.8
+ELSEWHERE = 0.6
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
+NEARLY = 0.85
+"""The share of the ways to a point that must be there for the same."""
 WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
 
@@ -193,6 +195,7 @@ class PointReader(PointSearch):
                 away > SURE
                 or (best.count < 2 and not ended)
                 or best.cover < WHOLE
+                or (self.agreement(number, best.place) < NEARLY and not self.stands(number, best, own))
                 or fresh
                 or doubtful
             )
