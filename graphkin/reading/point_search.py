@@ -193,7 +193,7 @@ class PointSearch:
         return [
             found
             for each in self.sheet.leading[number]
-            if not (each.light or read and self.is_unsure(each))
+            if not (each.light or (read and self.is_unsure(each)))
             if (found := self.cover_of(number, each, place)) is not None
         ]
 
@@ -344,7 +344,7 @@ class PointSearch:
                 there = self.own.get(other)
                 if there is None:
                     there = complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
-                if SAME < abs(there - where.middle) and abs(there - place) < far:
+                if abs(there - where.middle) > SAME and abs(there - place) < far:
                     return False
         return True
 
