@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.reading.drawn_ink import DrawnInk
+from graphkin.reading.drawn_ink import COVERED, DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import SHORT, LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing
@@ -29,6 +29,8 @@ OUTSIDE, APART = 8.0, 3.0
 """The squared distance from the key, in deviations, and that in mm, from which it may follow from a
 mistake that nobody saw.
 """
+RIVAL = 0.3
+"""By how much less likely another place may be, for somebody to be asked which it is."""
 OFF = 16.0
 """The squared distance from what is not expected, in deviations, from which a place is off it."""
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
@@ -38,8 +40,10 @@ than so many mm.
 """
 AT_KEY = 2.0
 """The squared distance from the key, in deviations, up to which a point is there."""
-ELSEWHERE = 0.8
+ELSEWHERE = 0.6
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
+NEARLY = 0.85
+"""The share of the ways to a point that must be there for the same."""
 WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
 
@@ -131,7 +135,8 @@ class PointReader(PointSearch):
         led = best is not None and (self.agreement(number, best.place) >= DRAWN or stands)
         if best is not None and fits and led and (best.count > 1 or best.ends):
             other = self.elsewhere(number, best.place, own)
-            return self.told(number, key, own, other or best, doubtful=other is not None)
+            doubtful = other is not None or self.has_rival(number, best.place, own)
+            return self.told(number, key, own, other or best, doubtful=doubtful)
         far = self.best_far(number, own)
         if far is not None:
             there = self.likely(number, far.place, own)
@@ -154,6 +159,21 @@ class PointReader(PointSearch):
             return None
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         return far if there > here + ELSEWHERE else None
+
+    def has_rival(self, number: int, place: complex, own: ExpectedPlace) -> bool:
+        """Whether all ways of a plan meet and end at another place about as well as at one that
+        fits: vectors that nothing explains may be those of this point.
+        """
+        if self.sheet.field(number) is self.sheet.layout.mechanism:
+            return False
+        far = self.best_far(number, own, place)
+        if far is None or far.count < MEET or far.cover < WHOLE:
+            return False
+        beyond = self.beyond(number, far.place)
+        if len(beyond) < 2 or max(beyond) > COVERED:
+            return False
+        there, here = (self.likely(number, each, own) for each in (far.place, place))
+        return there > here - RIVAL
 
     def told(
         self,
@@ -193,6 +213,10 @@ class PointReader(PointSearch):
                 away > SURE
                 or (best.count < 2 and not ended)
                 or best.cover < WHOLE
+                or (
+                    self.agreement(number, best.place) < NEARLY
+                    and not self.stands(number, best, own)
+                )
                 or fresh
                 or doubtful
             )
@@ -201,8 +225,7 @@ class PointReader(PointSearch):
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OUTSIDE
-                ask = ask or (abs(best.place - key.middle) > APART and not self.is_met(number, best, from_key))
+                ask = ask or from_key > OUTSIDE or abs(best.place - key.middle) > APART
                 ask = ask or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
@@ -240,14 +263,6 @@ class PointReader(PointSearch):
         near = abs(best.place - key.middle) <= BESIDE and key.away(best.place, best.error) <= AT_KEY
         whole = best.count > 1 and self.agreement(number, best.place) >= WHOLE
         return near and whole and not self.bad
-
-    def is_met(self, number: int, best: LinesCrossing, from_key: float) -> bool:
-        """Whether so many lines meet at a point, and so sure is all before it, that the pencil
-        alone took it far from the key.
-        """
-        behind = self.behind(number)
-        asked = any(self.readings[n].ask for n in self.readings.keys() & behind)
-        return best.count >= MEET and from_key <= SURE and not (asked or self.unread & behind)
 
     def tail(self, number: int) -> tuple[tuple[float, float] | None, str]:
         """A known point from which a point is drawn, and its letter."""

@@ -193,7 +193,7 @@ class PointSearch:
         return [
             found
             for each in self.sheet.leading[number]
-            if not (each.light or read and self.is_unsure(each))
+            if not (each.light or (read and self.is_unsure(each)))
             if (found := self.cover_of(number, each, place)) is not None
         ]
 
@@ -344,7 +344,7 @@ class PointSearch:
                 there = self.own.get(other)
                 if there is None:
                     there = complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
-                if SAME < abs(there - where.middle) and abs(there - place) < far:
+                if abs(there - where.middle) > SAME and abs(there - place) < far:
                     return False
         return True
 
@@ -579,13 +579,22 @@ class PointSearch:
         """How well what would follow from a place is drawn."""
         values = self.ahead({number: place})
         covers = [
-            self.ink.cover(place, self.far_place(each, values), 0.8)
+            self.cover_after(each, place, values)
             for each in self.sheet.leading[number]
             if each.after or not (self.is_known(each) or each.bow or self.is_unsure(each))
         ]
         if not covers:
             return 0.75
         return max(covers)
+
+    def cover_after(self, leading: Leading, place: complex, values: Mapping[int, Any]) -> float:
+        """How much of what is drawn from a place is there; of a line that begins at it, one way."""
+        far, line = self.far_place(leading, values), values[leading.far]
+        if not isinstance(line, Line) or abs(far - place) > SHORT:
+            return self.ink.cover(place, far, 0.8)
+        way = complex(np.ravel(line.along)[0]).conjugate()
+        ahead = AHEAD / 2 * way / abs(way)
+        return max(self.ink.cover(place, place + each, 0.8) for each in (ahead, -ahead))
 
     def settled(self, number: int, place: complex) -> LinesCrossing:
         """A place that was found, where the lines that lead to it cross exactly."""
