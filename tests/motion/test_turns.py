@@ -19,6 +19,7 @@ from graphkin.structure.turn_counting import counted_near
 from graphkin.text.errors import GraphkinError
 from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing
+from tests.chosen import CHOSEN, EVERY
 from tests.examples.scenes import FILES
 
 OWN = {path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))}
@@ -73,7 +74,7 @@ def steps_of(found: Cycle):
     return largest, over
 
 
-@pytest.mark.parametrize("name", ROLLING)
+@pytest.mark.parametrize("name", [name for name in ROLLING if EVERY or name in {*OWN, *CHOSEN}])
 def test_no_point_moves_farther_than_its_speed_allows(name):
     few = cycle(scene(name), steps=FEW)
     many = few.along(np.unique([*few.at, *(few.at[1:] + few.at[:-1]) / 2]))

@@ -13,6 +13,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.driving import GRID
+from graphkin.motion.window import window
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
 from tests.motion.linkages import four_bar, slider_crank
@@ -50,6 +51,15 @@ def test_a_window_about_a_dead_point_shows_it(width, searched):
     assert f"{dead:.4f}"[:6] in "\n".join(cycle_lines(found))
     assert cycle_table(found).count("\n") >= len(found.at)
     assert sum(searched) < 5 * GRID
+
+
+def test_a_wheel_that_is_driven_by_its_way_rolls_one_turn_about_where_it_stands():
+    """Its circumference, half of it to each side."""
+    scene = load("examples/scenes/roller.toml").scene
+    (radius,) = (wheel.radius.si(scene.values) for wheel in scene.links["1"].wheels)
+    low, high, whole = window(scene, "roll", 1, 0.2, None, None)
+    assert (low, high) == pytest.approx((0.2 - np.pi * radius, 0.2 + np.pi * radius))
+    assert not whole
 
 
 @pytest.mark.parametrize("at", [180, -180, 540])
