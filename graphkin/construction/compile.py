@@ -120,7 +120,8 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
         case Dyad():
             return position.dyad, velocity.dyad, acceleration.dyad
         case Tie():
-            return (position.tie, *(partial(tie, cross=each) for each in CROSSED))
+            first, second = (partial(tie, cross=each) for each in CROSSED)
+            return position.tie, first, second
         case CamFollower():
             from graphkin.construction.cams import cam
 
