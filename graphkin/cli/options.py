@@ -77,18 +77,6 @@ output_option = folder_option(
 """The folder of a command that writes files, the current one if none is named."""
 class_argument = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 """The folder of a class."""
-port_option = click.option(
-    "--port",
-    metavar="N",
-    type=click.IntRange(0, 65535),
-    default=0,
-    help="Port to listen at; a free one by default.",
-)
-"""The port of a page on this computer."""
-browser_option = click.option(
-    "--no-browser", is_flag=True, help="Only print the address, open no browser."
-)
-"""Leave to open no browser."""
 language_option = click.option(
     "--lang",
     type=click.Choice(["ro", "en", "it"]),

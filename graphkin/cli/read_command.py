@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from graphkin.cli.console import FAILED
-from graphkin.cli.options import (
-    browser_option,
-    folder_option,
-    jobs_option,
-    port_option,
-    tell,
-)
+from graphkin.cli.local_page import browser_option, port_option, refuse_without, show
+from graphkin.cli.options import folder_option, jobs_option, tell
 from graphkin.cli.print_command import progress
 from graphkin.text.errors import PageError, Problem
 
@@ -86,7 +80,7 @@ def read(
     \b
     Exit status: 0; 1 when some pictures were refused, each with its reason; 2 for bad input.
     """
-    refuse_without_libraries("read", context)
+    refuse_without("read", "read", NEEDED.items())
     from graphkin.classroom.grading.class_folder import open_class
     from graphkin.classroom.printing.workers import cores
     from graphkin.reading.pictures import photographs
@@ -105,16 +99,6 @@ def read(
     tell(said(opened, outcome))
     if any(record.refused is not None for record in outcome.records):
         context.exit(FAILED)
-
-
-def refuse_without_libraries(command: str, context: click.Context) -> None:
-    """Raise UsageError where the extra [read] is not installed."""
-    if missing := [package for name, package in NEEDED.items() if not find_spec(name)]:
-        raise click.UsageError(
-            f"{command} needs {' and '.join(missing)}: pip install '.[read]' where graphkin was "
-            "installed from, or pip install 'graphkin[read]'",
-            context,
-        )
 
 
 def read_grid(path: Path | None) -> Grid:
@@ -145,8 +129,7 @@ def read_grid(path: Path | None) -> Grid:
 @click.option(
     "--lang", type=click.Choice(["ro", "en", "it"]), default="en", help="Language of the page."
 )
-@click.pass_context
-def desk(context: click.Context, folder: Path, port: int, no_browser: bool, lang: str) -> None:
+def desk(folder: Path, port: int, no_browser: bool, lang: str) -> None:
     """Decide what graphkin read asks, in a browser.
 
     READ is the folder that graphkin read wrote. The page shows one doubtful point after the other,
@@ -161,23 +144,15 @@ def desk(context: click.Context, folder: Path, port: int, no_browser: bool, lang
       graphkin desk read
       graphkin desk read --lang it --no-browser --port 8080
     """
-    refuse_without_libraries("desk", context)
+    refuse_without("desk", "read", NEEDED.items())
     from graphkin.reading.desk_app import DeskSession, desk_application
-    from graphkin.studio.redirect import Redirect
     from graphkin.studio.server import served
     from graphkin.text import words
     from graphkin.writers.lock import locked
 
     session = DeskSession(folder, words(lang))
-    redirect = Redirect()
     with locked(folder):
-        found = served(lambda: desk_application(session), port, known=redirect.remove)
-        tell([found.address])
-        try:
-            if not no_browser:
-                import webbrowser
-
-                webbrowser.open(redirect.write(found.address))
-            found.server.run()
-        finally:
-            redirect.remove()
+        show(
+            lambda known: served(lambda: desk_application(session), port, known=known),
+            no_browser=no_browser,
+        )

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import gc
-from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
-from graphkin.cli.options import browser_option, current, port_option, tell
+from graphkin.cli.local_page import browser_option, port_option, refuse_without, show
 
 NEEDED = ("bottle", "tomlkit", "waitress")
 """The packages of the extra [studio]."""
@@ -43,28 +42,13 @@ def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
       graphkin studio crank-lab
       graphkin studio mine.toml --no-browser --port 8080
     """
-    if missing := [name for name in NEEDED if not find_spec(name)]:
-        raise click.UsageError(
-            f"the studio needs {' and '.join(missing)}: pip install '.[studio]' where graphkin was "
-            "installed from, or pip install 'graphkin[studio]'",
-            current(),
-        )
+    refuse_without("the studio", "studio", ((name, name) for name in NEEDED))
     from graphkin.studio.folder import Folder
-    from graphkin.studio.redirect import Redirect
     from graphkin.studio.server import serve
     from graphkin.studio.session import Session
 
     session = Session(Folder(Path()), lang)
-    redirect = Redirect()
-    served = serve(session, port, session.address_of(name) or {"gallery": "yes"}, redirect.remove)
-    tell([served.address])
-    try:
-        if not no_browser:
-            import webbrowser
-
-            webbrowser.open(redirect.write(served.address))
-        gc.collect()
-        gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
-        served.server.run()
-    finally:
-        redirect.remove()
+    first = session.address_of(name) or {"gallery": "yes"}
+    gc.collect()
+    gc.freeze()  # what is loaded stays: a search for garbage during a move passes it over
+    show(lambda known: serve(session, port, first, known), no_browser=no_browser)

@@ -14,8 +14,10 @@ from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import coordinate
 from graphkin.construction.guides import sliding
+from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -36,6 +38,7 @@ from graphkin.structure.groups import (
     Train,
     Unresolved,
 )
+from graphkin.structure.pairs import Sliding
 from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, LinkShapes, Any], None]
@@ -43,10 +46,13 @@ Work = Callable[[Pen, LinkShapes, Any], None]
 MOVED, ACCELERATED = 1, 2
 """Which of a group's works draws it in either plan."""
 PLANS = {
-    MOVED: (velocity, velocity.sliding, asked.VELOCITY),
-    ACCELERATED: (acceleration, sliding.sliding, asked.ACCELERATION),
+    MOVED: (velocity.plate_points, velocity.sliding, asked.VELOCITY, OMEGA),
+    ACCELERATED: (acceleration.plate_points, sliding.sliding, asked.ACCELERATION, EPSILON),
 }
-"""What draws the rest of a link in each plan, how a block slides, and what of it is asked."""
+"""What draws the rest of a link in each plan, how a block slides, what of points is asked, and the
+rate of a link."""
+CROSSED = velocity.cross, acceleration.cross
+"""What finds the image of a point where two lines meet, in either plan."""
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
 
@@ -111,7 +117,8 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
         case Dyad():
             return position.dyad, velocity.dyad, acceleration.dyad
         case Tie():
-            return position.tie, velocity.tie, acceleration.tie
+            first, second = (partial(tie, cross=each) for each in CROSSED)
+            return position.tie, first, second
         case CamFollower():
             from graphkin.construction.cams import cam
 
@@ -192,8 +199,9 @@ def write_turning(pen: Pen, shapes: LinkShapes) -> None:
 
 def write_plan(pen: Pen, shapes: LinkShapes, standing: Standing, which: int) -> None:
     """A plan, the rates of links, how blocks slide, and what is asked set on the mechanism."""
-    plan, slides, quantity = PLANS[which]
-    plan.frame(pen)
+    _, slides, quantity, _ = PLANS[which]
+    for point in pen.scene.frame.points:
+        pen.want(quantity.quantity, point, pen.pole(quantity.plane))
     for group, found in standing:
         in_plan(pen, shapes, group, found, which=which)
     for link in pen.scene.links.values():
@@ -207,10 +215,17 @@ def in_plan(
 ) -> None:
     """One group in a plan."""
     work_of(group)[which](pen, shapes, group)
-    plan = PLANS[which][0]
+    rest, _, _, rate = PLANS[which]
     for base in own_bases(group, found):
-        plan.plate_points(pen, shapes, base)
-        plan.turning(pen, base)
+        rest(pen, shapes, base)
+        omega_of(pen, base.link, rate)
+
+
+def tie(pen: Pen, shapes: LinkShapes, group: Tie, *, cross: Callable[..., None]) -> None:
+    """A link between two known ones: on two guides its image is found, at two pins it is there."""
+    if isinstance(group.first, Sliding):
+        point = pen.bases[group.link].start
+        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
 
 
 def tips(pen: Pen, standing: Standing) -> list[str]:

@@ -56,14 +56,14 @@ def parallel(program: Program, step: Step, nearly: str = "") -> str:
     unnamed = f"its two lines are {nearly}parallel"
     if len(lines) != 2 or any(line.action is None for line in lines):
         return unnamed
-    (first, square), (second, other) = (line_words(program, line) for line in lines)
+    (first, square), (second, other) = (line_words(line) for line in lines)
     if not first or not second:
         return unnamed
     how = "parallel" if square == other else "perpendicular to each other"
     return f"{first} and {second} are {nearly}{how}"
 
 
-def line_words(program: Program, line: Step) -> tuple[str, bool]:
+def line_words(line: Step) -> tuple[str, bool]:
     """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
     kind = construction(line)
     if kind is not None and kind.perpendicular_to:

@@ -76,10 +76,11 @@ def sheet(
     drawing: Drawing,
     view: str,
     number: str,
+    layout: Layout | None = None,
     written: Writing | None = None,
 ) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
-    layout, written = lay_out(drawing), written or writing(drawing, view)
+    layout, written = layout or lay_out(drawing), written or writing(drawing, view)
     boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
     (left, detail), (right, other) = parted(*boards)
     if view != "task":

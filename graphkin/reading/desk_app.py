@@ -5,7 +5,6 @@ It reads the records and pictures of one folder and writes one file into it, dec
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -13,19 +12,17 @@ from typing import Any
 import msgspec
 from msgspec import Struct
 
-from graphkin.drawing.glyphs import FILES
-from graphkin.drawing.glyphs import FOLDER as FONTS
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import VERDICTS
 from graphkin.reading.read_sheet import SHOWN, SheetRecord
 from graphkin.reading.settled_points import LONGEST, PointDecision, SettledPoints, settled_points
+from graphkin.studio.local_pages import JSON, answer, answering, new_application
+from graphkin.studio.page_requests import PageRequestError
 from graphkin.studio.studio_page import gaps
 from graphkin.text import Words
 from graphkin.writers.templates import filled
 
 HERE = Path(__file__).parent / "web"
-KINDS = {".css": "text/css", ".js": "text/javascript", ".woff2": "font/woff2"}
-JSON = "application/json"
 MOST_BYTES = 16 * 1024
 SAID = (
     "title", "open", "none_open", "point", "verdict", "off", "note", "right", "follows", "wrong",
@@ -33,10 +30,6 @@ SAID = (
     "sheets", "help",
 )  # fmt: skip
 """The sentences of the page."""
-
-
-class NotAsked(Exception):  # noqa: N818
-    """A request that the page does not make."""
 
 
 class DeskSession(Struct, dict=True):
@@ -74,11 +67,11 @@ class DeskSession(Struct, dict=True):
         }
 
     def decide(self, data: bytes) -> dict[str, Any]:
-        """Let a decision stand. Raises NotAsked for one on no point, or of no kind."""
+        """Let a decision stand. Raises PageRequestError for one on no point, or of no kind."""
         try:
             decision = msgspec.json.decode(data, type=PointDecision)
         except msgspec.MsgspecError as error:
-            raise NotAsked(str(error)) from None
+            raise PageRequestError(str(error)) from None
         record = self.records.get(decision.sheet)
         steps = {point.step for point in record.points} if record is not None else set()
         on_paper = decision.at is None or (
@@ -87,12 +80,12 @@ class DeskSession(Struct, dict=True):
         drawn = (decision.at is None) == (decision.verdict in ("missing", "unread"))
         known = decision.step in steps and len(decision.note) <= LONGEST
         if record is None or decision.undo or not (known and on_paper and drawn):
-            raise NotAsked("no such point, or a place that does not go with the verdict")
+            raise PageRequestError("no such point, or a place that does not go with the verdict")
         with self.lock:
             self.settled.add(decision)
             return self.told(record, self.settled.standing)
 
-    def undo(self, data: bytes) -> dict[str, Any]:
+    def undo(self) -> dict[str, Any]:
         """Take the last decision back; the sheet on which it was made."""
         with self.lock:
             if not self.settled.lines:
@@ -105,9 +98,9 @@ class DeskSession(Struct, dict=True):
             return {**self.told(record, self.settled.standing), "step": last.step}
 
     def picture(self, name: str) -> bytes:
-        """The flattened picture of a sheet. Raises NotAsked where there is none."""
+        """The flattened picture of a sheet. Raises PageRequestError where there is none."""
         if name not in self.records or self.records[name].refused is not None:
-            raise NotAsked(name)
+            raise PageRequestError(name)
         return (self.folder / f"{name}{PICTURE}").read_bytes()
 
 
@@ -123,48 +116,18 @@ def desk_page(session: DeskSession) -> bytes:
 
 def desk_application(session: DeskSession) -> Any:
     """The WSGI application of a desk."""
-    from bottle import Bottle, HTTPResponse, request
-
-    app = Bottle()
-    app.config["catchall"] = False  # a fault is told where the desk was started
-
-    def answer(status: int, kind: str, body: bytes) -> Any:
-        whole = f"{kind}; charset=utf-8" if kind.startswith(("text", "app")) else kind
-        return HTTPResponse(body, status, {"Content-Type": whole})
-
-    def record(found: object) -> Any:
-        return answer(200, JSON, msgspec.json.encode(found))
-
-    def answering(work: Callable[[bytes], dict[str, Any]]) -> Callable[[], Any]:
-        def handler() -> Any:
-            if request.content_type.partition(";")[0].strip() != JSON:
-                return answer(415, "text/plain", b"JSON is expected\n")
-            if request.content_length > MOST_BYTES:
-                return answer(413, "text/plain", b"too large\n")
-            try:
-                return record(work(request.body.read(MOST_BYTES + 1)))
-            except NotAsked as error:
-                return answer(400, "text/plain", f"{error}: not as the page asks\n".encode())
-
-        return handler
 
     def picture(name: str) -> Any:
         try:
             return answer(200, "image/jpeg", session.picture(name))
-        except (NotAsked, OSError):
+        except (PageRequestError, OSError):
             return answer(404, "text/plain", b"no such picture\n")
 
-    def static(name: str) -> Any:
-        folder = FONTS if name in {f"{font}.woff2" for font in FILES.values()} else HERE
-        path = folder / name
-        if not path.is_file():
-            return answer(404, "text/plain", b"no such file\n")
-        return answer(200, KINDS[path.suffix], path.read_bytes())
-
+    encoded = msgspec.json.encode
+    app = new_application(HERE)
     app.route("/", "GET", lambda: answer(200, "text/html", desk_page(session)))
-    app.route("/sheets", "GET", lambda: record(session.sheets()))
+    app.route("/sheets", "GET", lambda: answer(200, JSON, encoded(session.sheets())))
     app.route("/picture/<name>.jpg", "GET", picture)
-    app.route("/<name:re:[a-zA-Z-]+\\.(css|js|woff2)>", "GET", static)
-    app.route("/decide", "POST", answering(session.decide))
-    app.route("/undo", "POST", answering(session.undo))
+    app.route("/decide", "POST", answering(lambda data: encoded(session.decide(data)), MOST_BYTES))
+    app.route("/undo", "POST", answering(lambda _: encoded(session.undo()), MOST_BYTES))
     return app

@@ -7,23 +7,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from graphkin.drawing.glyphs import FILES
-from graphkin.drawing.glyphs import FOLDER as FONTS
 from graphkin.studio.guard import FRAMED
-from graphkin.studio.page_requests import MOST_BYTES, PageRequest, PageRequestError
+from graphkin.studio.local_pages import JSON, answer, answering, new_application
+from graphkin.studio.page_requests import MOST_BYTES, PageRequest
 from graphkin.studio.session import OPENED, Session
 from graphkin.studio.studio_page import page
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import GraphkinError
 
 HERE = Path(__file__).parent / "web"
-KINDS = {
-    ".css": "text/css",
-    ".js": "text/javascript",
-    ".svg": "image/svg+xml",
-    ".woff2": "font/woff2",
-}
-JSON = "application/json"
 WORK = (
     "look",
     "build",
@@ -42,36 +34,24 @@ WORK = (
 
 def application(session: Session) -> Any:
     """The WSGI application of a desk."""
-    from bottle import Bottle
-
-    app = Bottle()
-    app.config["catchall"] = False  # a fault is told where the studio was started
+    app = new_application(HERE)
     app.route("/", "GET", lambda: start_page(session))
     app.route("/moving/<key:re:[a-zA-Z0-9_-]+>", "GET", lambda key: moving_page(session, key))
-    app.route("/scenes", "GET", lambda: record(session.listed(asked_language() or "en")))
-    app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", static)
+    app.route("/scenes", "GET", lambda: scenes(session))
     for name in WORK:
-        app.route(f"/{name}", "POST", answering(getattr(session, name)))
+        app.route(f"/{name}", "POST", answering(done_by(session, name), MOST_BYTES))
     return app
 
 
-def answering(work: Callable[[PageRequest], dict[str, Any]]) -> Callable[[], Any]:
-    """A handler that reads what is asked for and gives the answer as JSON."""
+def done_by(session: Session, name: str) -> Callable[[bytes], bytes]:
+    """What the desk does for the page under a name."""
+    work = getattr(session, name)
+    return lambda data: record(work(PageRequest(data)))
 
-    def handler() -> Any:
-        from bottle import request
 
-        if request.content_type.partition(";")[0].strip() != JSON:
-            return answer(415, "text/plain", b"JSON is expected\n")
-        if request.content_length > MOST_BYTES:
-            return answer(413, "text/plain", b"too large\n")
-        data = request.body.read(MOST_BYTES + 1)
-        try:
-            return record(work(PageRequest(data)))
-        except PageRequestError as error:
-            return answer(400, "text/plain", f"{error}: not as the page asks\n".encode())
-
-    return handler
+def scenes(session: Session) -> Any:
+    """What there is to start from."""
+    return answer(200, JSON, record(session.listed(asked_language() or "en")))
 
 
 def start_page(session: Session) -> Any:
@@ -107,24 +87,7 @@ def moving_page(session: Session, key: str) -> Any:
     return HTTPResponse(found.encode(), 200, headers)
 
 
-def static(name: str) -> Any:
-    """A file of the page, or one of the sheet's fonts."""
-    folder = FONTS if name in {f"{font}.woff2" for font in FILES.values()} else HERE
-    path = folder / name
-    if not path.is_file():
-        return answer(404, "text/plain", b"no such file\n")
-    return answer(200, KINDS[path.suffix], path.read_bytes())
-
-
-def record(found: dict[str, Any]) -> Any:
-    """An answer as JSON."""
+def record(found: dict[str, Any]) -> bytes:
+    """What is answered, as JSON."""
     text = json.dumps(found, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return answer(200, JSON, text.encode())
-
-
-def answer(status: int, kind: str, body: bytes) -> Any:
-    """An answer of some kind; texts are UTF-8."""
-    from bottle import HTTPResponse
-
-    whole = kind if kind.startswith("font") else f"{kind}; charset=utf-8"
-    return HTTPResponse(body, status, {"Content-Type": whole})
+    return text.encode()

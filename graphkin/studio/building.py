@@ -18,7 +18,7 @@ from tomlkit.items import SingleKey
 from graphkin.construction.core.branches import block_of, choosing
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import tables_of
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import FRAME
 from graphkin.scene.phrases import KEYWORDS
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
@@ -589,7 +589,7 @@ def closed(text: str, places: Places) -> str:
     branches = table_of(document, "branches")
     for name in [name for name in branches if name not in kept]:
         branches.pop(name)
-    wanted = {key: words for key, words in ways(scene, groups) if key not in kept}
+    wanted = {key: words for key, words in ways(groups) if key not in kept}
     if not wanted:
         return tomlkit.dumps(document)
     if "branches" not in document:
@@ -607,7 +607,7 @@ def closed(text: str, places: Places) -> str:
     return best
 
 
-def ways(scene: Scene, groups: tuple[Group, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
+def ways(groups: tuple[Group, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Under each name that may state a branch the words that it may say."""
     for group in groups:
         for name in choosing((group,))[:1]:

@@ -143,7 +143,7 @@ class MovingCanvas(Struct, frozen=True):
         """A thin line between two points that move."""
         self.put(lambda: self.binder.between(start, end, shown=self.seen))
 
-    def line(self) -> bool:
+    def line(self, look: str = "", name: str | None = None) -> bool:
         """The step's own line."""
         self.put(lambda: self.part(FULL))
         return True
@@ -254,10 +254,6 @@ class MovingCanvas(Struct, frozen=True):
         """The same of an auxiliary plan."""
         self.image()
 
-    def line_aside(self) -> None:
-        """The step's own line."""
-        self.line()
-
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
         """A thin line between two points that move, while they stand apart."""
         self.put(lambda: self.joining(start, end))
@@ -270,10 +266,6 @@ class MovingCanvas(Struct, frozen=True):
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
         """A thin line of a look on a line through a point, from one distance to another."""
         self.put(lambda: self.joining(at + along * low, at + along * high))
-
-    def chain(self) -> None:
-        """The step's own line."""
-        self.line()
 
     def through(self, first: Any, second: Any, third: Any) -> None:
         """The line through two points as far as a third, a little beyond them all."""
@@ -292,10 +284,6 @@ class MovingCanvas(Struct, frozen=True):
         return first + way * (low - beyond), first + way * (high + beyond)
 
     # --- centres -----------------------------------------------------------------------------
-
-    def ray(self, name: str) -> None:
-        """The step's own line."""
-        self.line()
 
     def centre(self, value: Ratio) -> bool:
         """A centre that moves, and shows where the field has room for it."""

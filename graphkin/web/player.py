@@ -41,7 +41,7 @@ from graphkin.writers.svg import number
 from graphkin.writers.templates import filled
 
 if TYPE_CHECKING:
-    from graphkin.motion.cycle import Cycle
+    pass
 
 NAMES = 2.8
 """Height of the names of vectors, in mm."""
@@ -60,7 +60,7 @@ def player_page(motion: FrameSequence, words: Words) -> str:
     sheets = screen_sheets(set_up)
     moved = moving(motion.cycle.mechanism, sheets, motion.cycle.sweep.number)
     if moved is None or moved.driven.driver is not motion.cycle.sweep.driver:
-        raise SceneError(cannot(motion.cycle))
+        raise SceneError(cannot())
     shown = list(set_up.captions)
     fixed = [list(scale_bar(field, unit, size, words)) for field, _, unit, size in shown]
     fixed[0] = [*set_up.ground, *fixed[0]]
@@ -101,7 +101,7 @@ def goes_back(moved: Moving) -> bool:
     return moved.driven.driver is not None and not moved.reach.whole
 
 
-def cannot(cycle: Cycle) -> Problem:
+def cannot() -> Problem:
     """The problem of a page that cannot show this motion."""
     found = "a page moves one driver of a scene, or all of them by the time"
     hint = "--format gif shows other motions"
@@ -269,7 +269,7 @@ def record(
         "letters": [own for s, sheet in enumerate(sheets) for own in letters(set_up, sheet, s)],
         "letter": [LETTER, GAP, ASIDE, *LEFT],
         "vectors": [[*map(placed_label, names)] for names in named],
-        "panes": [panes(set_up, sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
+        "panes": [panes(sheet, s) for s, sheet in enumerate(sheets) if sheet.right],
         "senses": worded(sheets, words),
         "notable": [*notable(motion, words, driven.metres, shift_of(motion, moved))],
     }
@@ -308,7 +308,7 @@ def worded(sheets: Sequence[ScreenSheet], words: Words) -> dict[str, Sequence[st
     return {**dict.fromkeys(sorted(rows), turns), **senses(sheets[0].drawing)}
 
 
-def panes(set_up: Stage, sheet: ScreenSheet, s: int) -> dict[str, object]:
+def panes(sheet: ScreenSheet, s: int) -> dict[str, object]:
     """The pane of a plan: its figure, its edges, the room for the plan, and its pole's circle."""
     rect, pole = sheet.layout.plan.rect, sheet.drawing.pole
     places = [k for k, m in enumerate(sheet.right) if isinstance(m, CircleMark) and m.name == pole]

@@ -21,7 +21,7 @@ from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
 from graphkin.reading import registration
-from graphkin.reading.desk_app import DeskSession, NotAsked, desk_application, desk_page
+from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
@@ -41,6 +41,7 @@ from graphkin.reading.settled_points import (
     settled_points,
 )
 from graphkin.studio.guard import Guard
+from graphkin.studio.page_requests import PageRequestError
 from graphkin.text import words
 from tests.bench.reading import lab_of
 from tests.chosen import EVERY
@@ -632,7 +633,7 @@ def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> No
     again = asking(taken)  # the page was closed, or the desk was killed
     (sheet,) = [each for each in again.sheets() if each["name"] == "hard"]
     assert {**told, "points": list(told["points"])} == {**sheet, "points": list(sheet["points"])}
-    assert again.undo(b"{}")["step"] == asked.step
+    assert again.undo()["step"] == asked.step
     points = again.told(record, again.settled.standing)["points"]
     (point,) = [each for each in points if each["step"] == asked.step]
     assert point["ask"]
@@ -654,7 +655,7 @@ def test_the_desk_writes_a_decision_at_once_and_takes_it_back(taken: Path) -> No
 def test_the_desk_refuses_what_its_page_does_not_ask(taken: Path, said: bytes) -> None:
     session = asking(taken)
     step = str(session.records["hard"].points[0].step).encode()
-    with pytest.raises(NotAsked):
+    with pytest.raises(PageRequestError):
         session.decide(said.replace(b"STEP", step))
 
 

@@ -14,9 +14,9 @@ from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.roster.csv_text import safe
-from graphkin.classroom.roster.language_names import language_in
+from graphkin.classroom.roster.language_names import HEADS, language_in
+from graphkin.classroom.roster.spreadsheets import columns, read_sheet
 from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE
-from graphkin.classroom.variants.student_languages import languages
 from graphkin.text.errors import Problem, SceneError
 
 FILES = ("scene.toml", "lab.toml")
@@ -154,3 +154,20 @@ def twins(variants: Sequence[Variant]) -> Iterator[Problem]:
             if times > 1:
                 found = f'{times} students have the {what} "{text}"'
                 yield Problem(MANIFEST, found, "one of each", AGAIN)
+
+
+def languages(folder: Path) -> dict[str, str]:
+    """What the table of a class folder says of each student's language, by id as it is written
+    there; nothing where it has no such column, or where there is no table, which is needed for
+    nothing else.
+
+    Raises RosterError where the table cannot be read.
+    """
+    if not (folder / TABLE).exists():
+        return {}
+    sheet = read_sheet(folder / TABLE)
+    where = columns(sheet, {"id": (), "language": HEADS})
+    if len(where) < 2:
+        return {}
+    rows = ((row.cells[where["id"]], row.cells[where["language"]]) for row in sheet.rows)
+    return {who: text for who, text in rows if text}

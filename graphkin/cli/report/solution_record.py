@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import isfinite
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from graphkin.construction.core.quantities import (
     CENTRES,
@@ -28,27 +28,19 @@ from graphkin.construction.core.solution import (
 from graphkin.documents.centre_tables import breadth_of, completed, place_of
 from graphkin.scene.model import Scene
 
+if TYPE_CHECKING:
+    from graphkin.drawing.scale import Scales
+
 Record = dict[str, Any]
 Wanted = Callable[[MotionQuantity, str], bool]
 """Whether a quantity of a point, link or block is to be reported."""
-
-
-class ReportedScales(Protocol):
-    """Scale factors of a sheet: kL, and kv, ka per metre of paper."""
-
-    @property
-    def kL(self) -> float: ...  # noqa: D102
-    @property
-    def kv(self) -> float: ...  # noqa: D102
-    @property
-    def ka(self) -> float: ...  # noqa: D102
 
 
 def record(
     scene: Scene,
     solution: Solution,
     verdict: Verdict | None,
-    scales: ReportedScales | None,
+    scales: Scales | None,
     *,
     asked: bool = False,
 ) -> Record:
@@ -70,7 +62,7 @@ def record(
     }
 
 
-def drawn_at(scales: ReportedScales | None, verdict: Verdict | None) -> Record:
+def drawn_at(scales: Scales | None, verdict: Verdict | None) -> Record:
     """The scale factors of the sheets, where they were looked for.
 
     Those of the plans are null where there are numbers of which no digit is sure.

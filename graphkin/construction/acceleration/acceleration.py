@@ -22,15 +22,9 @@ from graphkin.construction.velocity.image_of_link import image_of_link
 from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.velocity import driven_rate
-from graphkin.structure.groups import Crank, Driven, Dyad, Tie, other_of
+from graphkin.structure.groups import Crank, Driven, Dyad, other_of
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
-
-
-def frame(pen: Pen) -> None:
-    """All fixed points have their image in the pole o′."""
-    for point in pen.scene.frame.points:
-        pen.want("acceleration", point, pen.pole(Plane.ACCELERATIONS))
+from graphkin.structure.pairs import Joint, Leading, Pin
 
 
 def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
@@ -151,13 +145,6 @@ class Led(Struct, frozen=True):
         led_by(self.pair).second_touch(pen)
 
 
-def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
-    """A link between two known ones: on two guides it is crossed, at pins it is there."""
-    if isinstance(group.first, Sliding):
-        point = pen.bases[group.link].start
-        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
-
-
 # --- the rest of a link --------------------------------------------------------------------------
 
 
@@ -213,8 +200,3 @@ def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str,
             lines.append(line)
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
             return crossed_image(pen, *lines), corners
-
-
-def turning(pen: Pen, base: Base) -> None:
-    """Angular acceleration of a link: tangential component over length, with its sense."""
-    omega_of(pen, base.link, EPSILON)

@@ -56,7 +56,7 @@ class LineToCentre(Construction, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The line, as far as the centre."""
-        canvas.ray(self.name)
+        canvas.line("ray", self.name)
 
     def places(self, drawing: Drawing) -> Places:
         """The places through which it is drawn, those at infinity left out."""

@@ -38,8 +38,11 @@ class Canvas(Protocol):
     def segment(self, start: Any, end: Any) -> None:
         """A thin line between two points."""
 
-    def line(self) -> bool:
-        """The step's own line as far as it is needed; False where none of it is in the field."""
+    def line(self, look: str = "construction", name: str | None = None) -> bool:
+        """The step's own line as far as it is needed; False where none of it is in the field.
+
+        Thin if no look is told; it bears the step's name unless another is told.
+        """
 
     def line_beyond(self) -> None:
         """The same, where it leads farther than its own two points."""
@@ -76,25 +79,16 @@ class Canvas(Protocol):
     def image_aside(self) -> None:
         """The same point of an auxiliary plan, which is smaller."""
 
-    def line_aside(self) -> None:
-        """The step's own line in an auxiliary plan as far as it is needed."""
-
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
         """A thin line of a look between two points of a plan that stand apart."""
 
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
         """A thin line of a look on a line through a point, from one distance to another."""
 
-    def chain(self) -> None:
-        """The step's own line as far as it is needed, as a chain line."""
-
     def through(self, first: Any, second: Any, third: Any) -> None:
         """A chain line through two points that stand apart and a third, a little beyond them."""
 
     # --- centres -----------------------------------------------------------------------------
-
-    def ray(self, name: str) -> None:
-        """The step's own line as a ray to a centre, as far as it is needed."""
 
     def centre(self, value: Ratio) -> bool:
         """The circle and cross of a centre with its letter; False where it is off the field."""

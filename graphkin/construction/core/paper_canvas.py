@@ -152,9 +152,9 @@ class PaperCanvas(Struct, frozen=True):
         self.thin(self.plot.field(start), self.plot.field(end))
 
     @stroke
-    def line(self) -> bool:
-        """The step's own line as far as the layout says."""
-        return self.own("construction")
+    def line(self, look: str = "construction", name: str | None = None) -> bool:
+        """The step's own line as far as the layout says; False where none of it is in the field."""
+        return self.own(look, name)
 
     @stroke
     def line_beyond(self) -> None:
@@ -267,11 +267,6 @@ class PaperCanvas(Struct, frozen=True):
             name_point(self.plot, self.number, self.step.name, place, DOT, OWN_LINES, 2.5)
 
     @stroke
-    def line_aside(self) -> None:
-        """The step's own line in an auxiliary plan as far as the layout says."""
-        self.own(OWN_LINES)
-
-    @stroke
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
         """A thin line of a look between two points of a plan that stand apart."""
         self.joining(name, look, start, end)
@@ -287,11 +282,6 @@ class PaperCanvas(Struct, frozen=True):
         self.joining(name, look, at + along * low, at + along * high)
 
     @stroke
-    def chain(self) -> None:
-        """The step's own line as far as the layout says, as a chain line."""
-        self.own(CHAIN_LINES, "")
-
-    @stroke
     def through(self, first: Any, second: Any, third: Any) -> None:
         """A chain line through two points that stand apart and a third, a little beyond them."""
         way = second - first
@@ -304,11 +294,6 @@ class PaperCanvas(Struct, frozen=True):
             self.thin(*ends, CHAIN_LINES, "")
 
     # --- centres -----------------------------------------------------------------------------
-
-    @stroke
-    def ray(self, name: str) -> None:
-        """The step's own line as far as the layout says, in the look of rays."""
-        self.own("ray", name)
 
     @stroke
     def centre(self, value: Ratio) -> bool:

@@ -20,6 +20,7 @@ from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.perpendicular_through import perpendicular_through
+from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
@@ -110,7 +111,7 @@ class CrossedLine(Construction, frozen=True):
     def marks(self, canvas: Canvas, role: str) -> None:
         """The line, a little beyond all three points."""
         if role == "line":
-            canvas.chain()
+            canvas.line(CHAIN_LINES, "")
 
     def marks_aside(self, canvas: Canvas, role: str) -> None:
         """The same in a trial plan."""

@@ -136,7 +136,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             return
         if isinstance(drawing.trace.values[number], Carrier):
             if not self.is_idle(drawing, number):
-                canvas.line_aside()
+                canvas.line(OWN_LINES)
             return
         start = leg_start(drawing, step)
         if start is not None:

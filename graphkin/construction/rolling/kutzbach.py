@@ -25,6 +25,7 @@ from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.coincident_points import carried
 from graphkin.drawing.richtext import escape
+from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, dot
@@ -121,7 +122,7 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
     def marks(self, canvas: Canvas, role: str) -> None:
         """The axis as a chain line, with its first foot."""
         if role == "axis":
-            canvas.chain()
+            canvas.line(CHAIN_LINES, "")
         else:
             canvas.image()
 

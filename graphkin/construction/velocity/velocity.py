@@ -19,16 +19,9 @@ from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.perpendicular_through import perpendicular_through
 from graphkin.construction.velocity.translated_image import translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
-from graphkin.structure.groups import Crank, Driven, Dyad, Spun, Tie, other_of
+from graphkin.structure.groups import Crank, Driven, Dyad, Spun, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
-
-
-def frame(pen: Pen) -> None:
-    """All fixed points have their image in the pole o."""
-    for point in pen.scene.frame.points:
-        pen.want("velocity", point, pen.pole(Plane.VELOCITIES))
-
 
 # --- driven links --------------------------------------------------------------------------------
 
@@ -135,13 +128,6 @@ def ray(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, name: str, point: 
     return parallel_through(pen, start, line, pair.links[0])
 
 
-def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
-    """A link between two known ones: on two guides its image is found, at two pins it is there."""
-    if isinstance(group.first, Sliding):
-        point = pen.bases[group.link].start
-        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
-
-
 # --- the rest of a link --------------------------------------------------------------------------
 
 
@@ -187,11 +173,6 @@ def led_points(pen: Pen, base: Base) -> None:
             found = translated_image(pen, start, (base.start, point), image(point))
         pen.want("velocity", point, found)
         velocity_arrows(pen, point, None)
-
-
-def turning(pen: Pen, base: Base) -> None:
-    """Angular velocity of a link: relative velocity over length, with its sense."""
-    omega_of(pen, base.link)
 
 
 def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:

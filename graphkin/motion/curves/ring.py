@@ -28,9 +28,9 @@ def reach(found: Sampled, loop: Loop) -> Figure:
     factor = found.per_length
     if isinstance(loop.reach, Ring):
         rim = loop.reach.centre + loop.reach.outer * np.array([1, 1j, -1, -1j])
-        parts = [rim * factor, path_places(loop, stand) * factor]
+        parts = [rim * factor, path_places(loop) * factor]
     else:
-        parts = [path_places(loop, stand) * factor]
+        parts = [path_places(loop) * factor]
         half = 1j * loop.reach.line.along * loop.reach.half
         foot = foot_of(loop.reach, loop) if isinstance(loop.path, Ring) else loop.reach.line.point
         parts.append(np.array([foot + half, foot - half]) * factor)
@@ -52,7 +52,7 @@ def foot_of(band: Band, loop: Loop) -> complex:
     return complex(band.line.point + along * (way * along.conjugate()).real)
 
 
-def path_places(loop: Loop, stand: Outline) -> np.ndarray:
+def path_places(loop: Loop) -> np.ndarray:
     """The path of the driven pin (m): its circle, or a piece of its line past the reach."""
     if isinstance(loop.path, Ring):
         return np.asarray(loop.path.centre + loop.path.outer * TURNED)
@@ -113,7 +113,7 @@ def within(loop: Loop) -> str:
 
 def pin_path(ax: Axes, loop: Loop, stand: Outline, factor: float) -> None:
     """The path of the driven pin, whole where it is within reach, dashed and red elsewhere."""
-    places = path_places(loop, stand)
+    places = path_places(loop)
     good = reached(loop, places)
     what = "circle" if isinstance(loop.path, Ring) else "line"
     for flags, ink, stroke, words in (
