@@ -55,7 +55,7 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
         if number is None:
             continue
         taken.add(number)
-        point = shown_point(scene, group)
+        point = shown_point(scene, group, program)
         if isinstance(group, Dyad):
             own = program, number, group, point
             both = [dyad_closure(scene, *own, way, every, stated) for way in (1, -1)]
@@ -98,7 +98,7 @@ def picks(program: Program, number: int, *, closing: bool) -> bool:
     return len(step.extra) in (1, 2) and step.extra[0] in (1, -1)
 
 
-def shown_point(scene: Scene, group: Group) -> str:
+def shown_point(scene: Scene, group: Group, program: Program) -> str:
     """The point by which the closures of a group are told apart."""
     if isinstance(group, Dyad) and isinstance(group.inner, Pin):
         return group.inner.point
