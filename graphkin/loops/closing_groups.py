@@ -94,6 +94,14 @@ class Group(Struct, frozen=True):
             return False
         return not self.ties[0].drives and self.links[0] in self.ties[0].links[:2]
 
+    def turns_along(self, link: str) -> bool:
+        """Whether a link of it is a wheel on a known pin whose angle a track of it gives."""
+        mine = [joint for joint in (*self.inner, *self.outer) if link in joint.links]
+        pinned = [joint for joint in mine if joint.pin and joint in self.outer]
+        on_track = [joint for joint in mine if joint.slide >= 0 and not joint.turns_alike]
+        tied = any(link in tie.links for tie in self.ties)
+        return len(mine) == 2 and len(pinned) == len(on_track) == 1 and not tied
+
 
 def groups(scene: Scene, loops: Equations) -> list[Group]:
     """The groups of two links and more, in the order in which one after the other is known."""
