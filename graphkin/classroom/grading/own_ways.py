@@ -26,7 +26,7 @@ ODD = 1.25
 """A scale of one's own is at least so many times too large or too small."""
 
 
-class Way(Struct, frozen=True):
+class OwnWay(Struct, frozen=True):
     """What each answer would be, ``times`` as far off as by the key, and how often that way is
     gone, as a logarithm.
     """
@@ -49,14 +49,14 @@ class Way(Struct, frozen=True):
         )
 
 
-def rightly(keys: Keys, variant: int) -> Way:
+def rightly(keys: Keys, variant: int) -> OwnWay:
     """As the key has it."""
     import numpy as np
 
-    return Way(keys.sizes[variant], np.ones(len(keys.fields)))
+    return OwnWay(keys.sizes[variant], np.ones(len(keys.fields)))
 
 
-def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator[Way]:
+def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator[OwnWay]:
     """The values of either plan all as many times too large, by the likeliest factors, where they
     are by far.
     """
@@ -69,10 +69,10 @@ def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator
         if ratio > 0 and abs(log(ratio)) >= log(ODD):
             times[keys.plans == plan] = ratio
     if (times != 1).any():
-        yield Way(sizes * times, times, log(SHARE))
+        yield OwnWay(sizes * times, times, log(SHARE))
 
 
-def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[Way]:
+def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay]:
     """With each of some slips: what it makes larger is off by more, as what it makes smaller by
     less.
     """
@@ -86,10 +86,10 @@ def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[Way]:
             times = np.nan_to_num(sizes / keys.sizes[variant], nan=1.0, posinf=1.0)
         if slip.whole and slip.name not in UNITS_TAKEN:
             times = np.clip(times, *SPAN)
-        yield Way(sizes, np.where(keys.places, 1.0, times), log(share(slip)))
+        yield OwnWay(sizes, np.where(keys.places, 1.0, times), log(share(slip)))
 
 
-def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[Way]:
+def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[OwnWay]:
     """What follows from own earlier values as it was told, whatever these are."""
     import numpy as np
 
@@ -99,4 +99,4 @@ def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> I
     follows &= ~np.isnan(answers)
     if follows.any():
         sizes = np.where(follows, answers, keys.sizes[variant])
-        yield Way(sizes, np.ones(len(keys.fields)))
+        yield OwnWay(sizes, np.ones(len(keys.fields)))

@@ -27,7 +27,7 @@ from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
 from graphkin.classroom.grading.likelihood import PENCILS, Key, fit, told_odds
 from graphkin.classroom.grading.own_ways import (
-    Way,
+    OwnWay,
     by_own_scales,
     by_slips,
     from_own_values,
@@ -70,7 +70,7 @@ class AnswerSheet(Struct, frozen=True):
     least: Any
     wrong: Any
     variant: int
-    ways: tuple[Way, ...]
+    ways: tuple[OwnWay, ...]
 
     @property
     def rounding(self) -> Any:
@@ -287,7 +287,7 @@ def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, res
 
 
 def likelihood(
-    each: AnswerSheet, keys: Keys, variant: int, way: Way, read: Any, exactly: bool = False
+    each: AnswerSheet, keys: Keys, variant: int, way: OwnWay, read: Any, exactly: bool = False
 ) -> float:
     """How likely some of a student's answers are, or ``exactly`` their digits, by a way that is
     gone with the data of a variant, as a logarithm: drawn by hand, or computed.
