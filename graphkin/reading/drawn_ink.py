@@ -191,7 +191,9 @@ class DrawnInk(Struct, frozen=True):
         along = np.arange(-reach - RUN, reach + RUN + PITCH, PITCH)
         dark, _ = self.at(place + way * (along[:, None] + 1j * np.concatenate([-ASIDE, ASIDE])))
         sides = np.stack([dark[:, : len(ASIDE)].mean(axis=1), dark[:, len(ASIDE) :].mean(axis=1)])
-        drawn = sides.min(axis=0) - np.median(sides, axis=1).min() > COVERED
+        print_of = np.median(sides, axis=1)
+        print_of = np.minimum(print_of, print_of.min() + COVERED)  # a vector may lie on one side
+        drawn = (sides - print_of[:, None]).min(axis=0) > COVERED
         edges = np.flatnonzero(np.diff(np.concatenate([[0], drawn.astype(int), [0]])))
         found = []
         for first, last in edges.reshape(-1, 2):

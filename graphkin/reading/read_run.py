@@ -30,7 +30,7 @@ from graphkin.writers.lock import locked
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 4
+METHOD = 5
 """Raised when the same photograph would be read otherwise: readings of before are made anew."""
 FEWEST = 3
 """Photographs from which a worker process pays for itself."""
@@ -143,6 +143,12 @@ def said(opened: ClassFolder, outcome: ReadOutcome) -> Iterator[str]:
         found = f"{len(record.points)} points, {asked or 'none'} to be looked at"
         yield f"{record.name}: {safe(who.id)} {who.name}, {record.kind}: {found}"
     read = [record for record in outcome.records if record.refused is None]
+    shown = dict[tuple[str, str], list[str]]()
+    for record in read:
+        shown.setdefault((record.code, record.kind), []).append(record.name)
+    for several in (each for each in shown.values() if len(each) > 1):
+        counts = "the one on which you decide counts, else that with the fewest questions"
+        yield f"{', '.join(several)}: the same sheet; {counts}"
     asked = sum(point.ask for record in read for point in record.points)
     yield ""
     stood = f", {outcome.stood} stood already" if outcome.stood else ""

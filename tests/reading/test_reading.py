@@ -20,7 +20,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
-from graphkin.reading import registration
+from graphkin.reading import read_run, registration
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
@@ -32,7 +32,7 @@ from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import PointSearch
-from graphkin.reading.read_run import read_order
+from graphkin.reading.read_run import ReadOutcome, read_order
 from graphkin.reading.read_sheet import Grid, SheetRecord
 from graphkin.reading.settled_points import (
     SETTLED,
@@ -271,6 +271,17 @@ def test_another_class_and_a_cut_sheet_are_refused(
     assert "of no student of this class" in found.output
 
 
+def test_photographs_of_one_sheet_are_named_together(a_class: Path, taken: Path) -> None:
+    (record,) = (each for each in records_in(taken / "read") if each.name == "plain")
+    again = msgspec.structs.replace(record, name="plain again")
+    found = list(read_run.said(open_class(a_class), ReadOutcome([record, again], 0)))
+    assert [line for line in found if line.startswith("plain, plain again: the same sheet")]
+    assert not any(
+        "same sheet" in each
+        for each in read_run.said(open_class(a_class), ReadOutcome([record], 0))
+    )
+
+
 def test_a_scan_is_read_from_a_pdf(a_class: Path, code: str, tmp_path: Path) -> None:
     drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
     scan = Image.fromarray(cv2.resize(drawing.image, None, fx=0.8, fy=0.8))
@@ -287,11 +298,38 @@ def test_a_scan_is_read_from_a_pdf(a_class: Path, code: str, tmp_path: Path) -> 
     assert np.hypot(d.at[0] - true.at[0], d.at[1] - true.at[1]) < 0.5
 
 
-def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(tmp_path: Path) -> None:
-    (tmp_path / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
-    lab = lab_of(Path("examples/scenes/gears-rack.toml"), tmp_path)
-    folder = tmp_path / "class"
-    call("variants", lab, tmp_path / "class.csv", "-o", folder)
+@pytest.fixture(scope="module")
+def rack(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A class whose lab is a rack and its pinion."""
+    folder = tmp_path_factory.mktemp("rack")
+    (folder / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
+    lab = lab_of(Path("examples/scenes/gears-rack.toml"), folder)
+    call("variants", lab, folder / "class.csv", "-o", folder / "class")
+    return folder / "class"
+
+
+def test_what_leads_to_points_of_a_rack(rack: Path) -> None:
+    """Both points lie on the printed guide, by whatever way a hand finds them; the tip of the
+    velocity of contact needs its vector, and no side of a similar triangle.
+    """
+    (code,) = read_order(open_class(rack), Grid()).variants
+    sheets = sheets_of(rack, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    sheet = LetteredSheet(drawing, page)
+    by_name = {sheet.exact.program.steps[n].name: n for n in sheet.points}
+    names = {n: name for name, n in by_name.items()}
+    for name in ("B", "T"):
+        assert any(each.given for each in sheet.leading[by_name[name]]), name
+    assert not any(each.given for each in sheet.leading[by_name["A"]])
+    sides = {names.get(each.far, "o"): each.light for each in sheet.leading[by_name["t"]]}
+    assert sides == {"o": False, "a": True}
+
+
+def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(
+    rack: Path, tmp_path: Path
+) -> None:
+    folder = rack
     (code,) = read_order(open_class(folder), Grid()).variants
     for kind in ("velocity", "acceleration"):
         taken = scan(printed(folder, code, kind), 150, 0.0, 1)
@@ -415,6 +453,17 @@ def test_a_point_is_seen_by_its_mark_on_a_line(mark: str) -> None:
     assert through.spot(places, 1 + 0j) is None
 
 
+def test_a_mark_over_a_printed_line_is_seen_on_both_its_sides() -> None:
+    dashes = [(x + 100j, x + 5 + 100j) for x in (200, 207, 214, 221, 228, 235, 242, 249)]
+    along = ink_of(*dashes, *MARKS["dot"]).on_print(228 + 100j, 1 + 0j, 4.0)
+    assert along == pytest.approx(2, abs=0.3)
+    across = ink_of(*dashes, (230 + 98.8j, 230 + 101.2j)).on_print(228 + 100j, 1 + 0j, 4.0)
+    assert across == pytest.approx(2, abs=0.3)
+    beside = ink_of(*dashes, (230 + 98.8j, 230 + 99.7j)).on_print(228 + 100j, 1 + 0j, 4.0)
+    assert beside is None
+    assert ink_of(*dashes).on_print(228 + 100j, 1 + 0j, 4.0) is None
+
+
 def test_a_line_that_ends_before_a_place_does_not_arrive_there() -> None:
     ink = ink_of((200 + 100j, 260 + 100j))
     assert ink.cover(200 + 100j, 260 + 100j, arrives=True) == pytest.approx(1)
@@ -428,9 +477,12 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     sheets = sheets_of(a_class, code)
     drawing = next(each for each in sheets.drawings if each.kind == "velocity")
     page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
-    reader = PointReader(LetteredSheet(drawing, page), ink_of(), Pencil(0.4, 0.4))
+    sheet = LetteredSheet(drawing, page)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
+    o = complex(sheet.place(pole, values[pole]))
+    reader = PointReader(sheet, ink_of((o, 300 + 100j)), Pencil(0.4, 0.4))
     reader.next = reader.ahead({})
-    number = next(n for n in reader.sheet.points if reader.sheet.exact.program.steps[n].name == "a")
     read = LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0)
     own = ExpectedPlace(300.2 + 100j, np.eye(2) * 0.2)
     for off, asked in ((1.0, False), (3.2, True)):
