@@ -224,7 +224,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return self.readied((*(one.misfit for one in self.unknowns), *drawn))
 
     @cached_property
-    def stages(self) -> tuple[Stage, ...]:
+    def stages(self) -> tuple[GridStage, ...]:
         """What each further unknown lets one look at, from the outermost inwards."""
         steps = [one.tried for one in self.unknowns]
 
@@ -234,7 +234,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             return max((k for k, tried in enumerate(steps, 1) if tried in behind), default=1)
 
         reaches = [(each[1], each[2]) for each in self.choices if each is not None]
-        found, known = list[Stage](), set[int]()
+        found, known = list[GridStage](), set[int]()
         for count in range(1, len(steps) + 1):
             misfits = [k for k, one in enumerate(self.unknowns) if least(one.misfit) == count]
             within = [each for each in reaches if max(map(least, each[1])) == count]
@@ -246,7 +246,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             last = count == len(steps)
             new = [k for k, n in enumerate(self.signs) if (last or n in needed) and k not in known]
             known |= {*new}
-            found.append(Stage(self.readied(keep), tuple(misfits), tuple(within), tuple(new)))
+            found.append(GridStage(self.readied(keep), tuple(misfits), tuple(within), tuple(new)))
         return tuple(found)
 
     @cached_property
@@ -284,7 +284,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return Cells(row, place), ranges
 
     def extended(
-        self, stage: Stage, known: Sequence[Any], scale: Array, row: Array, place: Array
+        self, stage: GridStage, known: Sequence[Any], scale: Array, row: Array, place: Array
     ) -> Corners:
         """Cells (C, k) with each step along one more unknown, and each set of signs that it asks:
         what is found at their corners.
@@ -329,7 +329,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return Corners(row, place, codes, which.reshape(len(row), -1), shape, misfits, reaches)
 
 
-class Stage(NamedTuple):
+class GridStage(NamedTuple):
     """What one further unknown lets one look at: the program for it, the unknowns whose misfits
     it tells, how far dyads reach, and the signs on which these depend."""
 
