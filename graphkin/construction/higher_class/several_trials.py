@@ -310,10 +310,11 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         for k, number in enumerate(self.signs):
             bit = 1 << (len(self.signs) - 1 - k)
             if k in stage.signs:
-                bits = (new >> (len(stage.signs) - 1 - stage.signs.index(k)) & 1)[:, None]
+                place_of_bit = len(stage.signs) - 1 - stage.signs.index(k)
+                negative = ((new >> place_of_bit & 1) > 0)[:, None]
             else:
-                bits = ((own & bit) > 0)[:, None, None]
-            overrides[number] = np.where(bits, -1.0, 1.0)
+                negative = ((own & bit) > 0)[:, None, None]
+            overrides[number] = np.where(negative, -1.0, 1.0)
         codes = sum(
             (new >> (len(stage.signs) - 1 - n) & 1) << (len(self.signs) - 1 - k)
             for n, k in enumerate(stage.signs)
@@ -326,7 +327,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             misfits, reaches = (
                 [np.broadcast_to(each, shape) for each in some] for some in (misfits, reaches)
             )
-        return Corners(row, place, codes, which.reshape(len(row), -1), shape, misfits, reaches)
+        return Corners(row, place, codes, which.reshape(len(row), 2**size), shape, misfits, reaches)
 
 
 class GridStage(NamedTuple):
@@ -362,6 +363,8 @@ class Corners(NamedTuple):
 
         return [
             (np.fmin.reduce(each, axis=None), np.fmax.reduce(each, axis=None))
+            if each.size
+            else (np.nan, np.nan)
             for each in self.misfits
         ]
 
@@ -464,7 +467,11 @@ class DrawnChain:
         misfits = [found[one.misfit] for one in self.trying.unknowns]
         with np.errstate(all="ignore"):
             reaches = [far(*(found[arg] for arg in args)) for _, far, args in choices]
-        return tuple([np.broadcast_to(e, len(row)) for e in some] for some in (misfits, reaches))
+        count = len(row)
+        return (
+            [np.broadcast_to(each, count) for each in misfits],
+            [np.broadcast_to(each, count) for each in reaches],
+        )
 
 
 def narrowed(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> tuple[Cells, Array]:
@@ -528,11 +535,11 @@ def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
         some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
-        ends = (
+        misfits, reaches = (
             [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
             for every in (value, reach)
         )
-        keep = may_vanish(*ends, some, whole, ranges[cells.row], half)
+        keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
     return joined(parts)
 
