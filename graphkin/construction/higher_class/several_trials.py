@@ -148,7 +148,8 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         import numpy as np
 
         size = len(known[0]) if known else 1
-        table = np.array(sign_table(len(self.signs)), dtype=float).reshape(-1, len(self.signs))
+        rows = sign_table(len(self.signs))
+        table = np.array(rows, dtype=float).reshape(len(rows), len(self.signs))
         owner = np.repeat(np.arange(size), len(table))
         signs = np.tile(table, (size, 1))
         scales = self.scales(known, size)
