@@ -107,7 +107,10 @@ def rods_of(path: Path) -> Rods:
     (bar, length), *_ = crank.items()
     pivot, tip = bar.split("-")
     (driver,) = scene["drivers"]
-    fixed[tip] = fixed[pivot] + cmath.rect(length, math.radians(driver["angle"]))
+    angle = driver["angle"]
+    if isinstance(angle, str):
+        angle = scene["parameters"][angle]["value"]
+    fixed[tip] = fixed[pivot] + cmath.rect(length, math.radians(angle))
     lengths = {(a, b): float(x) for link in links for a, b, x in bars(link)}
     sides = []
     for link in links:

@@ -8,6 +8,7 @@ from tests.chosen import EVERY
 SEEN = {
     78: "two closures less than a degree apart, between a chain's dead points",
     112: "two pins so close together that rounding turns a link",
+    119: "two links tried at once, with no dyad that closes in two ways",
     122: "a block that keeps a wheel seems to hold the wheel's track, too, where nothing is closed",
     251: "a link that turns far more quickly than the driver: a trial must not be too small",
     302: "a small wheel on a long track, in the 43rd of 44 closures",

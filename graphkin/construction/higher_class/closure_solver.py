@@ -107,7 +107,7 @@ class Trying(Trial, frozen=True, dict=True):
 
     def together(self, known: Sequence[Any], size: int) -> int:
         """How many elements are closed at once."""
-        return max(1, MOST // (self.shares(known, size).shape[1] * 2 ** len(self.signs)))
+        return max(1, MOST // int(self.shares(known, size).shape[1] * 2 ** len(self.signs)))
 
     def parts(self, table: Any) -> tuple[Any, ...]:
         """Trial values, signs and sines of rows: element, trial values, signs, sine."""

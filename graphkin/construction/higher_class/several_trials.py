@@ -148,7 +148,8 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         import numpy as np
 
         size = len(known[0]) if known else 1
-        table = np.array(sign_table(len(self.signs)), dtype=float).reshape(-1, len(self.signs))
+        rows = sign_table(len(self.signs))
+        table = np.array(rows, dtype=float).reshape(len(rows), len(self.signs))
         owner = np.repeat(np.arange(size), len(table))
         signs = np.tile(table, (size, 1))
         scales = self.scales(known, size)
@@ -224,7 +225,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return self.readied((*(one.misfit for one in self.unknowns), *drawn))
 
     @cached_property
-    def stages(self) -> tuple[Stage, ...]:
+    def stages(self) -> tuple[GridStage, ...]:
         """What each further unknown lets one look at, from the outermost inwards."""
         steps = [one.tried for one in self.unknowns]
 
@@ -234,7 +235,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             return max((k for k, tried in enumerate(steps, 1) if tried in behind), default=1)
 
         reaches = [(each[1], each[2]) for each in self.choices if each is not None]
-        found, known = list[Stage](), set[int]()
+        found, known = list[GridStage](), set[int]()
         for count in range(1, len(steps) + 1):
             misfits = [k for k, one in enumerate(self.unknowns) if least(one.misfit) == count]
             within = [each for each in reaches if max(map(least, each[1])) == count]
@@ -246,7 +247,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             last = count == len(steps)
             new = [k for k, n in enumerate(self.signs) if (last or n in needed) and k not in known]
             known |= {*new}
-            found.append(Stage(self.readied(keep), tuple(misfits), tuple(within), tuple(new)))
+            found.append(GridStage(self.readied(keep), tuple(misfits), tuple(within), tuple(new)))
         return tuple(found)
 
     @cached_property
@@ -284,7 +285,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         return Cells(row, place), ranges
 
     def extended(
-        self, stage: Stage, known: Sequence[Any], scale: Array, row: Array, place: Array
+        self, stage: GridStage, known: Sequence[Any], scale: Array, row: Array, place: Array
     ) -> Corners:
         """Cells (C, k) with each step along one more unknown, and each set of signs that it asks:
         what is found at their corners.
@@ -310,10 +311,11 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         for k, number in enumerate(self.signs):
             bit = 1 << (len(self.signs) - 1 - k)
             if k in stage.signs:
-                bits = (new >> (len(stage.signs) - 1 - stage.signs.index(k)) & 1)[:, None]
+                place_of_bit = len(stage.signs) - 1 - stage.signs.index(k)
+                negative = ((new >> place_of_bit & 1) > 0)[:, None]
             else:
-                bits = ((own & bit) > 0)[:, None, None]
-            overrides[number] = np.where(bits, -1.0, 1.0)
+                negative = ((own & bit) > 0)[:, None, None]
+            overrides[number] = np.where(negative, -1.0, 1.0)
         codes = sum(
             (new >> (len(stage.signs) - 1 - n) & 1) << (len(self.signs) - 1 - k)
             for n, k in enumerate(stage.signs)
@@ -326,10 +328,10 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             misfits, reaches = (
                 [np.broadcast_to(each, shape) for each in some] for some in (misfits, reaches)
             )
-        return Corners(row, place, codes, which.reshape(len(row), -1), shape, misfits, reaches)
+        return Corners(row, place, codes, which.reshape(len(row), 2**size), shape, misfits, reaches)
 
 
-class Stage(NamedTuple):
+class GridStage(NamedTuple):
     """What one further unknown lets one look at: the program for it, the unknowns whose misfits
     it tells, how far dyads reach, and the signs on which these depend."""
 
@@ -362,6 +364,8 @@ class Corners(NamedTuple):
 
         return [
             (np.fmin.reduce(each, axis=None), np.fmax.reduce(each, axis=None))
+            if each.size
+            else (np.nan, np.nan)
             for each in self.misfits
         ]
 
@@ -464,7 +468,11 @@ class DrawnChain:
         misfits = [found[one.misfit] for one in self.trying.unknowns]
         with np.errstate(all="ignore"):
             reaches = [far(*(found[arg] for arg in args)) for _, far, args in choices]
-        return tuple([np.broadcast_to(e, len(row)) for e in some] for some in (misfits, reaches))
+        count = len(row)
+        return (
+            [np.broadcast_to(each, count) for each in misfits],
+            [np.broadcast_to(each, count) for each in reaches],
+        )
 
 
 def narrowed(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> tuple[Cells, Array]:
@@ -528,11 +536,11 @@ def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
         some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
-        ends = (
+        misfits, reaches = (
             [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
             for every in (value, reach)
         )
-        keep = may_vanish(*ends, some, whole, ranges[cells.row], half)
+        keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
     return joined(parts)
 
