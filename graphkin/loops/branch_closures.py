@@ -137,7 +137,8 @@ def in_order(part: Equations, group: Group, every: Reals) -> list[int]:
     def follows(link: str) -> bool:
         own = {*part.bodies[link]}
         others = {p for each in links if each != link for p in part.bodies[each]}
-        return bool(part.scene.link(link).rolls and own & before and not own & others)
+        rolls = link in part.scene.links and part.scene.links[link].rolls
+        return bool(rolls and own & before and not own & others)
 
     links.sort(key=follows)
     angles = [[angle_of(part, link, row) for link in links] for row in every]
