@@ -152,13 +152,13 @@ def coordinate_on_plate(path: Line, plate: Line, prime: Real, lift: Real) -> Rea
     return level_on_path(path, plate, prime) + lift
 
 
-@action("cam-seen")
+@action("cam-lift")
 def seen_from(axis: Point, carrier: Point) -> Point:
     """The axis of a cam as the link sees it that carries its follower."""
     return axis * carrier.conjugate()
 
 
-@action("cam-seen")
+@action("cam-lift")
 def seen_at_rest(carrier: Point) -> Point:
     """The same of a cam at rest."""
     return carrier.conjugate()
