@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.motion.cycle import cycle
+from graphkin.motion.cycle import columns_at, cycle
 from tests.motion.linkages import four_bar
 
 
@@ -56,7 +56,8 @@ def test_a_kite_goes_through_the_place_where_its_crank_lies_on_the_frame():
     assert change.lines == "A on O2"
     b = found.along(np.linspace(-5, 5, 400)).solution.points["B"].position
     assert np.abs(np.diff(b)).max() < 0.01
-    omega = found.along([-1e-3, 1e-3], geometric=True).solution.links["3"].omega
+    at, rate = np.array([-1e-3, 1e-3]), ("omega", "3")
+    omega = columns_at(found.sweep, found.path, at, [rate], geometric=True).columns[rate]
     assert omega[0] == pytest.approx(omega[1], rel=1e-4)
 
 
