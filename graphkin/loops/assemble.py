@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.loops.branch_closures import closures, in_order, scattered, turned_side
+from graphkin.loops.branch_closures import closures, scattered, turned_side
 from graphkin.loops.cam_laws import by_law
 from graphkin.loops.closing_groups import Group, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, undriven
@@ -178,8 +178,7 @@ def stated(
     if not speaks_of(name, branch, group, loops):
         return everything
     if isinstance(branch, Closure):
-        order = in_order(part, group, found, name)
-        return np.isin(np.arange(len(found)), order[branch.number - 1 : branch.number])
+        return np.asarray(np.arange(1, len(found) + 1) == branch.number)
     j = led_by(name, group, loops, part)
     if j is None:
         return everything

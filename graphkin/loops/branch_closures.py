@@ -70,18 +70,17 @@ def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
 
 
 def closure_numbers(
-    scene: Scene, loops: Equations, group: Group, row: Reals, setting: int, named: str
+    scene: Scene, loops: Equations, group: Group, row: Reals, setting: int
 ) -> range:
     """Which closure of a group the unknowns ``row`` (K + m,) of a setting may be; empty if none.
 
     One number, 1, 2, …, unless rounding hides whether others, before it, are one closure, two or
-    none. The branch is that of the link ``named``, whose angle counts first. The links known before
-    are held in place, and those that come after left out.
+    none. The links known before are held in place, and those that come after left out.
     """
     values = setting_of(loops, setting)
     part = equations(scene, values, group.known | set(group.links))
     stands = unknowns_of(part, pose_of(loops, row, setting))
-    every = closures(part, stands, group, named)
+    every = closures(part, stands, group)
     if not len(every):
         return range(0)
     away = np.abs(wrapped(part, every - stands)).max(axis=1)
@@ -95,13 +94,13 @@ def closure_numbers(
     return range(nearest + 1 - hidden, nearest + 2 + hidden)
 
 
-def closures(part: Equations, stands: Reals, group: Group, named: str = "") -> Reals:
+def closures(part: Equations, stands: Reals, group: Group) -> Reals:
     """All ways in which a group closes, one scene: (closures, K + m), in order.
 
     They are looked for by Newton's method from many starts with all but the group held as it
     ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
-    link, or of the one ``named``, ties by the next. Where wheels count turns, an angle that only
-    pins tell is counted within half a turn of its start.
+    link, ties by the next, wheels that only follow last. Where wheels count turns, an angle that
+    only pins tell is counted within half a turn of its start.
     """
     moving = moved_by(part, group)
     size, turned = len(group.links), turns_of_wheels(part, moving)
@@ -124,14 +123,16 @@ def closures(part: Equations, stands: Reals, group: Group, named: str = "") -> R
         if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
             break
     every = np.array(distinct).reshape(-1, part.unknown_count)
-    return np.asarray(every[in_order(part, group, every, named)])
+    return np.asarray(every[in_order(part, group, every)])
 
 
-def in_order(part: Equations, group: Group, every: Reals, named: str) -> list[int]:
-    """The order of a group's closures by the angle of the link ``named``, ties by the next ones."""
+def in_order(part: Equations, group: Group, every: Reals) -> list[int]:
+    """The order of a group's closures by the angles of its links as written.
+
+    A wheel on a known pin that one link of the group turns closes nothing: it comes last.
+    """
     links = [link for link in part.links if link in group.links]
-    begin = links.index(named) if named in links else 0
-    links = links[begin:] + links[:begin]
+    links.sort(key=group.only_follows)
     angles = [[angle_of(part, link, row) for link in links] for row in every]
     return sorted(range(len(every)), key=angles.__getitem__)
 

@@ -87,6 +87,13 @@ class Group(Struct, frozen=True):
             and bool(self.outer[0].pin or self.outer[0].turns_alike)
         )
 
+    def only_follows(self, link: str) -> bool:
+        """Whether a link is a wheel on a known pin that one other link of the group turns."""
+        mine = [j for j in (*self.inner, *self.outer, *self.ties) if link in j.links]
+        pins = [joint for joint in mine if joint.pin]
+        turned = not any(joint.turns_alike or joint.drives for joint in mine)
+        return turned and len(mine) == 2 and len(pins) == 1 and pins[0] in self.outer
+
     @property
     def is_geared(self) -> bool:
         """One wheel that turns about a known pin, as one other wheel or belt leads its rim."""

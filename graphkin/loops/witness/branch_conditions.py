@@ -80,7 +80,7 @@ def picked_rows(
     for n in settings[np.unique(spread.astype(int))]:
         if isinstance(branch, Closure):
             row = solved.unknowns[n]
-            numbers = closure_numbers(scene, solved.loops, group, row, int(n), name)
+            numbers = closure_numbers(scene, solved.loops, group, row, int(n))
             holds[n] = branch.number in numbers
         else:
             holds[n] = farthest(scene, branch, solved, group, name, int(n))
