@@ -56,7 +56,7 @@ def test_a_kite_goes_through_the_place_where_its_crank_lies_on_the_frame():
     assert change.lines == "A on O2"
     b = found.along(np.linspace(-5, 5, 400)).solution.points["B"].position
     assert np.abs(np.diff(b)).max() < 0.01
-    omega = found.along([-1e-3, 1e-3], geometric=True).solution.links["3"].omega
+    omega = found.along([-1e-3, 1e-3]).solution.links["3"].omega
     assert omega[0] == pytest.approx(omega[1], rel=1e-4)
 
 
