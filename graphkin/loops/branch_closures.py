@@ -99,8 +99,8 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
 
     They are looked for by Newton's method from many starts with all but the group held as it
     ``stands`` (1, K + m), and ordered by the angle, from 0 to 360°, of the group's first-written
-    link, ties by the next; wheels on known pins that a track turns come last. Where wheels count
-    turns, an angle that only pins tell is counted within half a turn of its start.
+    link, ties by the next, wheels that only follow last. Where wheels count turns, an angle that
+    only pins tell is counted within half a turn of its start.
     """
     moving = moved_by(part, group)
     size, turned = len(group.links), turns_of_wheels(part, moving)
@@ -123,7 +123,7 @@ def closures(part: Equations, stands: Reals, group: Group) -> Reals:
         if idle == ENOUGH or (number + 1 >= ENOUGH and not distinct):
             break
     links = [link for link in part.links if link in group.links]
-    links.sort(key=group.turns_along)
+    links.sort(key=group.only_follows)
     distinct.sort(key=lambda row: [angle_of(part, link, row) for link in links])
     return np.array(distinct).reshape(-1, part.unknown_count)
 

@@ -87,20 +87,19 @@ class Group(Struct, frozen=True):
             and bool(self.outer[0].pin or self.outer[0].turns_alike)
         )
 
+    def only_follows(self, link: str) -> bool:
+        """Whether a link is a wheel on a known pin that one other link of the group turns."""
+        mine = [j for j in (*self.inner, *self.outer, *self.ties) if link in j.links]
+        pins = [joint for joint in mine if joint.pin]
+        turned = not any(joint.turns_alike or joint.drives for joint in mine)
+        return turned and len(mine) == 2 and len(pins) == 1 and pins[0] in self.outer
+
     @property
     def is_geared(self) -> bool:
         """One wheel that turns about a known pin, as one other wheel or belt leads its rim."""
         if not (len(self.links) == len(self.outer) == len(self.ties) == 1 and self.outer[0].pin):
             return False
         return not self.ties[0].drives and self.links[0] in self.ties[0].links[:2]
-
-    def turns_along(self, link: str) -> bool:
-        """Whether a link of it is a wheel on a known pin whose angle a track of it gives."""
-        mine = [joint for joint in (*self.inner, *self.outer) if link in joint.links]
-        pinned = [joint for joint in mine if joint.pin and joint in self.outer]
-        on_track = [joint for joint in mine if joint.slide >= 0 and not joint.turns_alike]
-        tied = any(link in tie.links for tie in self.ties)
-        return len(mine) == 2 and len(pinned) == len(on_track) == 1 and not tied
 
 
 def groups(scene: Scene, loops: Equations) -> list[Group]:

@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 
 STEPS = 720
 """Positions of a turn from which a curve is drawn."""
+MOST_STEPS = 4320
+"""Positions of all the turns together after which wheels stand as before."""
+ALIKE = 1e-9
+"""Distance of two points of a curve, in parts of its size, below which they are one."""
 NEAR = 0.35
 """How far on both sides of its fit a locus is drawn, in parts of the mechanism."""
 AWAY = 20.0
@@ -21,7 +25,10 @@ AWAY = 20.0
 
 
 def curves_of(mechanism: Mechanism) -> tuple[Curve, ...]:
-    """The centrodes and paths that are asked, over a turn or the whole range of the driver."""
+    """The centrodes and paths that are asked, over a turn or the whole range of the driver.
+
+    Where wheels stand otherwise after a turn it is as many turns as bring them back.
+    """
     ask = mechanism.scene.ask
     if not ask.centrodes and not ask.curves:
         return loci_of(mechanism)
@@ -104,12 +111,31 @@ def followed(whole: Cycle) -> Cycle:
     Near a dead point a mechanism goes a long way while its driver hardly moves.
     """
     if whole.path.whole:
-        return whole
+        return whole if whole.path.returns else come_back(whole)
     import numpy as np
 
     low, high = whole.ranges[0]
     turns = np.linspace(0, np.pi, STEPS + 1)[1:-1]
     return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(turns))
+
+
+def come_back(whole: Cycle) -> Cycle:
+    """The turns after which all stands as before; the one turn where that takes too many."""
+    import numpy as np
+
+    from graphkin.motion.cycle import filled
+    from graphkin.motion.driving import TURN
+    from graphkin.motion.period import until_return
+    from graphkin.motion.pieces import Path
+
+    way = until_return(whole.path)
+    if way is None:
+        return whole
+    low, high = way[0].low.at, way[-1].high.at
+    turns = round((high - low) / TURN)
+    rows = turns * min(STEPS, MOST_STEPS // turns)
+    at = np.linspace(low, high, rows, endpoint=False)
+    return filled(whole.mechanism, whole.sweep, Path((way,), True, True), at, whole.targets)
 
 
 def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:
@@ -136,9 +162,22 @@ def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
     breadth = max(float(np.ptp(part)) for p in ends for part in (np.real(p), np.imag(p))) or 1.0
     middle = np.mean([np.mean(p) for p in ends])
     closes = whole.path.whole and whole.path.returns
-    points = np.append(path, path[:1]) if closes else np.asarray(path)
+    points = np.append(once(path), path[:1]) if closes else np.asarray(path)
     near = np.abs(points - middle) <= AWAY * breadth
     runs = np.split(np.arange(len(points)), np.flatnonzero(np.diff(near)) + 1)
     return tuple(
         tuple(complex(points[i]) for i in run) for run in runs if len(run) > 1 and near[run[0]]
     )
+
+
+def once(path: Any) -> Any:
+    """A closed curve drawn once, though the motion may go round it several times."""
+    import numpy as np
+
+    size = float(np.abs(path - np.mean(path)).max())
+    for count in range(len(path) // 3, 1, -1):
+        if len(path) % count == 0:
+            part = len(path) // count
+            if np.abs(path - np.roll(path, part)).max() <= ALIKE * size:
+                return path[:part]
+    return path

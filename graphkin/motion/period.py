@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import BACK, Path, marched, misses, turns_back
+from graphkin.motion.pieces import BACK, Path, Range, marched, misses, turns_back
 
 
 def strangers(path: Path) -> tuple[str, ...]:
@@ -15,12 +15,18 @@ def strangers(path: Path) -> tuple[str, ...]:
 
 
 def turns_to_return(path: Path) -> int | None:
-    """How many whole turns of the driver bring every link back; None where no few do.
+    """How many whole turns of the driver bring every link back; None where no few do."""
+    if path.returns:
+        return 1
+    longer = until_return(path)
+    return round((longer[-1].high.at - longer[0].low.at) / TURN) if longer else None
+
+
+def until_return(path: Path) -> Range | None:
+    """The motion from the start of a path on until every link is back; None where no few turns do.
 
     The wheels' angles after one turn say how many it may be; the motion is followed so far.
     """
-    if path.returns:
-        return 1
     pieces = path.ranges[0]
     first, start = pieces[0].course, pieces[0].low.at
     count = turns_back(pieces, start)
@@ -30,4 +36,4 @@ def turns_to_return(path: Path) -> int | None:
     if way[-1].high.kind != "window":
         return None
     missed = misses(way, start, start + count * TURN)
-    return count if max(missed.values()) <= BACK else None
+    return way if max(missed.values()) <= BACK else None

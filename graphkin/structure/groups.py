@@ -221,13 +221,17 @@ class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
 
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones.
+    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
+    ``spun`` the first driver that turns one of its links against a known one, about a pin that
+    moves, where wheels roll; ``led`` are drivers, as written, that reach one of them.
     """
 
     links: tuple[str, ...]
     driven: tuple[Driver, ...] = ()
     tracks: tuple[str, ...] = ()
     wedged: tuple[str, ...] = ()
+    spun: Driver | None = None
+    led: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:

@@ -13,6 +13,7 @@ from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
+from graphkin.motion.motion_curves import curves_of
 from graphkin.motion.period import strangers, turns_to_return
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.turn_counting import counted_near
@@ -155,6 +156,47 @@ def test_a_mechanism_comes_back_after_as_many_turns_as_its_wheels_need(name, lin
     assert path.returns is (turns == 1)
     assert strangers(path) == links
     assert turns_to_return(path) == turns
+
+
+WANKEL = """
+graphkin = 1
+title = "Wankel"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+wheel = { centre = "O", radius = PINION }
+[links.1]
+O-C = 15
+[links.2]
+C-P = 100
+wheel = { centre = "C", radius = RING, inside = true }
+rolls = { on = 0, start = { 1 = 90, 2 = 90 } }
+[[drivers]]
+turn = 1
+angle = 40
+speed = 30
+[ask]
+curves = ["P"]
+centrodes = [2]
+"""
+"""A rotor's ring round a pinion of the housing, on an eccentric (Wankel)."""
+
+
+@pytest.mark.parametrize(("pinion", "ring", "turns"), [(30, 45, 3), (60, 75, 5)])
+def test_the_path_of_a_rotor_goes_on_until_it_closes(pinion, ring, turns):
+    """An epitrochoid, by its closed form; both centrodes are the pitch circles, drawn once."""
+    text = WANKEL.replace("PINION", str(pinion)).replace("RING", str(ring))
+    curves = curves_of(Mechanism(read_text(text, Path("wankel.toml"))))
+    found = {curve.kind: np.array(curve.runs[0]) for curve in curves}
+    assert all(len(curve.runs) == 1 for curve in curves)
+    path = found["trajectory"]
+    eccentric = -np.pi / 2 + np.linspace(0, 2 * np.pi * turns, len(path))
+    rotor = 1j * np.exp(1j * eccentric * (1 - pinion / ring))
+    assert np.abs(path - (0.015j * np.exp(1j * eccentric) + 0.1 * rotor)).max() < 1e-12
+    assert path[0] == path[-1]
+    for kind, radius in (("fixed-centrode", pinion), ("moving-centrode", ring)):
+        around = np.abs(np.diff(found[kind])).sum()
+        assert around == pytest.approx(2 * np.pi * radius / 1000, rel=1e-4)
 
 
 WRONG = {

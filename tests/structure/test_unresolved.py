@@ -48,15 +48,50 @@ PLANK = (
     + ROLLER.format(n=2, p="Q")
     + "[links.3]\nA = [0, 0]\n[[drivers]]\nroll = 1\nposition = 130\nspeed = 10\n"
 )
+BICYCLE = (
+    HEAD
+    + """
+[frame]
+R = [0, 0]
+[links.1]
+C = [0, 0]
+K = [420, -50]
+slides = { on = 0, through = [0, 340], angle = 0 }
+[links.2]
+C-V = 300
+wheels = [{ centre = "C", radius = 340 }, { centre = "C", radius = 40 }]
+rolls = { on = 0, through = "R", angle = 0 }
+[links.3]
+K-P = 170
+wheel = { centre = "K", radius = 90 }
+belt = { on = 2, wheels = [1, 2] }
+"""
+)
+"""Frame, driving wheel with its sprocket, pedals; what drives it is left open."""
+PEDALS = "[[drivers]]\nturn = 3\nangle = -50\nspeed = -6\n"
 
 
 @pytest.mark.parametrize(
     ("text", "found"),
     [
         (PLANK, "hold link 3, a straight track, by wheels and pins alone"),
+        (
+            BICYCLE + PEDALS,
+            "are moved by the driver of link 3 only by way of wheels, about a pin that moves",
+        ),
     ],
 )
 def test_a_limit_is_named(text, found):
     with pytest.raises(StructureError) as error:
         Mechanism(read_text(text, "limit")).solve()
     assert [problem.found for problem in error.value.problems] == [found]
+
+
+def test_the_driver_that_is_proposed_for_a_bicycle_turns_its_pedals():
+    with pytest.raises(StructureError) as error:
+        Mechanism(read_text(BICYCLE + PEDALS, "limit")).solve()
+    assert str(error.value).endswith("; write slide = 1 for it: the radii tell how fast")
+    ridden = BICYCLE + "[[drivers]]\nslide = 1\nposition = 0\nspeed = 4590\n"
+    links = Mechanism(read_text(ridden, "limit")).solve().links
+    assert links["2"].omega == pytest.approx(-4590 / 340)
+    assert links["3"].omega == pytest.approx(-4590 / 340 * 40 / 90) == pytest.approx(-6)
