@@ -13,7 +13,7 @@ from graphkin.drawing.marks import Text, reach
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
 from tests.documents.full_scenes import FLAT, TOGGLE, drawings_from
-from tests.documents.sheet_tools import collisions, outside
+from tests.documents.sheet_tools import collisions, drawings, outside
 
 NARROW = {"flat": FLAT, "toggle": TOGGLE}
 EVERY = [*product(NARROW, LANGUAGES, ("key", "task"))]
@@ -34,6 +34,16 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
         for note in notes:
             rect = left if note.x < right[0] else right
             assert reach(note)[2] <= rect[2] - 1, note.markup
+
+
+@pytest.mark.parametrize(("language", "view"), [*product(LANGUAGES, ("key", "task"))], ids=str)
+def test_captions_of_both_fields_stand_level_and_their_lines_clear_of_each_other(language, view):
+    """An index hangs 0.4 of a capital's height below the line; letters rise 1.1 above theirs."""
+    for drawing in drawings("hart", None, language):
+        first, second = headlines(drawing, lay_out(drawing), view)
+        assert {first[0].y} == {mark.y for mark in second}
+        assert len(first) == 2
+        assert first[1].y - first[0].y >= (0.4 + 1.1) * first[0].height
 
 
 def test_drawings_wider_than_the_sheet_are_refused():
