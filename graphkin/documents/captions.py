@@ -19,9 +19,9 @@ HEADING = "heading"
 """The name of the lines of captions."""
 HEIGHTS = (3.5, 2.5, 1.8)
 """Heights of captions in mm; all but the least stand in two lines at most."""
-LEADING = 1.5
-"""Distance of the lines of a caption, in heights of its letters, clear of indices between them."""
-FOOT = 2.5
+LEADING = 1.4
+"""Distance of the lines of a caption, in heights of its letters."""
+FOOT = 3.2
 """How far above its field the first line of a caption stands, in mm."""
 
 
@@ -47,7 +47,8 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
 def caption(said: str, rect: Rect) -> list[Mark]:
     """A field's caption, what stands in brackets in a second line if need be.
 
-    The first lines of both captions stand level, clear of the data above; a second in the field.
+    The first lines of both captions stand level, clear of the data above; a second
+    in the field, above what begins 3 mm below its edge.
     """
     room = rect[2] - rect[0] - 5
     for height in HEIGHTS:

@@ -37,13 +37,19 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
 
 
 @pytest.mark.parametrize(("language", "view"), [*product(LANGUAGES, ("key", "task"))], ids=str)
-def test_captions_of_both_fields_stand_level_and_their_lines_clear_of_each_other(language, view):
-    """An index hangs 0.4 of a capital's height below the line; letters rise 1.1 above theirs."""
+def test_captions_of_both_fields_stand_level_and_above_all_that_is_drawn(language, view):
+    """Guides and loci begin 3 mm below the field's upper edge; data end 7.3 mm above it."""
     for drawing in drawings("hart", None, language):
         first, second = headlines(drawing, lay_out(drawing), view)
         assert {first[0].y} == {mark.y for mark in second}
         assert len(first) == 2
-        assert first[1].y - first[0].y >= (0.4 + 1.1) * first[0].height
+    for name in ("shaper", "rapid-return", "toggle-press"):
+        for drawing in drawings(name, None, language):
+            layout = lay_out(drawing)
+            marks = [mark for some in headlines(drawing, layout, view) for mark in some]
+            top = layout.mechanism.rect[1]
+            assert max(reach(mark)[3] for mark in marks) < top + 3
+            assert min(mark.y - mark.height for mark in marks) > top - 7.3 + 0.5
 
 
 def test_drawings_wider_than_the_sheet_are_refused():
