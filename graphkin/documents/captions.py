@@ -19,8 +19,10 @@ HEADING = "heading"
 """The name of the lines of captions."""
 HEIGHTS = (3.5, 2.5, 1.8)
 """Heights of captions in mm; all but the least stand in two lines at most."""
-LEADING = 1.35
+LEADING = 1.4
 """Distance of the lines of a caption, in heights of its letters."""
+FOOT = 3.2
+"""How far above its field the first line of a caption stands, in mm."""
 
 
 def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
@@ -45,7 +47,8 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
 def caption(said: str, rect: Rect) -> list[Mark]:
     """A field's caption, what stands in brackets in a second line if need be.
 
-    The last line of more than one stands in the field, where the data above leave no room.
+    The first lines of both captions stand level, clear of the data above; a second
+    in the field, above what begins 3 mm below its edge.
     """
     room = rect[2] - rect[0] - 5
     for height in HEIGHTS:
@@ -54,7 +57,7 @@ def caption(said: str, rect: Rect) -> list[Mark]:
             lines = flowed(words_of(" ".join(lines)), " ", room, height)
         if len(lines) <= 2:
             break
-    first = rect[1] - (2.5 if len(lines) == 1 else 3.4)
+    first = rect[1] - FOOT
     return [
         Text(rect[0] + 3, first + LEADING * height * i, line, "caption", height, name=HEADING)
         for i, line in enumerate(lines)

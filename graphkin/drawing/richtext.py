@@ -29,8 +29,9 @@ STACKED = 2
 SPECIAL = "\\*_^{}"
 TOKEN = re.compile(r"[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|.", re.DOTALL)
 UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
-GAP = rf"(?<![=⊥∥]) (?!=)(?!(?<=[\d}}] )(?:{UNITS}))"
-"""Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥ and ∥."""
+GAP = rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<= \. ))(?:{UNITS}))"
+"""Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥, ∥ and ÷, nor
+between the dots of room to write in."""
 WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
 
 

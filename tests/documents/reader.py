@@ -967,8 +967,8 @@ class Reader(Trials):
         raise DefectError(f"no radius is told of a wheel about {point}")
 
     @says(
-        r"by the law [sψ] = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm at ⟨angle:number⟩° "
-        r"to the x axis: ⟨name⟩, the centre of curvature of cam ⟨g:number⟩"
+        r"by the law [sψ][^=]* = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm "
+        r"at ⟨angle:number⟩° to the x axis: ⟨name⟩, the centre of curvature of cam ⟨g:number⟩"
     )
     def centre_of_curvature(self, p: str, size: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(number(size), math.radians(number(angle)))

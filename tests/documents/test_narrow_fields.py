@@ -13,7 +13,7 @@ from graphkin.drawing.marks import Text, reach
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
 from tests.documents.full_scenes import FLAT, TOGGLE, drawings_from
-from tests.documents.sheet_tools import collisions, outside
+from tests.documents.sheet_tools import collisions, drawings, outside
 
 NARROW = {"flat": FLAT, "toggle": TOGGLE}
 EVERY = [*product(NARROW, LANGUAGES, ("key", "task"))]
@@ -34,6 +34,22 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
         for note in notes:
             rect = left if note.x < right[0] else right
             assert reach(note)[2] <= rect[2] - 1, note.markup
+
+
+@pytest.mark.parametrize(("language", "view"), [*product(LANGUAGES, ("key", "task"))], ids=str)
+def test_captions_of_both_fields_stand_level_and_above_all_that_is_drawn(language, view):
+    """Guides and loci begin 3 mm below the field's upper edge; data end 7.3 mm above it."""
+    for drawing in drawings("hart", None, language):
+        first, second = headlines(drawing, lay_out(drawing), view)
+        assert {first[0].y} == {mark.y for mark in second}
+        assert len(first) == 2
+    for name in ("shaper", "rapid-return", "toggle-press"):
+        for drawing in drawings(name, None, language):
+            layout = lay_out(drawing)
+            marks = [mark for some in headlines(drawing, layout, view) for mark in some]
+            top = layout.mechanism.rect[1]
+            assert max(reach(mark)[3] for mark in marks) < top + 3
+            assert min(mark.y - mark.height for mark in marks) > top - 7.3 + 0.5
 
 
 def test_drawings_wider_than_the_sheet_are_refused():

@@ -5,7 +5,7 @@ import pytest
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import drafts_of, scales
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.areas import HEIGHT, WIDTH
+from graphkin.drawing.areas import ABOVE, HEIGHT, MARGIN, WIDTH
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
@@ -13,7 +13,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.text.errors import PageError, SceneError
 from tests.chosen import HALVES
-from tests.documents.sheet_tools import HEAD, OTHERS, mechanism_named
+from tests.documents.sheet_tools import HEAD, OTHERS, drawings, mechanism_named
 from tests.scene_files import scene_text
 
 OMEGA = 12.0
@@ -216,3 +216,29 @@ def test_a_ka_that_needs_a_smaller_mechanism_gets_one_unless_its_scale_is_stated
     free = scales(scene())
     small = scales(scene("ka = 0.1"))
     assert small.kL >= free.kL and small.ka == pytest.approx(100)
+
+
+# --- paths ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("language", "name"), [("en", "hart"), ("ro", "chebyshev"), ("it", "trammel")]
+)
+def test_a_path_reaches_no_farther_into_the_margin_than_letters_leave(language, name):
+    """It is drawn whole in its field, clear of the caption's second line and of the foot."""
+    drawing, *_ = drawings(name, None, language)
+    field = lay_out(drawing).mechanism
+    (path,) = (curve for curve in drawing.curves if curve.kind == "trajectory")
+    places = [field(point) for run in path.runs for point in run]
+    left, top, right, low = field.rect
+    assert left + MARGIN - 6.8 <= min(x for x, _ in places)
+    assert max(x for x, _ in places) <= right - MARGIN + 6.8
+    assert top + ABOVE - 3.1 <= min(y for _, y in places)
+    assert max(y for _, y in places) <= low - ABOVE + 3.1
+
+
+def test_a_straight_path_leaves_the_mechanism_as_large_as_its_ends_in_the_margin_let_it():
+    """Hart's R runs 370.1 mm up and down: 148.0 mm at 1:2.5, where letters would have 146 mm."""
+    found = scales(mechanism_named("hart"))
+    assert found.kL == 2.5
+    assert 370 / found.kL > HEIGHT

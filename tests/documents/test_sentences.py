@@ -10,6 +10,7 @@ import pytest
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
+from graphkin.construction.core.naming import angle_symbol
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.drawing.richtext import plain
@@ -136,3 +137,15 @@ def test_one_vector_is_transferred_to_its_point_and_several_each_to_its_own(lang
 def test_coordinates_that_do_not_end_have_the_digits_that_a_hand_needs():
     drawing, _ = drawings("geneva-wheel")
     assert "O2 (70.7107, 0) mm" in map(plain, given(drawing))
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+@pytest.mark.parametrize("name", ["cam-plate", "cam-roller", "cam-lever", "cam-plate-lever"])
+def test_the_law_of_a_cam_bears_its_follower_s_index_and_no_symbol_of_a_driver(name, language):
+    """The displacement of a plate is s too: one letter names one quantity on a sheet."""
+    drawing, *_ = drawings(name, None, language)
+    drivers = {plain(angle_symbol(drawing.scene, driver)) for driver in drawing.scene.drivers}
+    law = next(s.markup for s in sentences(drawing) if "′" in s.markup and "″" in s.markup)
+    named = re.findall(r"\*[sψ]\*[′″]?(?:_\{(\w+)\})? =", law)
+    assert named == list(drawing.scene.cams) * 3
+    assert not drivers & set(re.findall(r"(?<=[ ,])[sψ]\S*(?= =)", plain(law)))

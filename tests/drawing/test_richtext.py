@@ -94,6 +94,20 @@ def test_lines_do_not_end_between_a_number_and_its_unit_or_before_a_bar():
     ]
 
 
+def test_lines_do_not_end_after_a_sign_of_division_or_in_the_room_to_write_in():
+    markup = "*ω* = speed ÷ length; (*k*_L = . . . . m/mm; *k*_v = . . . . (m/s)/mm) in all. in m"
+    assert words_of(markup) == [
+        "*ω* = speed",
+        "÷ length;",
+        "(*k*_L = . . . . m/mm;",
+        "*k*_v = . . . . (m/s)/mm)",
+        "in",
+        "all.",
+        "in",
+        "m",
+    ]
+
+
 PIECES = st.sampled_from(
     ["*v*_{BA}^{ν}", "= 2,5", "m/s^2", "∥ *OA*_1", "x^2", "_2", "a_{ABC}^2", "din *o*′ se ia"]
 )

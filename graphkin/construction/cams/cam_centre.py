@@ -358,18 +358,19 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         )
 
     def law_words(self, drawing: Drawing) -> str:
-        """The displacement of the follower and its derivatives, by numbers."""
+        """The follower's displacement, with its link's index, and its derivatives, by numbers."""
         unit, values = drawing.scene.units["length"], drawing.trace.values
         numbers = (values[self.lift], values[self.rate], values[self.bend])
         cam, one = drawing.scene.cams[self.follower], drawing.length(1.0)
+        k = escape(self.follower)
         if cam.slides:
             return self.plate_words(drawing, cam, one)
         if cam.lever:
             angle, rate, bend = degrees(numbers[0]), *numbers[1:]
             s, rate, bend = (drawing.words.fixed(each, 3) for each in (angle, rate, bend))
-            return drawing.words("page.cam_swing", s=s, rate=rate, bend=bend)
+            return drawing.words("page.cam_swing", k=k, s=s, rate=rate, bend=bend)
         s, rate, bend = (drawing.words.fixed(drawing.length(each), 3) for each in numbers)
-        return drawing.words("page.cam_law", s=s, rate=rate, bend=bend, unit=unit)
+        return drawing.words("page.cam_law", k=k, s=s, rate=rate, bend=bend, unit=unit)
 
     def plate_words(self, drawing: Drawing, cam: Cam, one: float) -> str:
         """The same of a plate, whose coordinate has ``one`` unit of length in a metre."""
@@ -381,7 +382,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
             numbers = at * one, rate, bend / one
         s, slope, turn = (words.significant(each, 5) for each in numbers)
         key = "page.cam_plate_swing" if cam.lever else "page.cam_plate_law"
-        return words(key, s=s, rate=slope, bend=turn, unit=unit)
+        return words(key, k=escape(self.follower), s=s, rate=slope, bend=turn, unit=unit)
 
 
 def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:

@@ -10,6 +10,9 @@ from graphkin.numbers.plane import cross
 
 ROOMY = 3.5
 """A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+INWARD = 0.96
+"""What of a path there is room for, in parts: its ends, which bear no letters, may stand in the
+margin that those of the mechanism need."""
 STRAIGHT = 1e-6
 """How far aside, in parts of its length, a curve may lead that counts as straight."""
 
@@ -17,7 +20,7 @@ STRAIGHT = 1e-6
 def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
     """The points of curves for which the drawing makes room.
 
-    Paths and centrodes of the mechanism's size are drawn whole; of wider ones, and of straight
+    Paths are drawn whole, and centrodes of the mechanism's size; of wider ones, and of straight
     ones, where they touch. Of a locus what lies in the field will do.
     """
     found: list[complex] = []
@@ -28,7 +31,10 @@ def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
         points = [point for run in curve.runs for point in run]
         box = extent_of(points) if points else mechanism
         whole = max(box.width, box.height) <= most and not is_straight(points)
-        if curve.kind == "trajectory" or whole:
+        if curve.kind == "trajectory":
+            middle = mechanism.grown(points).middle
+            found += [middle + INWARD * (point - middle) for point in points]
+        elif whole:
             found += points
         elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
             found.append(curve.now)
