@@ -18,7 +18,7 @@ from graphkin.documents.sheet import (
 from graphkin.drawing.areas import A3_TITLE_BLOCK, AREA, BELOW, MARKED, Rect
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import Mark, Page, Text
-from graphkin.drawing.richtext import extent, flowed, words_of
+from graphkin.drawing.richtext import extent, flowed, narrow_words
 from graphkin.text.errors import PageError, Problem
 
 LEADING = 4.6
@@ -101,7 +101,7 @@ def data_lines(drawing: Drawing, view: str, x: float) -> list[str]:
 
 def cut(line: str, width: float) -> list[str]:
     """A line that is too long in lines of a width in mm, between words."""
-    return flowed(words_of(line), " ", width, 2.5)
+    return flowed(narrow_words(line, width, 2.5), " ", width, 2.5)
 
 
 def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list[Mark]:
