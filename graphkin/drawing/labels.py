@@ -27,7 +27,7 @@ ASIDE = 15
 """How far a note is moved aside at a time, in mm, where it would stand on lines."""
 LEADING = 4.6
 """Distance of lines of notes in mm, so that indices above and below do not meet."""
-FOOT = 0.35
+FOOT = 0.22
 """The part of a field that notes at its foot may take up; beyond it no key numbers are given."""
 LEFT_OUT = "…"
 """What stands for the notes that have no room there."""
