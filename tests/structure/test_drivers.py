@@ -115,7 +115,7 @@ def test_a_track_that_only_seems_to_be_led_may_have_its_keeper_by_name():
     hint = (
         "or, if a pin and the wheel of link 7 alone hold link 8, write link = 15 in rolls of link"
     )
-    assert refused(text).endswith(f"; or, {hint}")
+    assert refused(text).endswith(f"; {hint}")
     assert refused(text.replace('side = "right"', 'side = "right", link = 15')) == ""
 
 
