@@ -26,7 +26,7 @@ APART = HAIR[:, :, 0] + np.array([-BESIDE, -PAD, BESIDE, PAD], dtype=np.float32)
 WIDER = HAIR[:, :, 0] + np.array([-PAD, -PAD, PAD, PAD], dtype=np.float32)[:, None]
 
 
-AT_ONCE = 1024  # places compared with all at one go, so that memory grows with them no faster
+AT_ONCE = 512  # places compared with all at one go, so that memory grows with them no faster
 
 
 class OpenPlaces(NamedTuple):

@@ -211,10 +211,12 @@ def on_sheets(
 ) -> list[list[Mark]]:
     """Tables on as many sheets as they need, in a rectangle of the first and of each other sheet.
 
-    Their lettering is the largest; what of a table has no room goes on below its head again.
+    Their lettering is the largest, columns that a hand fills in are the widest; what of a table has
+    no room goes on below its head again.
     Raises PageError where a table is wider than a sheet.
     """
-    look, *_ = looks_of(tables, by_hand=by_hand)
+    looks = looks_of(tables, by_hand=by_hand)
+    look = max(looks, key=lambda each: each.part) if by_hand else looks[0]
     left, _, right, low = others
     sheets: list[list[Mark]] = []
     rest = list(tables)
