@@ -10,7 +10,7 @@ from graphkin.construction.core.naming import drawn_in, sense, way_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.areas import Rect
-from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out
+from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out, on_sheets
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import escape, flowed
 from graphkin.drawing.symbol_markup import symbol
@@ -105,6 +105,25 @@ def slide_sense(drawing: Drawing, block: str, value: float) -> str:
 
 def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     """The vectors in one or more blocks, then the angular values, then what slides."""
+    some = column_tables(drawing, empty=empty)
+    note = reasons(drawing, [row for table in some for row in table.rows], rect)
+    low = rect[3] - LEADING * len(note)
+    return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty)]
+
+
+def tables_on_sheets(
+    drawing: Drawing, first: Rect, others: Rect, *, empty: bool
+) -> list[list[Mark]]:
+    """The same on as many sheets as they need; what is computed is said on the last."""
+    some = column_tables(drawing, empty=empty)
+    note = reasons(drawing, [row for table in some for row in table.rows], others)
+    low = others[3] - LEADING * len(note)
+    *sheets, last = on_sheets(some, first, (*others[:3], low), by_hand=empty)
+    return [*sheets, [*last, *note]]
+
+
+def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
+    """The tables that have rows: vectors, angular values, what slides."""
     words = drawing.words
     unit = words(f"table.{drawing.kind}")
     head = Row((words("table.symbol"), words("table.segment"), words("table.millimetres"), unit))
@@ -122,10 +141,7 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
         ),
         ColumnTable(SLID, slide_head, tuple(slide_rows(drawing, empty=empty)), numbers=(1,)),
     )
-    note = reasons(drawing, [row for table in every for row in table.rows], rect)
-    low = rect[3] - LEADING * len(note)
-    some = [table for table in every if table.rows]
-    return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty)]
+    return [table for table in every if table.rows]
 
 
 def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:

@@ -16,7 +16,7 @@ from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import Mark, Page, Text
-from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
+from graphkin.drawing.richtext import escape, extent, flowed, narrow_words, plain, words_of
 from graphkin.text.errors import PageError, Problem
 
 LETTER = 2.5
@@ -107,7 +107,9 @@ def broken(
     parts = [
         piece
         for part in parts
-        for piece in (words_of(part) if extent(part, LETTER)[0] > room else [part])
+        for piece in (
+            narrow_words(part, room, LETTER) if extent(part, LETTER)[0] > room else [part]
+        )
     ]
     if relation.blank and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Iterator, Set
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.result_tables import tables
+from graphkin.construction.result_tables import tables, tables_on_sheets
 from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.sheet import (
     Moved,
@@ -18,8 +18,8 @@ from graphkin.documents.sheet import (
 from graphkin.drawing.areas import A3_TITLE_BLOCK, AREA, BELOW, MARKED, Rect
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import Mark, Page, Text
-from graphkin.drawing.richtext import flowed
-from graphkin.text.errors import PageError
+from graphkin.drawing.richtext import extent, flowed, narrow_words
+from graphkin.text.errors import PageError, Problem
 
 LEADING = 4.6
 """Distance of the lines of data in mm."""
@@ -29,42 +29,92 @@ INSIDE = 3.0
 """How far the numbers of sentences stay clear of the centring mark at the left, in mm."""
 MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
+LOW = A3_TITLE_BLOCK[1] - 4
+"""Where the right column ends, above the title block, in mm."""
+LEAST = 60.0
+"""Room below the data in which tables begin that go on to more sheets, in mm."""
 
 
 def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[list[Mark]]:
     """What is on the sheets that go on: one, or where it has no room there as many as it takes.
 
     So many sentences as are said before are left out there.
-    Raises PageError where data or tables have no room on a sheet without the sentences.
+    Raises PageError where a sentence or a row of a table is longer than a sheet is wide.
     """
     if not moved:
         return []
     try:
         return [one_sheet(drawing, view, moved, said)]
     except PageError:
-        if Moved.CONSTRUCTION not in moved:
-            raise
-    others = moved - {Moved.CONSTRUCTION}
-    sheets = [one_sheet(drawing, view, others, said)] if others else []
+        others = moved - {Moved.CONSTRUCTION}
+    try:
+        sheets = [one_sheet(drawing, view, others, said)] if others else []
+    except PageError:
+        sheets = [*data_and_tables(drawing, view, others)]
+    if Moved.CONSTRUCTION not in moved:
+        return sheets
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     top, low = y + GAP, BELOW[3] - 3.5
     left: Rect = (x + INSIDE, top + HEAD, MIDDLE, low)
-    right: Rect = (MIDDLE + 6, top + HEAD, AREA[2], A3_TITLE_BLOCK[1] - 4)
+    right: Rect = (MIDDLE + 6, top + HEAD, AREA[2], LOW)
     head = [*head, construction_head(drawing, x, top)]
     return [*sheets, *([*head, *marks] for marks in on_sheets(drawing, [left, right], said))]
+
+
+def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[list[Mark]]:
+    """The sheets of data that have no room on one, and of tables, which begin below the data."""
+    head, x, y = title_line(drawing, drawing.words("page.continued"))
+    room = int((LOW - y) / LEADING) + 1
+    lines = data_lines(drawing, view, x) if Moved.DATA in moved else []
+    parts = [lines[i : i + room] for i in range(0, len(lines), room)]
+    told = [
+        [Text(x, y + i * LEADING, line, "caption", 2.5, name="data") for i, line in enumerate(part)]
+        for part in parts
+    ]
+    if Moved.TABLES not in moved:
+        yield from ([*head, *part] for part in told)
+        return
+    yield from ([*head, *part] for part in told[:-1])
+    last = told[-1] if told else []
+    top = y + len(last) * LEADING + GAP
+    if top > LOW - LEAST:
+        yield [*head, *last]
+        last, top = [], y + GAP
+    rects: tuple[Rect, Rect] = (x, top, AREA[2], LOW), (x, y + GAP, AREA[2], LOW)
+    for marks in tables_on_sheets(drawing, *rects, empty=view == "task"):
+        yield [*head, *last, *marks]
+        last = []
+
+
+def data_lines(drawing: Drawing, view: str, x: float) -> list[str]:
+    """The data in lines across a sheet from a place on."""
+    pieces = given(drawing, solved=view != "task")
+    pieces[0] = f"{drawing.words('page.data')}: {pieces[0]}"
+    width = AREA[2] - x - 3
+    lines = flowed(pieces, "; ", width, 2.5)
+    return [
+        part
+        for line in lines
+        for part in ([line] if extent(line, 2.5)[0] <= width else cut(line, width))
+    ]
+
+
+def cut(line: str, width: float) -> list[str]:
+    """A line that is too long in lines of a width in mm, between words."""
+    return flowed(narrow_words(line, width, 2.5), " ", width, 2.5)
 
 
 def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list[Mark]:
     """What is on a sheet that goes on alone. Raises PageError where not even it holds the rest."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if Moved.DATA in moved:
-        pieces = given(drawing, solved=view != "task")
-        pieces[0] = f"{drawing.words('page.data')}: {pieces[0]}"
-        for line in flowed(pieces, "; ", AREA[2] - x - 3, 2.5):
+        for line in data_lines(drawing, view, x):
             marks.append(Text(x, y, line, "caption", 2.5, name="data"))
             y += LEADING
+        if y > LOW + LEADING:
+            raise PageError(Problem("data", "does not fit", "data for one sheet"))
     top = y + GAP
-    right: Rect = (MIDDLE + 6, top, AREA[2], A3_TITLE_BLOCK[1] - 4)
+    right: Rect = (MIDDLE + 6, top, AREA[2], LOW)
     if Moved.CONSTRUCTION in moved:
         left: Rect = (x + INSIDE, top + HEAD, MIDDLE, BELOW[3] - 3.5)
         beside = [] if Moved.TABLES in moved else [(right[0], left[1], *right[2:])]

@@ -15,6 +15,8 @@ from graphkin.drawing.clearance import Clearance
 from graphkin.drawing.shapes import Index, where
 
 NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
+MOST = 12_000  # places that are offered on a page in all: memory grows with their square
+AT_ONCE = 64  # labels that look further at one go
 FAR = np.array([4.0, 7.0, 11.0, 17.0, 24.0, 33.0])  # mm beyond the gap, with a leader
 
 
@@ -63,12 +65,14 @@ class CandidateSet:
 
     def _led(self, levels: Mapping[int, Level]) -> OpenPlaces:
         """Return the places with a leader that some labels did not look at before."""
-        rows = np.array([i for i, level in levels.items() if self.level[i].seen < level.seen])
-        if not len(rows):
-            return NO_PLACES
-        first, last = (np.array([a[i].seen for i in rows]) for a in (self.level, levels))
-        some = tries(self.page.subjects.take(rows), NEAR, FAR)
-        return self.page.led(self.page.open(rows, some, first, last))
+        seeking = [i for i, level in levels.items() if self.level[i].seen < level.seen]
+        found = NO_PLACES
+        for start in range(0, len(seeking), AT_ONCE):
+            rows = np.array(seeking[start : start + AT_ONCE])
+            first, last = (np.array([a[i].seen for i in rows]) for a in (self.level, levels))
+            some = tries(self.page.subjects.take(rows), NEAR, FAR)
+            found = found.joined(self.page.led(self.page.open(rows, some, first, last)))
+        return found
 
     def _offer(self, more: OpenPlaces, most: Index) -> None:
         """Offer the cheapest of some places, at most so many for each label; the rest is kept.
@@ -77,7 +81,11 @@ class CandidateSet:
         """
         order = np.lexsort((more.cost, more.label))
         label = more.label.take(order)
-        cheap = np.arange(len(order)) - np.searchsorted(label, label) < most[label]
+        rank = np.arange(len(order)) - np.searchsorted(label, label)
+        cheap = rank < most[label]
+        room = max(MOST - len(self.clashes.places.label), 0)
+        if np.count_nonzero(cheap) > room:
+            cheap &= rank < np.sort(rank[cheap])[room]
         self.clashes.add(more.take(order.take(where(cheap))))
         self.rest = self.rest.joined(more.take(order.take(where(~cheap))))
         self.places = self.clashes.places

@@ -26,6 +26,9 @@ APART = HAIR[:, :, 0] + np.array([-BESIDE, -PAD, BESIDE, PAD], dtype=np.float32)
 WIDER = HAIR[:, :, 0] + np.array([-PAD, -PAD, PAD, PAD], dtype=np.float32)[:, None]
 
 
+AT_ONCE = 512  # places compared with all at one go, so that memory grows with them no faster
+
+
 class OpenPlaces(NamedTuple):
     """The places that are open, a row for each; a leader NOWHERE is none; mm."""
 
@@ -76,24 +79,32 @@ class Clashes:
         if old < count:
             self.table, table = np.zeros((count, count), dtype=np.bool_), self.table
             self.table[:old, :old] = table
-            self._compare(old)
+            for start in range(old, count, AT_ONCE):
+                self._compare(old, start, min(start + AT_ONCE, count))
             data = np.packbits(self.table, axis=1, bitorder="little").tobytes()
             size = -(-count // 8)
             starts = range(0, len(data), size)
             self.kept = [int.from_bytes(data[k : k + size], "little") for k in starts]
         return self.kept
 
-    def _compare(self, old: int) -> None:
-        """Compare the places from a number on with all."""
-        _, x, y, hx, hy, _, leader = self.places
+    def _compare(self, new: int, old: int, end: int) -> None:
+        """Compare the places from one number to another with all before the latter.
+
+        Those from ``new`` on are compared both ways round, as if all were at one go.
+        """
+        places = self.places.take(np.arange(end)) if end < len(self.places.label) else self.places
+        _, x, y, hx, hy, _, leader = places
         box = np.array([x - hx, y - hy, x + hx, y + hy]).astype(np.float32)
-        self.table[old:] = overlap((box[:, old:] + APART)[:, :, None], box)
+        self.table[old:end, :end] = overlap((box[:, old:] + APART)[:, :, None], box)
+        if new < old:
+            back = overlap((box[:, new:old] + APART)[:, :, None], box[:, old:])
+            self.table[old:end, new:old] |= back.T
         led = where(leader[:, 0] < NOWHERE)
         if len(led):
             self._compare_leaders(box, led, old)
-        fresh = self.table[old:, old:]
+        fresh = self.table[old:end, old:end]
         fresh |= fresh.T
-        self.table[:old, old:] = self.table[old:, :old].T
+        self.table[:old, old:end] = self.table[old:end, :old].T
 
     def _compare_leaders(self, box: NDArray[np.float32], led: Index, old: int) -> None:
         """Find the leaders that run into labels or cross: those of places from a number on to all.

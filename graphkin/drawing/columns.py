@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -195,23 +195,74 @@ def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False
     Raises PageError where none do.
     """
     left, top, right, low = rect
-    raised = any("^" in row.cells[0] for table in tables for row in table.rows)
-    looks = (*(BY_HAND if by_hand else ()), *(HIGH if raised else ()), *LOOKS)
-    for look in looks:
+    for look in looks_of(tables, by_hand=by_hand):
         columns = in_columns(tables, (low - top) / look.row)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
         if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:
             continue
         if look.large and any(table.lettering(look) == SMALL for c in columns for table in c):
             continue
-        marks: list[Mark] = []
-        for nth, column in enumerate(columns):
-            x, y = left + sum(wide[:nth]) + BETWEEN * nth, top
-            for table in column:
-                marks += table.marks(x, y, look)
-                y += (table.lines + APART) * look.row
-        return marks
+        return [*side_by_side(columns, wide, left, top, look)]
     raise PageError(no_room(tables, right - left))
+
+
+def on_sheets(
+    tables: Sequence[ColumnTable], first: Rect, others: Rect, *, by_hand: bool = False
+) -> list[list[Mark]]:
+    """Tables on as many sheets as they need, in a rectangle of the first and of each other sheet.
+
+    Their lettering is the largest, columns that a hand fills in are the widest; what of a table has
+    no room goes on below its head again.
+    Raises PageError where a table is wider than a sheet.
+    """
+    looks = looks_of(tables, by_hand=by_hand)
+    look = max(looks, key=lambda each: each.part) if by_hand else looks[0]
+    left, _, right, low = others
+    sheets: list[list[Mark]] = []
+    rest = list(tables)
+    while rest:
+        top = others[1] if sheets else first[1]
+        columns = in_columns(rest, (low - top) / look.row)
+        wide = [max(sum(table.columns(look)) for table in column) for column in columns]
+        ends = [sum(wide[: n + 1]) + BETWEEN * n for n in range(len(wide))]
+        held = sum(end <= right - left + 1e-9 for end in ends)
+        if not held:
+            raise PageError(no_room(tables, right - left))
+        sheets.append([*side_by_side(columns[:held], wide, left, top, look)])
+        rest = rejoined(table for column in columns[held:] for table in column)
+    return sheets
+
+
+def rejoined(blocks: Iterable[ColumnTable]) -> list[ColumnTable]:
+    """Tables of blocks, those that follow one another of one table put together again."""
+    found: list[ColumnTable] = []
+    for block in blocks:
+        if found and found[-1].among is block.among:
+            found[-1] = replace(found[-1], rows=found[-1].rows + block.rows)
+        else:
+            found.append(replace(block, beside=False))
+    return found
+
+
+def looks_of(tables: Sequence[ColumnTable], *, by_hand: bool) -> tuple[Look, ...]:
+    """How tables may look, as they are wished first; ``by_hand``: with room to write."""
+    raised = any("^" in row.cells[0] for table in tables for row in table.rows)
+    return (*(BY_HAND if by_hand else ()), *(HIGH if raised else ()), *LOOKS)
+
+
+def side_by_side(
+    columns: Sequence[Sequence[ColumnTable]],
+    wide: Sequence[float],
+    left: float,
+    top: float,
+    look: Look,
+) -> Iterator[Mark]:
+    """Columns of tables beside one another, so wide each, from a place on."""
+    for nth, column in enumerate(columns):
+        x, y = left + sum(wide[:nth]) + BETWEEN * nth, top
+        for table in column:
+            yield from table.marks(x, y, look)
+            y += (table.lines + APART) * look.row
 
 
 def in_columns(tables: Sequence[ColumnTable], lines: float) -> list[list[ColumnTable]]:

@@ -27,6 +27,10 @@ ASIDE = 15
 """How far a note is moved aside at a time, in mm, where it would stand on lines."""
 LEADING = 4.6
 """Distance of lines of notes in mm, so that indices above and below do not meet."""
+FOOT = 0.22
+"""The part of a field that notes at its foot may take up; beyond it no key numbers are given."""
+LEFT_OUT = "…"
+"""What stands for the notes that have no room there."""
 KEY = 4
 """Priority of a key number."""
 MANY = 30
@@ -65,6 +69,11 @@ class FieldContent(Struct):
         left, top, right, low = self.rect
         return left + EDGE, top + EDGE, right - EDGE, low - EDGE
 
+    @property
+    def most_notes(self) -> int:
+        """How many lines of notes may stand at its foot."""
+        return max(int(FOOT * (self.rect[3] - self.rect[1]) / LEADING), 2)
+
     def finish(self, made: tuple[list[Mark], list[Spot]] | None = None) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
 
@@ -92,6 +101,10 @@ class FieldContent(Struct):
                 break
             self.shorten([spot.free for spot in spots], meanings)
             foot = self.footed([*self.notes, *meanings])
+            if foot_overflows(self, [*self.notes, *meanings]):
+                self.labels = wished
+                foot, spots = in_turn(self, self.notes, wished)
+                break
             spots = self.spots_of_new(foot, before, spots) or self.spots(foot)
         clear = with_leaders(self.labels, spots, self.marks)
         return [*self.marks, *foot, *marks_of(self.labels, clear)]
@@ -162,7 +175,12 @@ class FieldContent(Struct):
         across = self.rect[2] - self.rect[0] - 6
         found: list[tuple[int, list[Text]]] = []
         for width in (across, across / 2, across / 3):
-            places = [*self.foot_places(note_lines(notes, width))]
+            lines = note_lines(notes, width)
+            if (most := self.most_notes) < len(lines):
+                if found:
+                    break
+                lines = [*lines[: most - 1], LEFT_OUT]
+            places = [*self.foot_places(lines)]
             found += zip(self.lines_crossed(places), places, strict=True)
             if not (fewest := min(crossed for crossed, _ in found)):
                 break
@@ -197,6 +215,11 @@ class FieldContent(Struct):
         marks = [*self.marks, *more]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
         return pieces_of(marks), boxes
+
+
+def foot_overflows(board: FieldContent, notes: Sequence[str]) -> bool:
+    """Whether notes take up more of a board than its foot may."""
+    return len(note_lines(notes, board.rect[2] - board.rect[0] - 6)) > board.most_notes
 
 
 def note_lines(notes: Sequence[str], width: float) -> list[str]:

@@ -32,6 +32,8 @@ UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
 GAP = rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<= \. ))(?:{UNITS}))"
 """Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥, ∥ and ÷, nor
 between the dots of room to write in."""
+EQUAL = re.compile("(?<= =) ")
+"""Blanks behind =, at which a line of what is equal ends where nothing else will do."""
 WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
 
 
@@ -211,6 +213,15 @@ def signs(markup: str, height: float) -> Iterator[tuple[float, float, float, flo
 def words_of(markup: str) -> list[str]:
     """Pieces of markup between which a line may end: a number stays with its unit."""
     return re.split(GAP, markup)
+
+
+def narrow_words(markup: str, width: float, height: float) -> list[str]:
+    """The same; a piece wider than a width in mm, of what is equal, may end after = as well."""
+    return [
+        part
+        for word in words_of(markup)
+        for part in (EQUAL.split(word) if extent(word, height)[0] > width else [word])
+    ]
 
 
 def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:

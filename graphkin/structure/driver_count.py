@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.known_names import named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
+from graphkin.scene.read_cams import next_name
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
     CoupledTrain,
@@ -169,8 +170,25 @@ def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Proble
         "a driver for each freedom",
         f"let a driver move link {loose[0]} instead, or add one if {tie} is idle"
         + (f"; or a pin is missing: only one link has the points {lone}" if lone else "")
-        + guide_hint(scene, ties, loose),
+        + guide_hint(scene, ties, loose)
+        + keeper_hint(scene, loose),
     )
+
+
+def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
+    """Words for a track that seems to be led by links which hang on it themselves.
+
+    What keeps its wheel where it rolls was not put in, unless a name asks for it.
+    """
+    for name in loose:
+        for rolling in scene.links[name].rolls:
+            if rolling.through and rolling.on != FRAME and not rolling.keeper:
+                called = quoted(next_name(scene.links))
+                return (
+                    f"; or, if a pin and the wheel of link {name} alone hold link {rolling.on}, "
+                    f"write link = {called} in rolls of link {name}"
+                )
+    return ""
 
 
 def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:

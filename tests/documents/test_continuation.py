@@ -5,10 +5,13 @@ from functools import cache
 
 import pytest
 
+from graphkin.construction.result_tables import turning_rows, vector_rows
+from graphkin.documents.continuation import rest
 from graphkin.documents.data_heading import data
 from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import Moved
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.marks import Text
+from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
@@ -111,3 +114,33 @@ def test_a_walker_of_37_links_of_which_all_is_sought_goes_on_over_several_sheets
     lettered = {plain(mark.markup) for mark in first if mark.name != "note"}
     for name in [*mechanism.scene.links, *mechanism.scene.points]:
         assert name in lettered or re.search(rf"\b{name}\b", notes), name
+
+
+@cache
+def long_chain(language):
+    """The drawings of a chain of 60 dyads of which the last point is sought."""
+    ask = '[ask]\nvelocity = ["B60"]\nacceleration = ["B60"]\nepsilon = ["rocker60"]\n'
+    mechanism = Mechanism(read_text(scene(60) + ask, "long"))
+    return drawings_of(mechanism, proved(mechanism, mechanism.solve()), words(language))
+
+
+@pytest.mark.parametrize("language", ["ro", "en", "it"])
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_tables_and_data_that_fill_more_than_a_sheet_go_on_over_several(view, language):
+    """Every row and datum stands there once, beside nothing else, in large letters."""
+    for drawing in long_chain(language):
+        sheets = rest(drawing, view, {Moved.DATA, Moved.TABLES})
+        assert len(sheets) > (drawing.kind == "acceleration")
+        for marks in sheets:
+            assert not collisions(marks) and not outside(marks)
+            assert all(reach(m)[3] < 251 for m in marks if isinstance(m, Text))
+        texts = [mark for marks in sheets for mark in marks if isinstance(mark, Text)]
+        told = [m.name for m in texts if m.cls == "table" and m.markup.startswith("*") and m.name]
+        rows = [f(drawing, empty=view == "task") for f in (vector_rows, turning_rows)]
+        wanted = [row for some in rows for row in some]
+        firsts = [m.markup for m in texts if m.cls == "table" and m.name in {*told}]
+        assert {row.name for row in wanted} == {*told}
+        assert all(firsts.count(row.cells[0]) == 1 for row in wanted)
+        kept = "".join("".join(plain(m.markup).split()) for m in texts if m.name == "data")
+        for datum in data(drawing):
+            assert "".join(plain(datum.value or datum.words).split()) in kept

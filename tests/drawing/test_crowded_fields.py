@@ -88,3 +88,13 @@ def test_points_of_a_plan_that_nearly_fall_together_are_not_told_to_be_one():
     labels = [plain(mark.markup) for mark in page.marks if isinstance(mark, Text)]
     assert "c ≈ e" in labels
     assert not [label for label in labels if "≡" in label]
+
+
+def test_notes_never_leave_their_field_and_say_that_more_are_left_out():
+    """At most about a fifth of a field is for notes; key numbers are not given beyond it."""
+    field = FieldContent((0.0, 0.0, 100.0, 100.0))
+    foot = field.footed([f"{i}) *O*_{i}" for i in range(500)])
+    assert foot[-1].markup == "…" and foot[0].markup.startswith("0) ")
+    assert min(mark.y for mark in foot) > 75
+    few = field.footed([f"{i}) *O*_{i}" for i in range(20)])
+    assert "…" not in [mark.markup for mark in few]

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 from shapely import LineString, MultiLineString, Point, box
 
+from graphkin.drawing import candidate_sets, clashes
 from graphkin.drawing.candidates import Blots
 from graphkin.drawing.clashes import PAD
 from graphkin.drawing.placement import CLEAR, Segment, Spot, Wish, place
@@ -246,3 +247,34 @@ def test_a_leader_goes_round_a_strong_line_where_there_is_another_place():
     (led,) = place([wish], [*near, bar], [], field, strong=[bar])
     assert free.leader is not None and free.y > 36
     assert led.leader is not None and led.y < 36
+
+
+def crowd(count: int) -> list[Wish]:
+    """Labels for points on a short line, more than have room around it."""
+    return [Wish(6, 3, (20 + 0.4 * i, 30.0), priority=i % 3) for i in range(count)]
+
+
+def test_places_compared_a_few_at_a_time_rule_out_the_same(monkeypatch):
+    at_one_go = place(crowd(60), [[10, 31, 60, 31]], NONE, FIELD)
+    monkeypatch.setattr(clashes, "AT_ONCE", 7)
+    monkeypatch.setattr(candidate_sets, "AT_ONCE", 3)
+    assert place(crowd(60), [[10, 31, 60, 31]], NONE, FIELD) == at_one_go
+
+
+def test_no_more_places_are_offered_than_a_page_may_have(monkeypatch):
+    """What is placed is clear all the same; with all places more labels find one."""
+    found = place(crowd(60), NONE, NONE, FIELD)
+    monkeypatch.setattr(candidate_sets, "MOST", 300)
+    offered: list[int] = []
+    add = clashes.Clashes.add
+
+    def counted(self, more):
+        add(self, more)
+        offered.append(len(self.places.label))
+
+    monkeypatch.setattr(clashes.Clashes, "add", counted)
+    fewer = place(crowd(60), NONE, NONE, FIELD)
+    assert 250 < max(offered) <= 300
+    assert 0 < sum(spot.free for spot in fewer) <= sum(spot.free for spot in found)
+    boxes = [ink(w, spot) for w, spot in zip(crowd(60), fewer, strict=True) if spot.free]
+    assert not any(a.intersects(b) for a, b in combinations(boxes, 2))

@@ -109,6 +109,16 @@ def test_drivers_without_which_the_groups_are_complete_are_too_many():
     )
 
 
+def test_a_track_that_only_seems_to_be_led_may_have_its_keeper_by_name():
+    """A bar on a roller whose rod leads to planets that nothing else drives (made at random)."""
+    text = scene_text("structure/track-held-by-its-wheel")
+    assert refused(text).endswith(
+        "; or, if a pin and the wheel of link 7 alone hold link 8, "
+        "write link = 15 in rolls of link 7"
+    )
+    assert refused(text.replace('side = "right"', 'side = "right", link = 15')) == ""
+
+
 def test_links_for_which_no_group_is_found_are_no_fault_of_the_drivers():
     """One driver for one freedom, whatever the groups may be."""
     refuse_drivers(scene_of(SLIDER_CRANK + DRIVEN), (Unresolved(("2", "3")),))
