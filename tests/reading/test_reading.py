@@ -581,9 +581,10 @@ def test_a_side_whose_ticks_are_not_where_they_should_be_lies_5_mm_off(
     assert mended(top) == pytest.approx(top * 10 + 89.5, abs=1.0)
     ticks = registration.edges(lines)[2][1]
     without = msgspec.structs.replace(measured, found=measured.found & ~ticks)
-    assert "border on the upper side" in registration.judged(
-        right, without, lines, search.sides
-    ).refused
+    assert (
+        "border on the upper side"
+        in registration.judged(right, without, lines, search.sides).refused
+    )
 
 
 def test_the_frame_is_followed_once_for_all_sheets_and_each_is_told(
