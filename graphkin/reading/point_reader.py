@@ -13,7 +13,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import SHORT, LetteredSheet
-from graphkin.reading.line_crossings import PASSES, LinesCrossing
+from graphkin.reading.line_crossings import LinesCrossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AS_EXPECTED,
@@ -21,8 +21,6 @@ from graphkin.reading.point_search import (
     DRAWINGS,
     DRAWN,
     FITS,
-    LEANS,
-    SAME,
     SURE,
     PointSearch,
 )
@@ -44,8 +42,6 @@ AT_KEY = 2.0
 """The squared distance from the key, in deviations, up to which a point is there."""
 ELSEWHERE = 0.6
 """By how much another place must be likelier than one that fits, for its vectors to go there."""
-PART = 0.5
-"""How long a vector that nothing explains is at least, in the lengths of one that was read."""
 NEARLY = 0.85
 """The share of the ways to a point that must be there for the same."""
 WHOLE = 0.9
@@ -140,7 +136,6 @@ class PointReader(PointSearch):
         if best is not None and fits and led and (best.count > 1 or best.ends):
             other = self.elsewhere(number, best.place, own)
             doubtful = other is not None or self.has_rival(number, best.place, own)
-            doubtful = doubtful or self.is_parted(number, best.place)
             return self.told(number, key, own, other or best, doubtful=doubtful)
         if best is None and self.is_at_ends(number, own):
             return self.told(number, key, own, LinesCrossing(own.middle, own.spread, 1, 0.0))
@@ -189,28 +184,7 @@ class PointReader(PointSearch):
         if len(beyond) < 2 or max(beyond) >= DRAWN:
             return False
         there, here = (self.likely(number, each, own) for each in (far.place, place))
-        return there > here - RIVAL
-
-    def is_parted(self, number: int, place: complex) -> bool:
-        """Whether a vector of a point that is one with another on paper may have been drawn apart:
-        one that nothing explains leaves the same end.
-        """
-        if all(abs(place - other) > SAME for other in self.own.values()):
-            return False
-        steps = self.sheet.exact.program.steps
-        places = [*self.own.values()] + [
-            complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
-            for other in {*self.sheet.points, *self.sheet.corners} - self.own.keys() - {number}
-            if steps[other].plane is steps[number].plane
-        ]
-        for end in self.known_ends(number):
-            for way, long in self.rays(end):
-                if long < PART * abs(place - end):
-                    continue
-                ways = [(each - end) / way for each in places if abs(each - end) > SHORT]
-                if all(z.real < 0 or abs(z.imag) > PASSES + LEANS * abs(z) for z in ways):
-                    return True
-        return False
+        return there > here - (RIVAL if far.count >= MEET else 0.0)  # two cross by chance as well
 
     def told(
         self,
