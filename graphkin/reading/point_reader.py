@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.reading.drawn_ink import COVERED, DrawnInk
+from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import SHORT, LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing
@@ -137,6 +137,8 @@ class PointReader(PointSearch):
             other = self.elsewhere(number, best.place, own)
             doubtful = other is not None or self.has_rival(number, best.place, own)
             return self.told(number, key, own, other or best, doubtful=doubtful)
+        if best is None and self.is_at_ends(number, own):
+            return self.told(number, key, own, LinesCrossing(own.middle, own.spread, 1, 0.0))
         far = self.best_far(number, own)
         if far is not None:
             there = self.likely(number, far.place, own)
@@ -147,6 +149,13 @@ class PointReader(PointSearch):
             if there > here + AS_EXPECTED * (fits + close + stands):
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
+
+    def is_at_ends(self, number: int, own: ExpectedPlace) -> bool:
+        """Whether a point is expected so near all known ends of what leads to it that no line can
+        be seen between: what leaves these ends is that of others, and somebody is asked.
+        """
+        ends = self.known_ends(number)
+        return bool(ends) and all(abs(end - own.middle) < SHORT for end in ends)
 
     def elsewhere(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
         """Where the vectors go that run on beyond a place that fits: its lines cross there, and yet
@@ -167,13 +176,15 @@ class PointReader(PointSearch):
         if self.sheet.field(number) is self.sheet.layout.mechanism:
             return False
         far = self.best_far(number, own, place)
-        if far is None or far.count < MEET or far.cover < WHOLE:
+        if far is None or far.cover < WHOLE:
+            return False
+        if far.count < MEET and self.agreement(number, far.place) < WHOLE:
             return False
         beyond = self.beyond(number, far.place)
-        if len(beyond) < 2 or max(beyond) > COVERED:
+        if len(beyond) < 2 or max(beyond) >= DRAWN:
             return False
         there, here = (self.likely(number, each, own) for each in (far.place, place))
-        return there > here - RIVAL
+        return there > here - (RIVAL if far.count >= MEET else 0.0)  # two cross by chance as well
 
     def told(
         self,

@@ -59,8 +59,10 @@ STEP = 0.1
 """Distance of the points of a profile across a line, in mm."""
 ALONG = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
 """Profiles so many mm along the line are one."""
-DARK = 0.10
-"""Part of the paper's light that a printed line takes at least."""
+DARK, FULL = 0.10, 0.5
+"""Part of the paper's light that a printed line of so many mm takes at least; a finer one takes
+less in proportion, since blur spreads it.
+"""
 NOISE, CORNER = 0.05, 0.25
 """Standard deviation of a measured line, and of a corner of the square, in mm."""
 BENT = 3.0
@@ -76,6 +78,12 @@ STRETCH, LEAST_STRETCH = 100.0, 0.35
 """The same of frame and border along each stretch of so many mm that the picture holds: a thumb
 covers less, and a map that goes astray at a corner of the sheet loses more.
 """
+LEAST_TICKS, FEW = 0.4, 12
+"""The same of the ticks of a side, of so many places of them at least: where frame or border was
+taken for the other, or the paper's edge for one of them, they are not where they should be.
+"""
+BETWEEN = 5.0
+"""From the frame to the border, in mm."""
 
 
 class PrintedLines(Struct, frozen=True):
@@ -184,8 +192,7 @@ class SheetSearch:
         if over is None:
             return None
         fit = MapFit(over, self.square_of(page), self.corners)
-        for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
-            fit.to(measure(self.smooth, fit.map, lines, reach), trusted, lens=True, bent=True)
+        fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         return judged(fit.map, last, lines, self.sides)
 
@@ -203,9 +210,9 @@ class SheetSearch:
         key = square.tobytes(), bent
         if key not in self.frames:
             lines = printed_lines(page)
-            self.frames[key] = followed(
-                self.smooth, lines.some(lines.shared), square, self.corners, bent
-            )
+            lines = lines.some(lines.shared)
+            over = followed(self.smooth, lines, square, self.corners, bent)
+            self.frames[key] = held_by_ticks(self.smooth, over, lines, square, self.corners)
         return self.frames[key]
 
     def likeness(self, page: Page, others: Iterable[Page]) -> float:
@@ -241,6 +248,27 @@ def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: 
         measured = measure(smooth, fit.map, near, REACH)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > bent)
     return fit.map
+
+
+def held_by_ticks(
+    smooth: Any, over: PaperMap, lines: PrintedLines, square: Any, corners: Any
+) -> PaperMap:
+    """A map by lines that all sheets have, or, where ticks of a side are not found, the one that
+    takes frame for border there, or border for frame, if more of these are found with it.
+    """
+    for along, ticks in edges(lines):
+        most = ticks_found(measure(smooth, over, lines, NEAR), ticks)
+        if most >= LEAST_TICKS:
+            continue
+        for shift in (BETWEEN, -BETWEEN):
+            fit = MapFit(over, square, corners)
+            about = np.where(along, shift, 0.0)
+            fit.to(measure(smooth, over, lines, REACH, about), BETWEEN, lens=True, bent=True)
+            fit.refine(smooth, lines)
+            found = ticks_found(measure(smooth, fit.map, lines, NEAR), ticks)
+            if found > most:
+                over, most = fit.map, found
+    return over
 
 
 class MeasuredLines(Struct, frozen=True):
@@ -301,15 +329,7 @@ def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
     """
     about = np.zeros(len(lines.places))
     across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
-    x, y = lines.places.T
-    level = abs(lines.normals[:, 1]) > abs(lines.normals[:, 0])
-    left, top, right, bottom = EDGE
-    for side in (
-        level & (y < top),
-        level & (y > bottom),
-        ~level & (x < left),
-        ~level & (x > right),
-    ):
+    for side, _ in edges(lines):
         some = lines.some(side)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
@@ -326,6 +346,27 @@ def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
         if abs(across[best]) > REACH and likely[best] > CLEARLY * near:
             about[side] = across[best]
     return about
+
+
+def edges(lines: PrintedLines) -> list[tuple[Any, Any]]:
+    """Which lines run along each side of the sheet, and which are ticks on it, as ``SIDES``."""
+    (x, y), (left, top, right, bottom) = lines.places.T, EDGE
+    level = abs(lines.normals[:, 1]) > abs(lines.normals[:, 0])
+    return [
+        (lines.shared & beyond & ~across, lines.shared & beyond & across)
+        for beyond, across in (
+            (x < left, level),
+            (x > right, level),
+            (y < top, ~level),
+            (y > bottom, ~level),
+        )
+    ]
+
+
+def ticks_found(measured: MeasuredLines, ticks: Any) -> float:
+    """The share found of the ticks of a side that the picture holds; 1 where these are too few."""
+    seen = measured.seen & ticks
+    return float((measured.found & seen).sum() / seen.sum()) if seen.sum() >= FEW else 1.0
 
 
 def standing(dark: Any, width: float) -> Any:
@@ -352,7 +393,7 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
     total = weight.sum(axis=1)
     centre = (weight * across[window]).sum(axis=1) / np.maximum(total, 1e-9)
     edge = abs(across[best]) > reach - STEP / 2
-    return centre, (stands[rows, best] > DARK) & (total > 0) & ~edge
+    return centre, (stands[rows, best] > DARK * min(width / FULL, 1.0)) & (total > 0) & ~edge
 
 
 class MapFit:
@@ -368,6 +409,11 @@ class MapFit:
     def map(self) -> PaperMap:
         """The map as it is fitted so far."""
         return PaperMap(self.width, self.height, tuple(self.parameters.tolist()))
+
+    def refine(self, smooth: Any, lines: PrintedLines) -> None:
+        """Fit the map to lines near where it puts them, ever nearer."""
+        for reach, trusted in ((REACH, TRUSTED), (NEAR, TRUSTED), (NEAR, LAST), (NEAR, LAST)):
+            self.to(measure(smooth, self.map, lines, reach), trusted, lens=True, bent=True)
 
     def to(self, measured: MeasuredLines, trusted: float, *, lens: bool, bent: bool) -> None:
         """Fit the map to what was measured with it, by least squares that forget outliers."""
@@ -454,6 +500,8 @@ def judged(
     held = {side: float((found & parts[side]).sum() / parts[side].sum()) for side in wanted}
     side = min(held, key=lambda each: held[each])
     stretch = least_stretch(last, lines)
+    ticks = [ticks_found(last, some) for _, some in edges(lines)]
+    untold = SIDES[int(np.argmin(ticks))]
     if held[side] < LEAST_SIDE:
         refused = f"too little of the frame is seen on the {side} side of the sheet"
     elif share < LEAST_FOUND:
@@ -462,6 +510,8 @@ def judged(
         refused = (
             f"only {stretch:.0%} of the frame is found along a part of it: covered, or rippled"
         )
+    elif min(ticks) < LEAST_TICKS:
+        refused = f"the frame cannot be told from the border on the {untold} side of the sheet"
     elif residual > WORST:
         refused = f"the paper lies too unevenly: printed lines are {residual:.1f} mm off"
     return Registration(over, share, residual, own_share, refused)

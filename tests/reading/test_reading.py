@@ -555,6 +555,38 @@ def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None
     assert not registration.sides_off(image, right, lines).any()
 
 
+def test_a_side_whose_ticks_are_not_where_they_should_be_lies_5_mm_off(
+    a_class: Path, code: str
+) -> None:
+    image = drawn_sheet(a_class, code, "velocity", Habits(), 3).image
+    image = cv2.copyMakeBorder(image, 90, 90, 90, 90, cv2.BORDER_CONSTANT, value=255)
+    found = next(each for each in sheets_of(a_class, code).of("task") if each.kind == "velocity")
+    lines = registration.printed_lines(found.pages[0])
+    square = registration.square_of(found.pages[0])
+    search = registration.SheetSearch(image, square * 10 + 89.5)
+    right = search.frame(found.pages[0], registration.BENT_FROM)
+    assert right is not None
+    measured = registration.measure(image, right, lines, registration.NEAR)
+    upper = registration.edges(lines)[2][0]
+    fit = registration.MapFit(right, square, search.corners)
+    off = measured.off - np.where(upper, 5.0 * lines.normals[:, 1], 0.0)  # frame where border is
+    some = measured.found & (upper | (abs(lines.normals[:, 1]) < 0.5))
+    told = msgspec.structs.replace(measured, off=off, found=some)
+    fit.to(told, 5.0, lens=True, bent=True)
+    wrong = fit.map
+    top = np.array([[x, 10.0] for x in (30.0, 210.0, 390.0)])
+    assert abs(wrong(top) - right(top)).max() > 30  # pixels of 0.1 mm
+    frame = lines.some(lines.shared)
+    mended = registration.held_by_ticks(image, wrong, frame, square, search.corners)
+    assert mended(top) == pytest.approx(top * 10 + 89.5, abs=1.0)
+    ticks = registration.edges(lines)[2][1]
+    without = msgspec.structs.replace(measured, found=measured.found & ~ticks)
+    assert (
+        "border on the upper side"
+        in registration.judged(right, without, lines, search.sides).refused
+    )
+
+
 def test_the_frame_is_followed_once_for_all_sheets_and_each_is_told(
     a_class: Path, code: str
 ) -> None:
