@@ -108,11 +108,13 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
     """What is on a sheet that goes on alone. Raises PageError where not even it holds the rest."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
     if Moved.DATA in moved:
-        for line in data_lines(drawing, view, x):
+        lines = [*data_lines(drawing, view, x)]
+        for line in lines:
             marks.append(Text(x, y, line, "caption", 2.5, name="data"))
             y += LEADING
         if y > LOW + LEADING:
-            raise PageError(Problem("data", "does not fit", "data for one sheet"))
+            found = f"does not fit: {len(lines)} lines of data"
+            raise PageError(Problem("data", found, "data for one sheet"))
     top = y + GAP
     right: Rect = (MIDDLE + 6, top, AREA[2], LOW)
     if Moved.CONSTRUCTION in moved:

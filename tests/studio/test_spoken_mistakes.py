@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene import toml_faults
+from graphkin.scene.phrases import LEADING
 from graphkin.text.errors import Mend, Problem
 from graphkin.text.problems import GAP, sentences, spoken
 from tests.studio.pump import PUMP, desk_in, ordered, seen
@@ -57,11 +58,14 @@ def text_of(node: ast.expr) -> str | None:
     if any(isinstance(gap.value, ast.IfExp | ast.Call) for gap in gaps):
         return None
     numbered = iter(range(1, len(gaps) + 1))
-    parts = (
-        part.value if isinstance(part, ast.Constant) else f"X{next(numbered)}"
+    return "".join(
+        str(part.value)
+        if isinstance(part, ast.Constant)
+        else LEADING
+        if ast.unparse(part.value) == "LEADING"
+        else f"X{next(numbered)}"
         for part in node.values
     )
-    return "".join(map(str, parts))
 
 
 @pytest.mark.parametrize("language", FOREIGN)
