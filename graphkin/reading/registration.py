@@ -60,8 +60,8 @@ STEP = 0.1
 ALONG = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
 """Profiles so many mm along the line are one."""
 DARK, FULL = 0.10, 0.5
-"""Part of the paper's light that a printed line of so many mm takes at least; a finer one takes
-less in proportion, since blur spreads it.
+"""Part of the paper's light that a printed line takes at least; where blur has made lines faint,
+one finer than so many mm takes less in proportion.
 """
 NOISE, CORNER = 0.05, 0.25
 """Standard deviation of a measured line, and of a corner of the square, in mm."""
@@ -87,18 +87,20 @@ BETWEEN = 5.0
 
 
 class PrintedLines(Struct, frozen=True):
-    """Where printed lines are measured: places, normals (mm), widths; which all sheets have."""
+    """Where printed lines are measured: places, normals (mm), widths; which all sheets have; how
+    much of the paper's light each takes at least.
+    """
 
     places: Any
     normals: Any
     widths: Any
     shared: Any
+    dark: Any
 
     def some(self, which: Any) -> PrintedLines:
         """Those that are picked."""
-        return PrintedLines(
-            self.places[which], self.normals[which], self.widths[which], self.shared[which]
-        )
+        own = (self.places, self.normals, self.widths, self.shared, self.dark)
+        return PrintedLines(*(each[which] for each in own))
 
     def beside(self, others: PrintedLines) -> PrintedLines:
         """Those near which none of others runs the same way."""
@@ -119,8 +121,8 @@ class Registration(Struct, frozen=True):
     refused: str = ""
 
 
-def printed_lines(page: Page) -> PrintedLines:
-    """The lines of a printed page that are followed in a picture of it."""
+def printed_lines(page: Page, *, faint: bool = False) -> PrintedLines:
+    """The lines of a printed page that are followed in a picture of it, ``faint`` ones as well."""
     rows: list[tuple[float, ...]] = []
     for x1, y1, x2, y2, cls in segments(page):
         long = float(np.hypot(x2 - x1, y2 - y1))
@@ -134,7 +136,8 @@ def printed_lines(page: Page) -> PrintedLines:
             x, y = x1 + at * way[0], y1 + at * way[1]
             rows.append((x, y, -way[1], way[0], width, cls.split()[0] in SHARED))
     table = np.array(rows)
-    return PrintedLines(table[:, :2], table[:, 2:4], table[:, 4], table[:, 5] > 0)
+    dark = DARK * np.minimum(table[:, 4] / FULL, 1.0) if faint else np.full(len(table), DARK)
+    return PrintedLines(table[:, :2], table[:, 2:4], table[:, 4], table[:, 5] > 0, dark)
 
 
 def segments(page: Page) -> Iterator[tuple[float, float, float, float, str]]:
@@ -176,19 +179,22 @@ class SheetSearch:
     ) -> None:
         self.smooth = cv2.GaussianBlur(grey, (0, 0), 0.7)
         self.corners, self.square, self.sides = corners, square, sides
-        self.frames: dict[tuple[bytes, float], PaperMap] = {}
+        self.frames: dict[tuple[bytes, float, bool], PaperMap] = {}
 
     def registered(self, page: Page) -> Registration | None:
         """The map of a page; None where it has no square to begin with."""
         first = self.fitted(page, BENT_FROM)
         if first is None or not first.refused:
             return first
-        other = self.fitted(page, max(RINGS))  # its bending led astray
-        return first if other is None or other.refused else other
+        for bent, faint in ((max(RINGS), False), (BENT_FROM, True)):  # its bending led astray
+            other = self.fitted(page, bent, faint=faint)
+            if other is not None and not other.refused:
+                return other
+        return first
 
-    def fitted(self, page: Page, bent: float) -> Registration | None:
+    def fitted(self, page: Page, bent: float, *, faint: bool = False) -> Registration | None:
         """The map of a page by all of its lines, from that of its frame."""
-        over, lines = self.frame(page, bent), printed_lines(page)
+        over, lines = self.frame(page, bent, faint=faint), printed_lines(page, faint=faint)
         if over is None:
             return None
         fit = MapFit(over, self.square_of(page), self.corners)
@@ -200,16 +206,16 @@ class SheetSearch:
         """The square from which a page is followed."""
         return square_of(page) if self.square is None else self.square
 
-    def frame(self, page: Page, bent: float) -> PaperMap | None:
+    def frame(self, page: Page, bent: float, *, faint: bool = False) -> PaperMap | None:
         """The map by the lines that all sheets have, followed ring by ring; bending is fitted from
         some ring on.
         """
         square = self.square_of(page)
         if square is None:
             return None
-        key = square.tobytes(), bent
+        key = square.tobytes(), bent, faint
         if key not in self.frames:
-            lines = printed_lines(page)
+            lines = printed_lines(page, faint=faint)
             lines = lines.some(lines.shared)
             over = followed(self.smooth, lines, square, self.corners, bent)
             self.frames[key] = held_by_ticks(self.smooth, over, lines, square, self.corners)
@@ -291,7 +297,8 @@ def measure(
     off, found = np.zeros(len(dark)), np.zeros(len(dark), bool)
     for width_of in np.unique(lines.widths):
         rows = lines.widths == width_of
-        off[rows], found[rows] = peaks(dark[rows], across, float(width_of), reach)
+        off[rows], most = peaks(dark[rows], across, float(width_of), reach)
+        found[rows] = most > lines.dark[rows]
     return MeasuredLines(lines, off + about, found & inside, inside)
 
 
@@ -380,7 +387,7 @@ def standing(dark: Any, width: float) -> Any:
 
 
 def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]:
-    """Where a dark line of a width stands out most in profiles, and whether one does."""
+    """Where a dark line of a width stands out most in profiles, and how much; 0 at their ends."""
     half = max(round(width / 2 / STEP), 1)
     stands = standing(dark, width)
     stands[:, abs(across) > reach] = -1.0
@@ -393,7 +400,7 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
     total = weight.sum(axis=1)
     centre = (weight * across[window]).sum(axis=1) / np.maximum(total, 1e-9)
     edge = abs(across[best]) > reach - STEP / 2
-    return centre, (stands[rows, best] > DARK * min(width / FULL, 1.0)) & (total > 0) & ~edge
+    return centre, np.where((total > 0) & ~edge, stands[rows, best], 0.0)
 
 
 class MapFit:
