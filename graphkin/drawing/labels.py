@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
@@ -71,8 +72,9 @@ class FieldContent(Struct):
 
     @property
     def most_notes(self) -> int:
-        """How many lines of notes may stand at its foot."""
-        return max(int(FOOT * (self.rect[3] - self.rect[1]) / LEADING), 2)
+        """How many lines of notes may stand at its foot; of a small field, as many as there are."""
+        lines = int(FOOT * (self.rect[3] - self.rect[1]) / LEADING)
+        return lines if lines > 1 else sys.maxsize
 
     def finish(self, made: tuple[list[Mark], list[Spot]] | None = None) -> list[Mark]:
         """The marks with every label at a free place; in a crowd, key numbers with a legend.
@@ -225,7 +227,7 @@ def foot_overflows(board: FieldContent, notes: Sequence[str]) -> bool:
 def note_lines(notes: Sequence[str], width: float) -> list[str]:
     """Notes in lines of a width in mm, cut between notes if that will do, else between words."""
     lines = flowed(notes, "; ", width, 2.5)
-    if max(extent(line, 2.5)[0] for line in lines) > width:
+    if max((extent(line, 2.5)[0] for line in lines), default=0.0) > width:
         lines = flowed(words_of("; ".join(notes)), " ", width, 2.5)
     return lines
 

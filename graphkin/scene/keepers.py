@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from graphkin.scene.expression import Pair as Sum
 from graphkin.scene.findings import numbered, shown
+from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
@@ -28,7 +29,6 @@ from graphkin.scene.model import (
     of_one_size,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.scene.read_cams import next_name
 
 ON_LINE = 1e-12
 """How far beside a track, in parts of the way along it, a point still lies on it."""

@@ -65,3 +65,11 @@ def check_guide(
                 if joint.on != FRAME:
                     hint += f", with on = {quoted(link.name)}"
                 findings.add(f"{place}.along", found, listed(on.points), hint)
+
+
+def next_name(links: Collection[str]) -> str:
+    """A name for an equivalent link: the next number after the others', or a letter of its own."""
+    if all(name.isdigit() for name in links):
+        return str(max(map(int, links)) + 1)
+    letters = ("e", *(f"e{number}" for number in range(2, len(links) + 2)))
+    return next(letter for letter in letters if letter not in links)

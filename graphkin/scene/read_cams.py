@@ -8,7 +8,7 @@ pin of it: the frame, or an arm that turns about a cam at rest.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
 from graphkin.scene.findings import Table, listed, nearest, numbered, shown
-from graphkin.scene.known_names import named
+from graphkin.scene.known_names import named, next_name
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
@@ -165,14 +165,6 @@ def conjugate_of(
         findings.add(own.at("at"), shown(at), listed(free) or "another point of the follower")
         return None
     return Conjugate(at, roller)
-
-
-def next_name(links: Collection[str]) -> str:
-    """A name for an equivalent link: the next number after the others', or a letter of its own."""
-    if all(name.isdigit() for name in links):
-        return str(max(map(int, links)) + 1)
-    letters = ("e", *(f"e{number}" for number in range(2, len(links) + 2)))
-    return next(letter for letter in letters if letter not in links)
 
 
 def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:

@@ -8,9 +8,8 @@ from itertools import combinations
 
 from msgspec.structs import replace
 
-from graphkin.scene.known_names import named, quoted
+from graphkin.scene.known_names import named, next_name, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
-from graphkin.scene.read_cams import next_name
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
     CoupledTrain,
