@@ -132,10 +132,10 @@ def same_line(link: Link, one: Rolling, other: Rolling, measures: Measures) -> b
     heights = height_on(link, one), height_on(link, other)
     if heights[0] is not None and heights[1] is not None:
         return bool(heights[0].number(measures.values) == heights[1].number(measures.values))
-    places = [written_place(link, each.through, measures) for each in (one, other)]
-    if None in places:
+    first, second = (written_place(link, each.through, measures) for each in (one, other))
+    if first is None or second is None:
         return False
-    way = (places[1] - places[0]) / complex(one.angle.direction(measures.values))  # type: ignore[operator]
+    way = (second - first) / complex(one.angle.direction(measures.values))
     return bool(abs(way.imag) <= ON_LINE * abs(way))
 
 

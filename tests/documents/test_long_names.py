@@ -32,7 +32,7 @@ def test_long_names_cross_no_line_of_a_table(text, language):
 
 def test_a_name_too_long_to_be_drawn_is_told_in_one_line():
     drawings = drawings_from(NAMED.format(crank="C" * 40, rocker="R" * 40))
-    told = r"calculation: does not fit: C{40}R{40} =.*; shorten the names"
+    told = "does not fit: C{40}R{40} =; expected a shorter relation; shorten the names"
     with pytest.raises(PageError, match=told):
         calculation(drawings, "key")
 
