@@ -21,6 +21,7 @@ from graphkin.reading.point_search import (
     DRAWINGS,
     DRAWN,
     FITS,
+    JOINS,
     SAME,
     SURE,
     PointSearch,
@@ -181,7 +182,7 @@ class PointReader(PointSearch):
             return False
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         if self.is_one_with_another(number, place):
-            return there > here - RIVAL
+            return there > here - RIVAL - JOINS  # the other's lines join its own there
         if far.cover < WHOLE:
             return False
         if far.count < MEET and self.agreement(number, far.place) < WHOLE:
