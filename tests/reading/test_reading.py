@@ -569,7 +569,12 @@ def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: 
         reader.readings = {n: point(n, ask=False) for n in (a, t)}
         reader.next = reader.drawings = reader.ahead({})
         own = ExpectedPlace(places[b], np.eye(2) * 0.05)
-        assert reader.has_rival(b, places[b], own) is rival
+        found = reader.rival(b, places[b], own)
+        assert (found is not None) is rival
+        told = reader.read_point(b, own, own)
+        assert told.ask is rival
+        assert told.at is not None
+        assert abs(complex(*told.at) - (apart[1] if rival else places[b])) < 3
 
 
 def test_rays_end_where_the_field_does(a_class: Path, code: str) -> None:
