@@ -253,9 +253,7 @@ class PointSearch:
     # --- near what is expected --------------------------------------------------------------------
 
     def best_near(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
-        """The best crossing of what leads to a point near where it is expected; where none fits,
-        the end of a single line that does.
-        """
+        """The best crossing of what leads to a point near where it is expected."""
         lines = [
             some
             for leading in self.sheet.leading[number]
@@ -276,13 +274,7 @@ class PointSearch:
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
                     if score > most:
                         best, most = found, score
-        if best is not None and where.away(best.place, best.error) <= FITS:
-            return best
-        end = self.end_near(number, lines, where)
-        if best is None or end is None:
-            return best or end
-        told = (end.ends or end.count > 1) and self.agreement(number, end.place) >= DRAWN
-        return end if told and where.away(end.place, end.error) <= FITS else best
+        return best or self.end_near(number, lines, where)
 
     def end_near(
         self, number: int, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace

@@ -20,7 +20,6 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
-from graphkin.numbers.plane import Line
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
@@ -530,30 +529,6 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     some = next(iter(behind & {*sheet.points}))
     reader.readings[some] = point(some)
     assert reader.told(number, key, own, read).ask
-
-
-def test_a_line_that_ends_as_expected_counts_where_another_crosses_it_elsewhere(
-    a_class: Path, code: str
-) -> None:
-    sheet = velocity_of(a_class, code)
-    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
-    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
-    a, o = (complex(sheet.place(n, values[n])) for n in (number, pole))
-    way = (a - o) / abs(a - o)
-    line = next(
-        each.far
-        for each in sheet.leading[number]
-        if each.after and isinstance(values[each.far], Line)
-    )
-    along = values[line].along.conjugate() / abs(values[line].along)
-    stray = a - 2.5 * way - 20 * along, a - 2.5 * way + 20 * along
-    where = ExpectedPlace(a, np.eye(2) * 0.1)
-    for lines in (((o, a),), ((o, a), stray)):
-        search = PointSearch(sheet, ink_of(*lines), Pencil(0.4, 0.4))
-        search.next = search.drawings = search.ahead({})
-        found = search.best_near(number, where)
-        assert found is not None
-        assert abs(found.place - a) < 1
 
 
 def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: Path) -> None:
