@@ -169,7 +169,7 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
     least = np.inf
     for signs in sign_table(len(trying.signs)):
         rows = np.broadcast_to(np.array(signs, dtype=float), (len(tried), len(signs)))
-        missed = np.abs(trying.misfits(here, tried[:, None], rows))
+        missed = np.abs(trying.misfits(here, tried[:, None], rows)[:, 0])
         least = np.nanmin(missed, initial=least)
     if not np.isfinite(least):
         return ", wherever the first of them is tried"

@@ -5,17 +5,13 @@ import cmath
 import numpy as np
 import pytest
 
-from graphkin.construction.higher_class.flat_dyads import fits_beside
-from graphkin.construction.higher_class.trial_windows import (
-    Windows,
-    arcs_reach,
-    line_reached,
-    narrowed,
-    swing_reached,
-)
+from graphkin.construction.guides.dyad_by_arc_and_guide import line_reached
+from graphkin.construction.guides.swung_guide import swing_reached
 from graphkin.construction.links.counted_turn import counted_near
+from graphkin.construction.links.dyad_by_arcs import arcs_reach
 from graphkin.numbers.plane import Circle, Line, circle_meets_circle, line_meets_circle
 from graphkin.numbers.roots import roots
+from graphkin.numbers.windows import Windows, fits_beside, narrowed
 
 GRID = np.linspace(0, 10, 101)[None, :]
 

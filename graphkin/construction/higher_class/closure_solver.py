@@ -14,12 +14,12 @@ from msgspec import Struct
 
 from graphkin.construction.core.program import CLOSE, Step
 from graphkin.construction.core.vocabulary import Action
-from graphkin.construction.higher_class.flat_dyads import fits_beside
 from graphkin.construction.higher_class.trial import MOST, Trial
-from graphkin.construction.higher_class.trial_windows import Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
+from graphkin.numbers.common_roots import solutions
 from graphkin.numbers.kinds import kind_of
 from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
+from graphkin.numbers.windows import Windows, fits_beside, narrowed
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
@@ -158,15 +158,14 @@ class Trying(Trial, frozen=True, dict=True):
         import numpy as np
 
         size = len(known[0]) if known else 1
-        reach = None if self.first.turns else self.reaches(known, size)
         windows = Windows(np.arange(size), self.shares(known, size))
-        found = zip(*self.fits(known, reach, (), windows), strict=True)
+        found = zip(*self.fits(known, self.scales(known, size), (), windows), strict=True)
         return self.ordered(known, size, *(np.concatenate(column) for column in found))
 
     def fits(
         self,
         known: Sequence[Any],
-        reach: Any,
+        scales: Any,
         signs: tuple[int, ...],
         windows: Windows,
     ) -> Iterator[tuple[Any, Any, Any, Any]]:
@@ -178,8 +177,8 @@ class Trying(Trial, frozen=True, dict=True):
         import numpy as np
 
         def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
-            tried = share if reach is None else self.along(share, reach[owner])
-            return [array[owner] for array in known], tried[:, None], rows
+            tried = self.valued(share[:, None], scales[owner])
+            return [array[owner] for array in known], tried, rows
 
         def alike(owner: Any) -> Any:
             return np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
@@ -189,7 +188,7 @@ class Trying(Trial, frozen=True, dict=True):
             owner, places = windows
 
             def missing(row: Any, at: Any) -> Any:
-                return self.misfits(*trial(owner[row], at, alike(row)))
+                return self.misfits(*trial(owner[row], at, alike(row)))[:, 0]
 
             found = [roots_and_touches(missing, places)]
             for n in range(len(self.crossings)):
@@ -213,13 +212,13 @@ class Trying(Trial, frozen=True, dict=True):
 
             def missed(row: Any, share: Any, sign: Any) -> Any:
                 rows = np.column_stack([alike(row), sign, later[row]])
-                return self.misfits(*trial(owner[row], share, rows))
+                return self.misfits(*trial(owner[row], share, rows))[:, 0]
 
             row, share, sign, touching = fits_beside(missed, at, beside)
             rows = np.column_stack([alike(row), sign, later[row]])
             yield owner[row], trial(owner[row], share, rows)[1], rows, touching
         for sign in (1, -1):
-            yield from self.fits(known, reach, (*signs, sign), windows)
+            yield from self.fits(known, scales, (*signs, sign), windows)
 
     def ordered(
         self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any, touching: Any
@@ -284,12 +283,7 @@ def crossing_sines(misfits: Any, ways: Any) -> Any:
             way[:, k] = 1
             if k + 1 < size:
                 inner = misfits[:, k + 1 :, k + 1 :]
-                good = np.isfinite(inner).all(axis=(1, 2)) & (
-                    abs(np.linalg.det(np.where(np.isfinite(inner), inner, 0))) > 0
-                )
-                inner = np.where(good[:, None, None], inner, np.eye(size - k - 1))
-                led = np.linalg.solve(inner, -misfits[:, k + 1 :, k, None])[..., 0]
-                way[:, k + 1 :] = np.where(good[:, None], led, np.nan)
+                way[:, k + 1 :] = solutions(inner, -misfits[:, k + 1 :, k])
             across = abs((misfits[:, k] * way).sum(axis=1))
             sine = np.minimum(across / abs((ways[:, k] * way).sum(axis=1)), 1.0)
             least = np.minimum(least, np.where(np.isfinite(sine), sine, 0.0))

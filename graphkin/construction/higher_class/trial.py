@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
+from math import pi
 from typing import Any
 
 from msgspec import Struct
@@ -12,7 +13,6 @@ from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_m
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Values
 from graphkin.construction.core.vocabulary import meet
-from graphkin.construction.higher_class.trial_windows import REACHES
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.numbers.plane import cross
 
@@ -20,6 +20,8 @@ SAMPLES = 360
 """Trial positions of a round."""
 MOST = 400_000
 """Trial positions run at once."""
+START = 0.123e-3
+"""The angle with which a round begins: not one at which a link is drawn."""
 A_TURN = 24
 """Trial positions for each turn of a wheel on its track."""
 FAR = 1.565
@@ -42,6 +44,25 @@ class Unknown(Struct, frozen=True):
     facing: int | None = None
     reach: int | None = None
     rim: int | None = None
+
+    @property
+    def is_guided(self) -> bool:
+        """Whether it is tried to both ends of a guide: other guides may lead the link farther than
+        bars reach."""
+        return not self.turns and self.rim is None
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """Where its shares begin and how far they go: a round, a guide, a way along a track."""
+        if self.turns:
+            return START, 2 * pi
+        return (-FAR, 2 * FAR) if self.rim is None else (-1.0, 2.0)
+
+    def valued(self, share: Any, scale: Any) -> Any:
+        """Its trial values from shares: angles, or coordinates in parts of how far they reach."""
+        import numpy as np
+
+        return scale * (np.tan(share) if self.is_guided else share)
 
 
 class Trial(Struct, frozen=True, dict=True):
@@ -85,37 +106,57 @@ class Trial(Struct, frozen=True, dict=True):
         """The steps whose values come from outside."""
         return frozenset((*self.inputs, *(one.tried for one in self.unknowns), *self.signs))
 
+    def readied(self, keep: tuple[int, ...]) -> Ready:
+        """The part of the program that gives some steps, made ready for arrays of trials."""
+        needed = self.program.behind(keep)
+        return made_ready(self.program, needed, self.values, keep, self.outside)
+
     @cached_property
     def ready(self) -> Ready:
-        """The program made ready for arrays of trials."""
-        needed = self.program.behind(self.results)
-        return made_ready(self.program, needed, self.values, self.results, self.outside)
+        """What gives all results."""
+        return self.readied(self.results)
+
+    @cached_property
+    def missing(self) -> Ready:
+        """What gives the misfits."""
+        return self.readied(tuple(one.misfit for one in self.unknowns))
+
+    def run(self, ready: Ready, known: Sequence[Any], tried: Any, signs: Any) -> Mapping[int, Any]:
+        """What a part of the program gives for arrays of trial values and of signs."""
+        import numpy as np
+
+        overrides = self.overrides(known, tried, signs)
+        with np.errstate(all="ignore"):
+            return run_moving(ready, self.values, batch_kind(), overrides=overrides).values
 
     def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """The results for arrays of trial values and of signs, known values given per element."""
         import numpy as np
 
-        overrides = self.overrides(known, tried, signs)
-        with np.errstate(all="ignore"):
-            trace = run_moving(self.ready, self.values, batch_kind(), overrides=overrides)
-        return {n: np.broadcast_to(trace.values[n], len(tried)) for n in self.results}
+        found = self.run(self.ready, known, tried, signs)
+        return {n: np.broadcast_to(found[n], len(tried)) for n in self.results}
+
+    def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """The misfits alone (K, n); NaN where the chain cannot be drawn."""
+        import numpy as np
+
+        found = self.run(self.missing, known, tried, signs)
+        each = (np.broadcast_to(found[one.misfit], len(tried)) for one in self.unknowns)
+        return np.stack([*each], axis=1)
 
     @cached_property
     def choices(self) -> tuple[tuple[Ready, Any, tuple[int, ...]] | None, ...]:
         """For each sign: what its dyad is drawn of, made ready, and how far that reaches."""
         found: list[tuple[Ready, Any, tuple[int, ...]] | None] = []
         for sign in self.signs:
-            drawn = [(e.action.value, e.args) for e in self.program.steps if e.action is not None]
-            value, args = next(
-                ((v, args) for v, args in drawn if sign in args and v in REACHES), (None, ())
-            )
-            if value is None:
+            steps = (each for each in self.program.steps if sign in each.args)
+            drawn = ((each.action.reaches, each.args) for each in steps if each.action is not None)
+            reaches, args = next((each for each in drawn if each[0] is not None), (None, ()))
+            if reaches is None:
                 found.append(None)
                 continue
             args = tuple(arg for arg in args if arg != sign)
-            needed = self.program.behind(args)
-            ready = made_ready(self.program, needed, self.values, args, self.outside)
-            found.append((ready, REACHES[value], args))
+            found.append((self.readied(args), reaches, args))
         return tuple(found)
 
     def drawable(self, k: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
@@ -125,12 +166,9 @@ class Trial(Struct, frozen=True, dict=True):
         choice = self.choices[k]
         assert choice is not None
         ready, reaches, args = choice
+        found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
-            trace = run_moving(
-                ready, self.values, batch_kind(), overrides=self.overrides(known, tried, signs)
-            )
-            found = reaches(*(trace.values[arg] for arg in args))
-        return np.broadcast_to(found, len(tried))
+            return np.broadcast_to(reaches(*(found[arg] for arg in args)), len(tried))
 
     @cached_property
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
@@ -139,9 +177,7 @@ class Trial(Struct, frozen=True, dict=True):
         for number in self.program.behind((self.first.misfit,)):
             step = self.program.steps[number]
             if step.action is not None and step.action.value is meet.value:
-                needed = self.program.behind(step.args)
-                ready = made_ready(self.program, needed, self.values, step.args, self.outside)
-                found.append((ready, step.args))
+                found.append((self.readied(step.args), step.args))
         return tuple(found)
 
     def crossing(self, n: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
@@ -149,12 +185,10 @@ class Trial(Struct, frozen=True, dict=True):
         import numpy as np
 
         ready, args = self.crossings[n]
-        overrides = self.overrides(known, tried, signs)
+        found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
-            trace = run_moving(ready, self.values, batch_kind(), overrides=overrides)
-            first, second = (trace.values[arg] for arg in args)
-            found = cross(first.along, second.along)
-        return np.broadcast_to(found, len(tried))
+            first, second = (found[arg] for arg in args)
+            return np.broadcast_to(cross(first.along, second.along), len(tried))
 
     def overrides(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """What the program takes from outside; the signs may be only the first few."""
@@ -165,20 +199,22 @@ class Trial(Struct, frozen=True, dict=True):
             found[one.tried] = np.exp(1j * each) if one.turns else each
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
 
-    def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """The misfit alone; NaN where the chain cannot be drawn."""
-        return self.found(known, tried, signs)[self.first.misfit]
-
     # --- where it is tried ---------------------------------------------------------------------
 
-    def along(self, share: Any, reach: Any) -> Any:
-        """A trial value from a share: a way along a track in parts of its reach.
-
-        A guide is tried to both ends, as other guides may lead the link farther than bars reach.
-        """
+    def scales(self, known: Sequence[Any], size: int) -> Any:
+        """What the trial values of each element are measured by, a column for each unknown: for
+        coordinates how far (m) they may have to be tried, as bars allow."""
         import numpy as np
 
-        return reach * (share if self.first.rim is not None else np.tan(share))
+        each = (1.0 if u.reach is None else self.at_start(known, u.reach) for u in self.unknowns)
+        return np.stack([np.broadcast_to(scale, size) for scale in each], axis=1)
+
+    def valued(self, share: Any, scale: Any) -> Any:
+        """Trial values from shares, both with a column for each unknown."""
+        import numpy as np
+
+        columns = zip(self.unknowns, share.T, scale.T, strict=True)
+        return np.stack([one.valued(*each) for one, *each in columns], axis=1)
 
     def shares(self, known: Sequence[Any], size: int) -> Any:
         """Where each element is tried: angles of a round, or shares of a way to both sides."""
@@ -189,7 +225,8 @@ class Trial(Struct, frozen=True, dict=True):
         if self.first.rim is None:
             row = np.linspace(-FAR, FAR, 3 * SAMPLES + 1)
         else:
-            turns = np.nanmax(abs(self.reaches(known, size) / self.at_start(known, self.first.rim)))
+            reach = self.scales(known, size)[:, 0]
+            turns = np.nanmax(abs(reach / self.at_start(known, self.first.rim)))
             count = np.clip(A_TURN * turns / np.pi, 2 * SAMPLES, MOST // 4)
             row = np.linspace(-1, 1, int(np.nan_to_num(count, nan=2 * SAMPLES)) + 1)
         return np.broadcast_to(row, (size, len(row)))
@@ -207,16 +244,9 @@ class Trial(Struct, frozen=True, dict=True):
         import numpy as np
 
         if self.first.turns:
-            round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + 0.123e-3
+            round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + START
             return np.broadcast_to(round_, (size, SAMPLES + 1))
-        return self.reaches(known, size)[:, None] * np.linspace(-1, 1, 2 * SAMPLES + 1)
-
-    def reaches(self, known: Sequence[Any], size: int) -> Any:
-        """How far a coordinate of each element may have to be tried (m), as bars allow."""
-        import numpy as np
-
-        assert self.first.reach is not None
-        return np.broadcast_to(self.at_start(known, self.first.reach), size)
+        return self.scales(known, size) * np.linspace(-1, 1, 2 * SAMPLES + 1)
 
     def at_start(self, known: Sequence[Any], step: int) -> Any:
         """A step that does not hang on what is tried."""
