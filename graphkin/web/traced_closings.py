@@ -13,13 +13,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.batch import made_ready, run_moving
-from graphkin.construction.higher_class.refined_trials import slopes, solved
 from graphkin.construction.tape.emit import LOOP, value
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
 from graphkin.numbers.arithmetic import phase
+from graphkin.numbers.refined_roots import slopes, solved
 
 TRIES = 24
 """Steps along the secant, at most."""

@@ -15,12 +15,12 @@ from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.construction.higher_class.refined_trials import determinant, refined, solved
-from graphkin.construction.higher_class.refining import in_doubles
+from graphkin.construction.higher_class.refining import refined
 from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.kinds import ball_kind, decimal_kind
+from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
+from graphkin.numbers.refined_roots import determinant, solved
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
 from tests.construction.rods import rods_of

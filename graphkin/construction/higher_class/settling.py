@@ -11,9 +11,8 @@ from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.higher_class.closure_solver import MergingError, Trying, closer_of
 from graphkin.construction.higher_class.merging import merged
-from graphkin.construction.higher_class.refining import in_doubles
 from graphkin.numbers.arithmetic import FLOAT
-from graphkin.numbers.kinds import ball_kind
+from graphkin.numbers.kinds import ball_kind, in_doubles
 from graphkin.scene.model import Scene
 
 BITS = (128, 256, 512, 1024)

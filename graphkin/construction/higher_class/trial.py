@@ -1,4 +1,5 @@
-"""The trial of a group of class III or higher: a program of its own, run on arrays of trials."""
+"""The trial of a group of class III or higher: a program of its own, run on arrays of trials, or on
+one scene in any kind of number."""
 
 from __future__ import annotations
 
@@ -11,9 +12,10 @@ from msgspec import Struct
 
 from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_moving
 from graphkin.construction.core.program import Program
-from graphkin.construction.core.run import Values
+from graphkin.construction.core.run import StepFailed, Values, run
 from graphkin.construction.core.vocabulary import meet
-from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arithmetic import Kind, batch_kind, turn_by
+from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
 
 SAMPLES = 360
@@ -259,3 +261,74 @@ class Trial(Struct, frozen=True, dict=True):
                 self.program, needed, self.values, batch_kind(), (step,), overrides=overrides
             )
         return trace.values[step]
+
+
+class TrialChain:
+    """The trial chain of a group on one scene: its misfits at trial values, in a kind."""
+
+    def __init__(self, trial: Trial, known: Sequence[Any], signs: Sequence[float], kind: Kind):
+        self.trial, self.kind, self.signs = trial, kind, signs
+        self.known = dict(zip(trial.inputs, known, strict=True))
+        self.needed: dict[tuple[int, ...], tuple[int, ...]] = {}
+
+    def misfits(self, tried: Sequence[Any], known: Mapping[int, Any] | None = None) -> list[Any]:
+        """By how much each group misses; ValueError where the chain cannot be drawn."""
+        unknowns = self.trial.unknowns
+        facing = [one.facing for one in unknowns if one.facing is not None]
+        found = self.drawn(tried, (*(one.misfit for one in unknowns), *facing), known)
+        if not all(each > 0 for each in found[len(unknowns) :]):
+            raise ValueError("the last link does not surely face the right way")
+        return found[: len(unknowns)]
+
+    def middles(self, tried: Sequence[Any]) -> list[Any]:
+        """The middles of the misfits, in balls, of the middles of what is known."""
+        known = {number: middle(value) for number, value in self.known.items()}
+        return [middle(each) for each in self.misfits(tried, known)]
+
+    def drawn(
+        self, tried: Sequence[Any], wanted: tuple[int, ...], known: Mapping[int, Any] | None = None
+    ) -> list[Any]:
+        """The values of some steps at trial values; ValueError where they cannot be drawn."""
+        trial = self.trial
+        overrides = dict(self.known if known is None else known)
+        for one, each in zip(trial.unknowns, tried, strict=True):
+            overrides[one.tried] = turn_by(each) if one.turns else each
+        overrides |= dict(zip(trial.signs, self.signs, strict=True))
+        if wanted not in self.needed:
+            self.needed[wanted] = trial.program.behind(wanted)
+        needed = self.needed[wanted]
+        try:
+            trace = run(trial.program, needed, trial.values, self.kind, overrides=overrides)
+        except StepFailed as failed:
+            raise ValueError("the chain of the trial cannot be drawn") from failed
+        return [trace.values[n] for n in wanted]
+
+    # --- of one link that is tried ---------------------------------------------------------------
+
+    def misfit(self, tried: Any) -> Any:
+        """By how much the last link misses; ValueError where the chain cannot be drawn."""
+        return self.misfits((tried,))[0]
+
+    def middle_misfit(self, tried: Any) -> Any:
+        """The middle of the misfit, in balls, of the middles of what is known."""
+        return self.middles((tried,))[0]
+
+    def axes(self, tried: Any) -> list[Any]:
+        """The axes of the links in the order in which closures are numbered."""
+        return self.drawn((tried,), self.trial.axes)
+
+    def locus(self, tried: Any) -> Any:
+        """The point that moves as the link is tried."""
+        return self.drawn((tried,), (self.trial.first.locus,))[0]
+
+    def reach(self, k: int, tried: Any) -> Any:
+        """How far the dyad of a sign can be drawn, positive where it can: its middle, in balls."""
+        choice = self.trial.choices[k]
+        assert choice is not None
+        _, reaches, args = choice
+        return middle(reaches(*self.drawn((tried,), args)))
+
+    def with_sign(self, k: int, sign: float) -> TrialChain:
+        """The same with another sign of a dyad."""
+        signs = [*self.signs[:k], sign, *self.signs[k + 1 :]]
+        return TrialChain(self.trial, tuple(self.known.values()), signs, self.kind)
