@@ -187,7 +187,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         program, values = self.program, self.scene.values
         if not self.is_of_higher_class:
             return run(program, needed, values, FLOAT, overrides=overrides, begun=begun)
-        from graphkin.construction.higher_class.settling import run_settled
+        from graphkin.construction.higher_class.closure_solver import run_settled
 
         return run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
 

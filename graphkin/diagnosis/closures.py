@@ -14,8 +14,7 @@ from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed, Trace
-from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.construction.higher_class.settling import run_settled, ways
+from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin, contacts

@@ -85,7 +85,7 @@ def test_a_trial_lies_within_a_trial(name):
     assert isinstance(group, Higher)
     outer, inner = group.nested
     assert {*inner.links} < {*outer.links}
-    assert outer.trial.link not in inner.links
+    assert outer.tried.link not in inner.links
     assert group.order == (4, 4)
     assert len({*group.links}) == len(group.links) == 8
     twice = [*constructions(mechanism(name).program, TwoTrials)]

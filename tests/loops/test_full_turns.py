@@ -51,7 +51,7 @@ def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first():
     frame, one, two, rest = re.split(r"(?=\[links\.[123]\])", text)
     swapped = "".join([frame, two, one, rest])
     for each in (text, swapped):
-        assert Mechanism(read_text(each, "made")).groups[1].trial.link == "2"
+        assert Mechanism(read_text(each, "made")).groups[1].tried.link == "2"
     with pytest.raises(ClosureError, match="close in 6 ways"):
         Mechanism(read_text(swapped.replace("closure 1", "closure 99"), "made")).solve()
 

@@ -54,7 +54,7 @@ class ClosedGroup(Construction, frozen=True):
     @property
     def found_link(self) -> str:
         """The link that is tried."""
-        return self.group.trial.link
+        return self.group.tried.link
 
     # --- where it is cut -------------------------------------------------------------------------
 
@@ -113,7 +113,7 @@ class ClosedGroup(Construction, frozen=True):
         if role != "closing":
             return ""
         listed = escape(", ".join(seen(drawing, self.closes)))
-        (tried,) = seen(drawing, [self.group.trial.link])
+        (tried,) = seen(drawing, [self.group.tried.link])
         fields = {"k": escape(tried), "n": str(self.number), "list": listed}
         if self.driver is not None:
             fields["what"] = angle_symbol(drawing.scene, self.driver)
@@ -148,7 +148,7 @@ class ClosedGroup(Construction, frozen=True):
                     cut = bar(p, q)
                 case Tie(first=Pin(point=p)):
                     cut = symbol(p)
-            (tried,) = seen(drawing, [one.trial.link])
+            (tried,) = seen(drawing, [one.tried.link])
             drawn = (link for each in one.chain for link in each.links)
             listed = escape(", ".join(seen(drawing, drawn)))
             yield drawing.words("step.close-within", k=escape(tried), list=listed, cut=cut)

@@ -6,20 +6,23 @@ arrays of trial positions, brackets every fit and closes in on it. Its derivativ
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from graphkin.construction.core.program import CLOSE, Step
+from graphkin.construction.core.program import CLOSE, Program, Step
+from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.numbers.arithmetic import FLOAT, phase
 from graphkin.numbers.common_roots import solutions
-from graphkin.numbers.kinds import kind_of
+from graphkin.numbers.kinds import ball_kind, in_doubles, kind_of
 from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
 from graphkin.numbers.windows import Windows, fits_beside, narrowed
+from graphkin.scene.model import Scene
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
@@ -32,6 +35,10 @@ STEP = 1e-6
 
 HIDDEN = 1e-6
 """Sine of crossing below which what doubles take for one closure may be two, or none."""
+
+
+BITS = (128, 256, 512, 1024)
+"""Bits of the balls that are asked one after the other."""
 
 
 class ClosingError(ValueError):
@@ -296,6 +303,13 @@ def closer_of(step: Step) -> ClosureSolver | None:
     return value if isinstance(value, ClosureSolver) else None
 
 
+def closing(step: Step) -> ClosureSolver:
+    """What closes the group of a step that closes one."""
+    closer = closer_of(step)
+    assert closer is not None
+    return closer
+
+
 class ClosureSolver(Struct, frozen=True):
     """What closes a group in the closure of a number, counted from one."""
 
@@ -386,3 +400,75 @@ def sign_table(count: int) -> list[tuple[int, ...]]:
     for _ in range(count):
         rows = [(*row, sign) for row in rows for sign in (1, -1)]
     return rows
+
+
+# --- where rounding leaves open how many closures there are, balls decide ------------------------
+
+
+def run_settled(
+    scene: Scene,
+    program: Program,
+    needed: Sequence[int],
+    *,
+    overrides: Mapping[int, Any] | None = None,
+    begun: Trace | None = None,
+) -> Trace:
+    """As run, in doubles. Raises StepFailed, of MergingError where balls do not decide either."""
+    while True:
+        try:
+            return run(program, needed, scene.values, FLOAT, overrides=overrides, begun=begun)
+        except StepFailed as failed:
+            if not isinstance(failed.__cause__, MergingError):
+                raise
+            if not newly_settled(scene, program, failed):
+                raise
+
+
+def ways(scene: Scene, program: Program, number: int, known: Sequence[Any]) -> int:
+    """In how many ways a step closes its group on known floats; how many of them are sure to come
+    before two that merge, where balls do not decide whether these have."""
+    step = program.steps[number]
+    trying = closing(step).trying
+    closures = trying.closures_of(known)
+    sure = closures.before(0)
+    if closures.merging_at(sure + 1) is None:
+        return sure
+    settle(scene, program, step, tuple(known))
+    found = trying.settled[tuple(known)]
+    return sure if found is None else len(found)
+
+
+def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
+    """Whether balls now tell the closures of a group and were not asked before."""
+    known, settled = failed.args_found, closing(failed.step).trying.settled
+    if known in settled:
+        return False
+    settle(scene, program, failed.step, known)
+    return settled[known] is not None
+
+
+def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -> None:
+    """Let the trial of a step keep what balls tell of its closures on known floats."""
+    from graphkin.construction.higher_class.merging import merged
+
+    trying = closing(step).trying
+    closures, found = trying.closures_of(known), None
+    before = replace(program, targets={("", str(n)): n for n in step.args})
+    needed = before.needed(before.targets)
+    for bits in () if trying.several else BITS:
+        kind = ball_kind(bits)
+        with kind.working():
+            try:
+                values = run(before, needed, scene.values_in(kind), kind).values
+                found = merged(trying, [values[n] for n in step.args], closures, kind)
+                break
+            except (StepFailed, ValueError):
+                continue
+    trying.settled[known] = (
+        None
+        if found is None
+        else [
+            trying.polished(known, (0, in_doubles(one.tried), *one.signs, in_doubles(one.sine)))
+            for one in found
+        ]
+    )

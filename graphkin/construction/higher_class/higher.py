@@ -181,7 +181,7 @@ def build(
 
 def place_trial(pen: Pen, shapes: LinkShapes, group: Higher, tried: int) -> None:
     """The tried link: turned about its pin, or set along its guide or track."""
-    trial, (base,) = group.trial, bases(pen.scene, group.trial)
+    trial, (base,) = group.tried, bases(pen.scene, group.tried)
     pen.bases[trial.link] = base
     match trial.pair:
         case Pin(point=pivot):
@@ -208,7 +208,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
 
     build(fork, shapes, group, each, iter(tried), closed)
     unknowns = [
-        Unknown(number, isinstance(one.trial.pair, Pin), *ends[one.links])
+        Unknown(number, isinstance(one.tried.pair, Pin), *ends[one.links])
         for one, number in zip(group.nested, tried, strict=True)
     ]
     with fork.on(Part.POSITION, Plane.NUMBERS):
@@ -246,7 +246,7 @@ def fitting(
     pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher
 ) -> tuple[int, int, int | None, int | None, int | None]:
     """What closes a group of a ``whole``: misfit, locus, what faces, and how far it is tried."""
-    fit, pair = misfit(pen, shapes, group), group.trial.pair
+    fit, pair = misfit(pen, shapes, group), group.tried.pair
     if isinstance(pair, Pin):
         return fit.size, fit.locus, fit.facing, None, None
     far = reach_of(pen, shapes, group) if group is whole else span_of(pen, shapes, whole)
@@ -300,10 +300,10 @@ def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
             guide = standing_guide(pen, shapes, slide_of(pen, driver))
             first = pen.the("position", pen.scene.link(driver.link).points[0])
             found = pen.draw(less, pen.draw(coordinate, guide, first), pen.drive(driver).position)
-            return Misfit(found, tried_point(pen, group.trial))
+            return Misfit(found, tried_point(pen, group.tried))
         case Driver() as driver:
             found = pen.draw(less, pen.the("rolled", driver.link), pen.drive(driver).position)
-            return Misfit(found, tried_point(pen, group.trial))
+            return Misfit(found, tried_point(pen, group.tried))
     raise AssertionError(group.last)
 
 
@@ -323,10 +323,10 @@ def turn_misfit(pen: Pen, shapes: LinkShapes, driver: Driver, group: Higher) -> 
         lead = pen.draw(turned_back, lead, axis(pen, shapes, driver.against))
     wanted = pen.drive(driver).position
     sine = pen.draw(sine_between, lead, wanted)
-    moved = axis(pen, shapes, group.trial.link)
-    if not isinstance(group.trial.pair, Pin):
+    moved = axis(pen, shapes, group.tried.link)
+    if not isinstance(group.tried.pair, Pin):
         size = pen.draw(inverse, reach_of(pen, shapes, group))
-        moved = pen.draw(product, tried_point(pen, group.trial), size)
+        moved = pen.draw(product, tried_point(pen, group.tried), size)
     return Misfit(sine, moved, pen.draw(cosine_between, lead, wanted))
 
 
@@ -338,7 +338,7 @@ def slide_of(pen: Pen, driver: Driver) -> Sliding:
 
 def reach_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
     """How far along its guide the tried link may have to be looked for: what lengths allow."""
-    pair = group.trial.pair
+    pair = group.tried.pair
     assert not isinstance(pair, Pin)
     line = led_by(pair).line(pen, shapes)
     lengths = lengths_of(pen, shapes, group)

@@ -357,7 +357,7 @@ def plans_of(
     pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity
 ) -> tuple[TrialPlan, TrialPlan]:
     """The two trial plans of a group; those of one within a group lie within its trial plans."""
-    whole, link = pen.auxiliary, group.trial.link
+    whole, link = pen.auxiliary, group.tried.link
     assert whole is None or isinstance(whole, TrialPlan)
     tag = whole.tag if whole is not None else ""
     with pen.on(Part.SHAPE, Plane.NUMBERS):
@@ -390,11 +390,11 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> i
     a round number takes its place (trial_rates).
     """
     rate = pen.draw(inverse, pen.seconds())
-    turns = isinstance(group.trial.pair, Pin)
+    turns = isinstance(group.tried.pair, Pin)
     bar = None if turns else pen.draw(far, *places_of(pen, group))
     if kind is ACCELERATION:
         with pen.on(kind.part, Plane.NUMBERS):
-            own = omega_of(pen, group.trial.link) if bar is None else slid_rate(pen, group, bar)
+            own = omega_of(pen, group.tried.link) if bar is None else slid_rate(pen, group, bar)
             squares = (pen.draw(product, each, each) for each in (rate, own))
             rate = pen.draw(sum_of, *squares)
     return rate if bar is None else pen.draw(product, rate, bar)
@@ -402,16 +402,16 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> i
 
 def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
-    pair, point = group.trial.pair, pen.bases[group.trial.link].start
+    pair, point = group.tried.pair, pen.bases[group.tried.link].start
     assert not isinstance(pair, Pin)
-    under = image_under(pen, partner(pair, group.trial.link), point)
+    under = image_under(pen, partner(pair, group.tried.link), point)
     speed = pen.draw(distance, under, pen.the("velocity", point))
     return pen.draw(product, speed, pen.draw(inverse, bar))
 
 
 def places_of(pen: Pen, group: CoupledTrain | Higher) -> list[int]:
     """Where the points of a group stand, that of the tried link first."""
-    start = pen.bases[group.trial.link].start
+    start = pen.bases[group.tried.link].start
     points = dict.fromkeys((start, *(p for n in group.links for p in pen.scene.link(n).points)))
     return [pen.the("position", point) for point in points]
 
@@ -420,7 +420,7 @@ def move_trial(
     pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity, value: int
 ) -> None:
     """The tried link in a trial plan."""
-    trial, base = group.trial, pen.bases[group.trial.link]
+    trial, base = group.tried, pen.bases[group.tried.link]
     match trial.pair:
         case Pin(point=pivot):
             pen.want(kind.rate, trial.link, value)
