@@ -151,14 +151,12 @@ def drives_of(
     turned: Turnings,
     numbers: Numbers,
     near: Mapping[str, Real],
-    rolling: Collection[str],
-    *,
-    whole: bool,
+    counted: Collection[str],
 ) -> Drives:
-    """The drivers' equations; ``whole`` where full turns count, too.
+    """The drivers' equations.
 
     ``near`` are the angles (radians) near which links stand whose pins leave whole turns open;
-    those of ``rolling`` links follow from what rolls.
+    full turns count where those of some links, ``counted``, follow from wheels.
     """
     count = len(scene.drivers)
     selects = np.zeros((count, turned.count + len(guides)))
@@ -187,15 +185,15 @@ def drives_of(
     rates = speed, acceleration
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
-    bases = bases_of(scene, turned, near, rolling, numbers)
-    return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
+    bases = bases_of(scene, turned, near, counted, numbers)
+    return Drives(selects[:, 1:], turning, *places, bool(counted), *rates, lifts, bases)
 
 
 def bases_of(
     scene: Scene,
     turned: Turnings,
     near: Mapping[str, Real],
-    rolling: Collection[str],
+    counted: Collection[str],
     numbers: Numbers,
 ) -> tuple[DrivenAgainst, ...]:
     """The links that drivers turn others against, where these turn as one with further links.
@@ -208,7 +206,7 @@ def bases_of(
         k = turned.of[driver.against]
         if driver.kind != "turn" or k in driven or k == turned.of[FRAME]:
             continue
-        if list(turned.of.values()).count(k) > 1 and driver.against not in rolling:
+        if list(turned.of.values()).count(k) > 1 and driver.against not in counted:
             lean, start = turned.angle[driver.against], near.get(driver.against, 0.0)
             found.append(DrivenAgainst(d, k, numbers.reals(lean), numbers.reals(start)))
     return tuple(found)

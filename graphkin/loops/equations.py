@@ -197,7 +197,7 @@ def equations(
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
     near = starting_angles(written, every, numbers)
     turned = standing(turned, near, numbers)
-    rolling = {link for slip in every for link in slip.links}
+    tied = {link for slip in every for link in slip.links}
     counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
@@ -214,7 +214,7 @@ def equations(
         chains=chains,
         closing=tuple(closing),
         slips=packed_slips(slips, counted, turned, guides, numbers),
-        drives=drives_of(scene, bodies, guides, turned, numbers, near, rolling, whole=bool(every)),
+        drives=drives_of(scene, bodies, guides, turned, numbers, near, tied),
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
     )

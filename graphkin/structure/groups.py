@@ -223,7 +223,7 @@ class Unresolved(Struct, frozen=True):
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
     its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
     ``spun`` the first driver that turns one of its links against a known one, about a pin that
-    moves, where wheels roll; ``led`` are drivers, as written, that reach one of them.
+    moves, where there are wheels; ``led`` are drivers, as written, that reach one of them.
     """
 
     links: tuple[str, ...]

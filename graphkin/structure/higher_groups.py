@@ -22,7 +22,7 @@ from graphkin.structure.next_group import (
     settle,
 )
 from graphkin.structure.pairs import Joint, Pin
-from graphkin.structure.wheel_groups import geared_of, turned_by_smaller
+from graphkin.structure.wheel_groups import by_known, turned_by_smaller
 
 MOST_TRIED = 4
 """Links of a group that are tried together at most."""
@@ -112,11 +112,6 @@ def closing(
         return
     higher = Higher(tried, kept.chain, last, ((), ()))
     yield replace(higher, joints=pairs_of(joints, higher, known))
-
-
-def by_known(joints: Joints, wheel: Geared, known: Collection[str]) -> Geared:
-    """A wheel turned by its contact with a known link where it has one, not by way of others."""
-    return geared_of(wheel.link, joints.between(wheel.link, known), known) or wheel
 
 
 def over_given(

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import quoted
+from graphkin.scene.known_names import next_name, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
@@ -230,3 +230,19 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
             there = f"rolls or belt = {{ on = {quoted(link.name)} }} in a link with a wheel"
             here = "" if link.name == FRAME else "rolls or belt = { on, … } in this link, or "
             yield Problem(place, found, here + there)
+
+
+def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
+    """Words for a track that seems to be led by links which hang on it themselves.
+
+    What keeps its wheel where it rolls was not put in, unless a name asks for it.
+    """
+    for name in loose:
+        for rolling in scene.links[name].rolls:
+            if rolling.through and rolling.on != FRAME and not rolling.keeper:
+                called = quoted(next_name(scene.links))
+                return (
+                    f"; or, if a pin and the wheel of link {name} alone hold link {rolling.on}, "
+                    f"write link = {called} in rolls of link {name}"
+                )
+    return ""

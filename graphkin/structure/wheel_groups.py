@@ -270,6 +270,11 @@ def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> G
     return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
 
 
+def by_known(joints: Joints, wheel: Geared, known: Collection[str]) -> Geared:
+    """A wheel turned by its contact with a known link where it has one, not by way of others."""
+    return geared_of(wheel.link, joints.between(wheel.link, known), known) or wheel
+
+
 def by_centres(inner: Joint, outer: tuple[Joint, Joint], links: tuple[str, str]) -> bool:
     """Whether the wheels of a dyad's two links are pinned to one another by their centres."""
     if isinstance(inner, Contact):
@@ -296,6 +301,17 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
         for link in links
     }
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
+
+
+def spun_afar(
+    joints: Joints, known: Collection[str], links: Sequence[str], driven: Sequence[Driver]
+) -> Driver | None:
+    """The first of some drivers that turns one of its links against a known one, where some of the
+    links that do not stand have wheels."""
+    if not any(isinstance(pair, Contact) for link in links for pair in joints.others[link]):
+        return None
+    turning = (each for each in driven if each.kind == "turn")
+    return next((d for d in turning if len({d.link, d.against} & {*known}) == 1), None)
 
 
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:

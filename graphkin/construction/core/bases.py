@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from msgspec import Struct
 
@@ -24,7 +24,7 @@ from graphkin.structure.groups import (
     Unresolved,
 )
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
+from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding, contacts
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -55,6 +55,11 @@ def under(point: str, link: str) -> str:
 def contact_name(contact: Contact) -> ContactName:
     """Name of the point where a wheel touches what it rolls on: their common centre."""
     return ContactName(contact.letter)
+
+
+def kept_touches(scene: Scene, links: Collection[str]) -> Iterator[ContactName]:
+    """Names of the points where the wheels touch that some links keep on their tracks."""
+    return (contact_name(each) for each in contacts(scene) if each.rolling.keeper in links)
 
 
 def crank_tip(scene: Scene, crank: Crank) -> str | None:
