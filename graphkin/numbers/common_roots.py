@@ -202,11 +202,11 @@ def closed_in(
             left = np.flatnonzero(waiting)
             if not left.size:
                 break
-            trial = share[which[left]] + way[left] / 2**shorter
-            there = missed(row[which[left]], trial)
+            aim = share[which[left]] + way[left] / 2**shorter
+            there = missed(row[which[left]], aim)
             nearer = far(there, scale[left]) < far(value[which[left]], scale[left])
             took = left[nearer]
-            share[which[took]], value[which[took]] = trial[nearer], there[nearer]
+            share[which[took]], value[which[took]] = aim[nearer], there[nearer]
             waiting[took] = False
         still = which[waiting]
         found.append(still[far(value[still], ranges[row[still]]) < CLOSED])

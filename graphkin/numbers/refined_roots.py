@@ -43,7 +43,7 @@ DOUBLED = 3
 def by_secant(misfit: Misfit, start: Any, step: Any) -> Any:
     """Where a misfit vanishes, near a start: until it no longer comes nearer to nought.
 
-    The second trial lies a ``step`` away.
+    The second place lies a ``step`` away.
     """
     old, new = start, start + step
     before, after = misfit(old), misfit(new)
@@ -52,11 +52,11 @@ def by_secant(misfit: Misfit, start: Any, step: Any) -> Any:
     for _ in range(MOST_SECANTS):
         if after in (0, before):
             return new
-        trial = middle(new - after * (new - old) / (after - before))
-        value = misfit(trial)
+        aim = middle(new - after * (new - old) / (after - before))
+        value = misfit(aim)
         if not abs(value) < abs(after):
             return new
-        old, new, before, after = new, trial, after, value
+        old, new, before, after = new, aim, after, value
     return new
 
 
@@ -68,8 +68,8 @@ def by_secants(misfit: Misfit, start: Any, turns: bool) -> Any:
     before, after = misfit(old), misfit(new)
     for _ in range(ARRAY_STEPS):
         flat = after == before
-        trial = np.where(flat, new, new - after * (new - old) / np.where(flat, 1, after - before))
-        old, new, before, after = new, trial, after, misfit(trial)
+        aim = np.where(flat, new, new - after * (new - old) / np.where(flat, 1, after - before))
+        old, new, before, after = new, aim, after, misfit(aim)
     return new
 
 
@@ -132,7 +132,7 @@ def slopes(
 
 
 def size_of(value: Any) -> Any:
-    """What a step is measured by: a radian, or the trial value."""
+    """What a step is measured by: a radian, or the value itself."""
     return abs(value) or 1
 
 
@@ -148,11 +148,11 @@ def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
             break
         rows = slopes(misfits, here, value, steps)
         way = solved(rows, [-each for each in value])
-        trial = [middle(each + step) for each, step in zip(here, way, strict=True)]
-        there = misfits(trial)
+        aim = [middle(each + step) for each, step in zip(here, way, strict=True)]
+        there = misfits(aim)
         if not sum(map(abs, there)) < sum(map(abs, value)):
             break
-        here, value = trial, there
+        here, value = aim, there
         steps = [middle(step) or old for step, old in zip(way, steps, strict=True)]
     return here
 
