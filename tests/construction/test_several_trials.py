@@ -20,7 +20,6 @@ from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
-from graphkin.numbers.refined_roots import determinant, solved
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
 from tests.construction.rods import rods_of
@@ -257,10 +256,3 @@ def test_a_closure_that_is_none_is_not_proved():
         away = (closed[0] * cmath.rect(1, 2.0), closed[1] * cmath.rect(1, 2.5), *closed[2:])
         with pytest.raises(ValueError, match=r"ball|drawn"):
             refined(trying, longer, away, kind)
-
-
-def test_cramers_rule():
-    rows, right = [[2, 1, 0], [1, 3, 1], [0, 1, 4]], [1, 2, 3]
-    assert determinant(rows) == 18
-    found = solved(rows, right)
-    assert np.allclose(np.array(rows) @ np.array(found), right)

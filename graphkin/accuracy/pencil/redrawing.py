@@ -10,7 +10,6 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark, marked
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.numbers.arithmetic import phase
 from graphkin.numbers.common_roots import solutions
 from graphkin.numbers.plane import cross
 
@@ -102,12 +101,12 @@ def followed(
 
     trying = closer.trying
     count = len(trying.unknowns)
-    first, signs, sine = exact[:count], exact[count:-1], exact[-1]
+    signs, sine = exact[count:-1], exact[-1]
     rows = np.broadcast_to(np.array(signs, dtype=float), (len(shift), len(signs)))
     args = [np.broadcast_to(value, len(shift)) for value in known]
-    pairs = [*zip(trying.unknowns, first, strict=True)]
-    start = np.array([phase(complex(v)) if one.turns else float(v) for one, v in pairs])
-    sizes = np.array([1.0 if one.turns else max(abs(float(v)), 1e-3) for one, v in pairs])
+    start = np.array([*map(float, trying.numbers(exact))])
+    turned = [one.turns for one in trying.unknowns]
+    sizes = np.where(turned, 1.0, np.maximum(abs(start), 1e-3))
     tried, steps = np.tile(start, (len(shift), 1)), SMALL * sizes
     missed = np.column_stack([shift] * count)
     for _ in range(ROUNDS):
@@ -119,8 +118,4 @@ def followed(
         left = trying.misfits(args, tried, rows) - missed
         with np.errstate(all="ignore"):
             tried = tried - (left / slopes[:, 0] if count == 1 else solutions(slopes, left))
-    turned = [one.turns for one in trying.unknowns]
-    values = (
-        np.exp(1j * each) if turns else each for turns, each in zip(turned, tried.T, strict=True)
-    )
-    return (*values, *signs, sine)
+    return (*trying.placed(tried.T), *signs, sine)

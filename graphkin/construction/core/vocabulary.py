@@ -139,7 +139,7 @@ def sum_of(a: Real, b: Real) -> Real:
 
 @action("difference")
 def difference(a: Real, b: Real) -> Real:
-    """The rate of the link against which another turns at a given rate."""
+    """What a number has too much; of rates, that of the link against which another turns."""
     return a - b
 
 

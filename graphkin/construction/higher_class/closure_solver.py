@@ -101,7 +101,7 @@ class Trying(Trial, frozen=True, dict=True):
             row = closures.sure(number)[0]
             if np.isnan(row[1]):
                 raise closures.merging_at(number) or ClosingError(closures.ways(), number)
-            return self.polished(known, row)
+            return self.polished(row)
         arrays = [np.atleast_1d(value) for value in known]
         size = max((len(array) for array in arrays), default=1)
         arrays = [np.broadcast_to(array, size) for array in arrays]
@@ -118,11 +118,8 @@ class Trying(Trial, frozen=True, dict=True):
 
     def parts(self, table: Any) -> tuple[Any, ...]:
         """Trial values, signs and sines of rows: element, trial values, signs, sine."""
-        import numpy as np
-
-        ends = enumerate(self.unknowns, 1)
-        tried = (np.exp(1j * table[:, k]) if one.turns else table[:, k] for k, one in ends)
-        return (*tried, *table[:, 1 + len(self.unknowns) :].T)
+        count = 1 + len(self.unknowns)
+        return (*self.placed(table[:, 1:count].T), *table[:, count:].T)
 
     def closures_of(self, known: Sequence[Any]) -> Closures:
         """Every closure on known scalars, in the order of their numbers; the last ones are kept.
@@ -139,14 +136,10 @@ class Trying(Trial, frozen=True, dict=True):
             self.kept[asked] = found
         return self.kept[asked]
 
-    def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
+    def polished(self, row: Sequence[float]) -> tuple[Any, ...]:
         """A closure in floats: trial values, signs and the sine of crossing."""
-        tried, rest = row[1 : 1 + len(self.unknowns)], row[1 + len(self.unknowns) :]
-        values = (
-            complex(FLOAT.radians(float(each))) if one.turns else float(each)
-            for one, each in zip(self.unknowns, tried, strict=True)
-        )
-        return (*values, *map(float, rest))
+        count = 1 + len(self.unknowns)
+        return (*self.placed(map(float, row[1:count])), *map(float, row[count:]))
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go all round, with the signs of a closure: (N,) each."""
@@ -468,7 +461,7 @@ def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -
         None
         if found is None
         else [
-            trying.polished(known, (0, in_doubles(one.tried), *one.signs, in_doubles(one.sine)))
+            trying.polished((0, in_doubles(one.tried), *one.signs, in_doubles(one.sine)))
             for one in found
         ]
     )

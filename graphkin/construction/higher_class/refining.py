@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from graphkin.construction.higher_class.merging import Closing, closings_of, merged
 from graphkin.construction.higher_class.trial import TrialChain
-from graphkin.numbers.arithmetic import Kind, is_ball, phase, turn_by
+from graphkin.numbers.arithmetic import Kind, is_ball
 from graphkin.numbers.kinds import in_doubles, middle
 from graphkin.numbers.refined_roots import (
     APART,
@@ -51,12 +51,9 @@ def refined(
     Raises ValueError where a ball does not tell that the group closes.
     """
     size = len(trying.unknowns)
-    tried, signs, sine = closed[:size], closed[size:-1], closed[-1]
+    signs, sine = closed[size:-1], closed[-1]
     chain = TrialChain(trying, known, signs, kind)
-    start = [
-        kind.number(phase(each) if one.turns else each)
-        for one, each in zip(trying.unknowns, tried, strict=True)
-    ]
+    start = [kind.number(each) for each in trying.numbers(closed)]
     if trying.several:
         return closing(chain, together(chain, start), sine)
     aim = aimed(chain, start[0])
@@ -95,10 +92,8 @@ def closed_in_balls(
 
 def closing(chain: TrialChain, found: Sequence[Any], sine: Any) -> tuple[Any, ...]:
     """What closes a group, in the kind of a chain: the trial values, signs, sine of crossing."""
-    pairs = zip(chain.trial.unknowns, found, strict=True)
-    values = (turn_by(each) if one.turns else each for one, each in pairs)
     rest = (each if is_ball(each) else chain.kind.number(each) for each in (*chain.signs, sine))
-    return (*values, *rest)
+    return (*chain.trial.placed(found), *rest)
 
 
 def refuse_confused(

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from graphkin.construction.core.batch import Ready, run_moving
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
-from graphkin.numbers.arithmetic import batch_kind, phase
+from graphkin.numbers.arithmetic import batch_kind
 from graphkin.numbers.common_roots import (
     Array,
     Cells,
@@ -88,12 +88,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         """A closure as numbers: trial values, signs, the sine of crossing."""
         import numpy as np
 
-        tried, rest = value[: len(self.unknowns)], value[len(self.unknowns) :]
-        angles = (
-            phase(complex(each)) if one.turns else float(each)
-            for one, each in zip(self.unknowns, tried, strict=True)
-        )
-        return np.array([*angles, *map(float, rest)])
+        return np.array([*map(float, (*self.numbers(value), *value[len(self.unknowns) :]))])
 
     def together(self, known: Sequence[Any], size: int) -> int:
         """How many elements are closed at once."""
@@ -230,7 +225,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         for k, one in enumerate(self.unknowns[: size + 1]):
             steps = nodes[:, k, None, None] if k < size else np.arange(across + 1)
             value = one.valued(start[k] + steps * (way[k] / across), scale[k])
-            overrides[one.tried] = np.exp(1j * value) if one.turns else value
+            overrides[one.tried] = one.value(value)
         for k, number in enumerate(self.signs):
             bit = 1 << (len(self.signs) - 1 - k)
             if k in stage.signs:

@@ -3,7 +3,7 @@ one scene in any kind of number."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from math import pi
 from typing import Any
@@ -14,7 +14,7 @@ from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_m
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, Values, run
 from graphkin.construction.core.vocabulary import meet
-from graphkin.numbers.arithmetic import Kind, batch_kind, turn_by
+from graphkin.numbers.arithmetic import Kind, batch_kind, phase, turn_by
 from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
 
@@ -48,6 +48,11 @@ class Unknown(Struct, frozen=True):
     rim: int | None = None
 
     @property
+    def ends(self) -> tuple[int | None, ...]:
+        """The steps at which it is looked at."""
+        return self.misfit, self.locus, self.facing, self.reach, self.rim
+
+    @property
     def is_guided(self) -> bool:
         """Whether it is tried to both ends of a guide: other guides may lead the link farther than
         bars reach."""
@@ -59,6 +64,14 @@ class Unknown(Struct, frozen=True):
         if self.turns:
             return START, 2 * pi
         return (-FAR, 2 * FAR) if self.rim is None else (-1.0, 2.0)
+
+    def number(self, value: Any) -> Any:
+        """The angle of a unit vector in radians; a coordinate as it is."""
+        return phase(value) if self.turns else value
+
+    def value(self, number: Any) -> Any:
+        """The unit vector at an angle in radians; a coordinate as it is."""
+        return turn_by(number) if self.turns else number
 
     def valued(self, share: Any, scale: Any) -> Any:
         """Its trial values from shares: angles, or coordinates in parts of how far they reach."""
@@ -93,6 +106,14 @@ class Trial(Struct, frozen=True, dict=True):
     def several(self) -> bool:
         """Whether links of groups within the group are tried with it."""
         return len(self.unknowns) > 1
+
+    def numbers(self, closed: Sequence[Any]) -> list[Any]:
+        """What is tried in a closure, as angles and coordinates."""
+        return [one.number(each) for one, each in zip(self.unknowns, closed, strict=False)]
+
+    def placed(self, numbers: Iterable[Any]) -> tuple[Any, ...]:
+        """What is tried at angles and coordinates, as unit vectors and coordinates."""
+        return tuple(one.value(each) for one, each in zip(self.unknowns, numbers, strict=True))
 
     # --- what is run ---------------------------------------------------------------------------
 
@@ -194,11 +215,9 @@ class Trial(Struct, frozen=True, dict=True):
 
     def overrides(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """What the program takes from outside; the signs may be only the first few."""
-        import numpy as np
-
         found = dict(zip(self.inputs, known, strict=True))
         for one, each in zip(self.unknowns, tried.T, strict=True):
-            found[one.tried] = np.exp(1j * each) if one.turns else each
+            found[one.tried] = one.value(each)
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
 
     # --- where it is tried ---------------------------------------------------------------------
@@ -292,7 +311,7 @@ class TrialChain:
         trial = self.trial
         overrides = dict(self.known if known is None else known)
         for one, each in zip(trial.unknowns, tried, strict=True):
-            overrides[one.tried] = turn_by(each) if one.turns else each
+            overrides[one.tried] = one.value(each)
         overrides |= dict(zip(trial.signs, self.signs, strict=True))
         if wanted not in self.needed:
             self.needed[wanted] = trial.program.behind(wanted)

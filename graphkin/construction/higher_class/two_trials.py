@@ -21,7 +21,13 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
-from graphkin.construction.core.vocabulary import action, distance, part_along, sum_of
+from graphkin.construction.core.vocabulary import (
+    action,
+    difference,
+    distance,
+    part_along,
+    sum_of,
+)
 from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
@@ -33,7 +39,7 @@ from graphkin.construction.higher_class.divided_point import (
     PlanQuantity,
     crossings,
 )
-from graphkin.construction.higher_class.higher import Each, inverse, less, product, slide_of
+from graphkin.construction.higher_class.higher import Each, inverse, product, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
     DrivenMisclosure,
@@ -472,9 +478,9 @@ def missed(
             own = omega_of(pen, driver.link, kind.rate)
             if driver.against != FRAME:
                 with pen.on(kind.part, Plane.NUMBERS):
-                    own = pen.draw(less, own, omega_of(pen, driver.against, kind.rate))
+                    own = pen.draw(difference, own, omega_of(pen, driver.against, kind.rate))
             with pen.on(kind.part, Plane.NUMBERS):
-                size = pen.draw(less, own, given)
+                size = pen.draw(difference, own, given)
             return DrivenMisclosure(size=size, driver=driver, found=own)
         case Driver() as driver:
             return missed_slide(pen, shapes, driver, kind)
@@ -494,5 +500,5 @@ def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: PlanQuantit
     with pen.on(kind.part, Plane.NUMBERS):
         tip = pen.the(kind.quantity, first)
         found = pen.draw(part_along, line, start, tip)
-        size = pen.draw(less, found, given)
+        size = pen.draw(difference, found, given)
     return DrivenMisclosure(size=size, driver=driver, found=found, start=start, tip=tip)
