@@ -118,6 +118,18 @@ def test_miranda_s_theorem_proves_a_root_and_no_other():
         proved_together(never, never, [arb(1), arb(1)])
 
 
+def test_where_curves_only_come_near_one_another_nothing_is_proved():
+    """x² + y² = 5 touches x²·y² = 25/4 at x = y, and misses what is more by a ten-millionth."""
+    from flint import arb
+
+    def apart(tried):
+        x, y = tried
+        return [x * x + y * y - 5, x * x * y * y - arb("6.2500001")]
+
+    with ball_kind(200).working(), pytest.raises(ValueError, match="whether the group closes"):
+        proved_together(apart, apart, [arb("1.58"), arb("1.5823")])
+
+
 def test_cramers_rule():
     rows, right = [[2, 1, 0], [1, 3, 1], [0, 1, 4]], [1, 2, 3]
     assert determinant(rows) == 18
