@@ -225,6 +225,16 @@ def test_each_mark_appears_with_a_sentence_of_its_own_sheet_or_stands_before(nam
         assert max(mark.at for mark in timed) > first
 
 
+@pytest.mark.parametrize("name", [*LABS, "oldham", "gears-ring", "eight-link-1"])
+def test_what_a_step_draws_appears_with_the_sentence_that_draws_it(name):
+    """Also where a sentence is told in parts; what is given is there from the first."""
+    for sheet in sheets_of(name):
+        _, own, timed = in_parts(sheet)
+        marks = [one for one in timed if one.step in own]
+        assert len({one.at for one in marks}) > 4
+        assert all(one.at == max(own[one.step] + 1, 0) for one in marks)
+
+
 def test_b_of_the_pump_is_drawn_from_what_its_sentence_names():
     told = told_of("pump")
     letters = {step: plain(name) for step, name in told.letters.items()}
