@@ -133,6 +133,17 @@ def test_the_tolerance_is_a_length_of_paper_and_so_differs_from_student_to_stude
     assert shares[7] != pytest.approx(shares[15], rel=0.05)
 
 
+def test_tolerances_do_not_hang_on_where_the_origin_lies():
+    """All points of the frame moved alike: the mechanism is as large as before."""
+    text = scene_of("pump").read_text(encoding="utf-8")
+    moved = text
+    for old, new in (("[0, 0]", "[500, 200]"), ("[0, -30]", "[500, 170]")):
+        moved = moved.replace(old, new)
+    here, there = (Book(lab_of("pump"), each).marker({"n": "7"}).standard for each in (text, moved))
+    values = {field: one.value for field, one in here.tolerance.items()}
+    assert {f: one.value for f, one in there.tolerance.items()} == pytest.approx(values, rel=1e-9)
+
+
 def test_a_computed_value_is_held_to_the_cap():
     """Student 25 cannot measure the piston's acceleration: nought is not right for 30 m/s²."""
     book = book_of("pump")
