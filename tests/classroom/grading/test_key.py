@@ -8,6 +8,7 @@ from math import isnan
 import mpmath
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
@@ -134,12 +135,14 @@ def test_the_tolerance_is_a_length_of_paper_and_so_differs_from_student_to_stude
 
 
 def test_tolerances_do_not_hang_on_where_the_origin_lies():
-    """All points of the frame moved alike: the mechanism is as large as before."""
+    """Where all points of the frame are moved alike, what caps those of places stays as large."""
+    lab = lab_of("pump")
+    strict = replace(lab, rubric=replace(lab.rubric, cap=0.001))
     text = scene_of("pump").read_text(encoding="utf-8")
     moved = text
     for old, new in (("[0, 0]", "[500, 200]"), ("[0, -30]", "[500, 170]")):
         moved = moved.replace(old, new)
-    here, there = (Book(lab_of("pump"), each).marker({"n": "7"}).standard for each in (text, moved))
+    here, there = (Book(strict, each).marker({"n": "7"}).standard for each in (text, moved))
     values = {field: one.value for field, one in here.tolerance.items()}
     assert {f: one.value for f, one in there.tolerance.items()} == pytest.approx(values, rel=1e-9)
 
