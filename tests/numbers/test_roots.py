@@ -27,6 +27,18 @@ def test_two_roots_close_together_are_both_found(gap):
     assert place == pytest.approx([middle - gap / 2, middle + gap / 2], abs=1e-9)
 
 
+@pytest.mark.parametrize("gap", [1e-7, 1e-4])
+@pytest.mark.parametrize("power", [-60, 60])
+def test_a_function_so_many_times_as_large_has_the_same_roots_to_the_last_bit(power, gap):
+    """By a power of two, which rounds nothing."""
+
+    def dip(x):
+        return np.cos(gap) - np.cos(x - 3.14)
+
+    assert found(dip).size == 4
+    assert found(lambda x: 2.0**power * dip(x)).tolist() == found(dip).tolist()
+
+
 def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip():
     """A place that rounding alone puts below nought beside one root does not part the two."""
     grain = 2.0**-40

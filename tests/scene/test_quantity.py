@@ -180,6 +180,12 @@ def test_what_has_no_value_is_a_scene_error(text: str) -> None:
     assert text in caught.value.problems[0].found
 
 
+def test_a_number_too_large_for_a_double_names_the_parameters() -> None:
+    words = r"links.1.A-B: \"\(\(pi\*n\).* gives a number that grows without bound with n = 7"
+    with pytest.raises(SceneError, match=words):
+        expression("((pi*n)**64)**64", "cm", "links.1.A-B").number(SEVEN)
+
+
 def test_division_by_zero_names_the_parameters() -> None:
     with pytest.raises(SceneError, match=r"drivers\[0\].angle: .*division by zero with n = 7"):
         expression("1/(n - 7)", "deg", "drivers[0].angle").number(SEVEN)
