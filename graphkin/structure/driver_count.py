@@ -8,7 +8,7 @@ from itertools import combinations
 
 from msgspec.structs import replace
 
-from graphkin.scene.known_names import named, next_name, quoted
+from graphkin.scene.known_names import keeper_asked, named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
@@ -175,18 +175,11 @@ def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Proble
 
 
 def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
-    """Words for a track that seems to be led by links which hang on it themselves.
-
-    What keeps its wheel where it rolls was not put in, unless a name asks for it.
-    """
+    """Words for a track from whose wheel what keeps it there is missing; empty where none is."""
     for name in loose:
         for rolling in scene.links[name].rolls:
             if rolling.through and rolling.on != FRAME and not rolling.keeper:
-                called = quoted(next_name(scene.links))
-                return (
-                    f"; or, if a pin and the wheel of link {name} alone hold link {rolling.on}, "
-                    f"write link = {called} in rolls of link {name}"
-                )
+                return f"; or, {keeper_asked(scene.links, name, rolling.on)}"
     return ""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,10 +14,10 @@ from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Dyad, Higher, Stretched
-from graphkin.text.errors import WitnessError
+from graphkin.text.errors import StructureError, WitnessError
 from tests.chance.branches import DeadChainError, branches_of
 from tests.chance.exact import Motion, motion
-from tests.chance.groups import made
+from tests.chance.making import made
 from tests.chance.records import Standing
 from tests.chance.written import DIGITS, Shaken, Written
 
@@ -31,6 +32,11 @@ SHAKES = 3
 """How often all numbers are shaken to see that."""
 TINY = 1e-9
 """What counts as rest, in parts of what the drivers could do."""
+
+ASKED = re.compile(
+    r"wheel of link (\w+) alone hold link (\w+), write link = \"?(\w+)\"? in rolls of link"
+)
+"""How an error proposes to name what keeps a wheel at a track."""
 
 
 @dataclass
@@ -89,14 +95,35 @@ def case(seed: int) -> Case | None:
     standing, kinds = made(seed)
     if not kinds:
         return None
-    written = Written(standing)
     try:
-        text = written.text(branches_of(written))
+        written, branches = told(standing)
     except DeadChainError:
         return None
+    text = written.text(branches)
     return Case(
         seed, kinds, standing, written, text, Mechanism(read_text(text, f"made-{seed}", None, {}))
     )
+
+
+def told(standing: Standing) -> tuple[Written, dict[str, str]]:
+    """A mechanism as its scene tells it, and its branches.
+
+    Where the scene leaves open what keeps a wheel at a track, it names that as the error proposes.
+    """
+    for _ in standing.straights:
+        written = Written(standing)
+        try:
+            return written, branches_of(written)
+        except StructureError as error:
+            asked = ASKED.search(str(error))
+            if asked is None:
+                raise
+            wheel, on, keeper = asked.groups()
+            for each in standing.straights:
+                if (each.wheel, each.on) == (wheel, on):
+                    each.keeper = keeper
+    written = Written(standing)
+    return written, branches_of(written)
 
 
 @dataclass

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from msgspec import Struct
 
+from graphkin.scene.known_names import keeper_asked
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -214,19 +215,16 @@ def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:
 def wheel_base(scene: Scene, link: str, pin: str, contact: Contact) -> Base:
     """The base of a wheel on a track: its pin and its point of contact."""
     if contact.links[0] != link:
-        raise no_track(link)
+        raise no_track(scene, contact)
     return base_of(scene, link, pin, under(contact_name(contact), link))
 
 
-def no_track(link: str) -> StructureError:
-    """The error for a track that a pin and a wheel are to carry: it is not constructed."""
-    return StructureError(
-        Problem(
-            f"links.{link}",
-            "is a straight track that only a wheel and a pin hold",
-            HELD,
-        )
-    )
+def no_track(scene: Scene, contact: Contact) -> StructureError:
+    """The error for a track that a pin and a wheel are to carry, and what keeps the wheel there."""
+    wheel, track = contact.links
+    found = "is a straight track that only a wheel and a pin hold"
+    hint = "" if contact.rolling.keeper else keeper_asked(scene.links, wheel, track)
+    return StructureError(Problem(f"links.{track}", found, HELD, hint))
 
 
 def geared_base(scene: Scene, group: Geared) -> Base:

@@ -55,12 +55,6 @@ def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
     return -(turn - start) * radius
 
 
-@action("less-axis")
-def less_axis(turn: Real, axis: Point) -> Real:
-    """An angle less that of a link that keeps its direction."""
-    return turn - phase(axis)
-
-
 @action("opposite")
 def opposite(number: Real) -> Real:
     """A number with the other sign."""
@@ -477,9 +471,9 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
                 own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
                 if not pen.has("turned", link):
                     pen.want("turned", link, own)
-            turn = pen.draw(difference, turn, own)
         else:
-            turn = pen.draw(less_axis, turn, axis_)
+            own = pen.draw(counted_near, axis_, pen.given("ahead"), pen.given("nought"))
+        turn = pen.draw(difference, turn, own)
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
