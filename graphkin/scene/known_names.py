@@ -80,7 +80,9 @@ def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
 
     What keeps its wheel where it rolls was not put in, unless a name asks for it.
     """
+    whose = "the frame" if wheel == FRAME else f"link {wheel}"
+    moving = [name for name in links if name != FRAME]
     return (
-        f"if a pin and the wheel of link {wheel} alone hold link {track}, "
-        f"write link = {quoted(next_name(links))} in rolls of link {wheel}"
+        f"if a pin and the wheel of {whose} alone hold link {track}, "
+        f"write link = {quoted(next_name(moving))} in rolls of {whose}"
     )

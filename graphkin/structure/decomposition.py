@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.known_names import quoted
+from graphkin.scene.known_names import keeper_asked, quoted
 from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
@@ -62,7 +62,18 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
     rolls = any(isinstance(pair, Contact) for link in links for pair in joints.others[link])
     spun = next((each for each in driven if rolls and turns_afar(each, known)), None)
-    return Unresolved(links, driven, held, wedged, spun, tuple(reaching(joints, known, links)))
+    led = tuple(reaching(joints, known, links))
+    return Unresolved(links, driven, held, wedged, spun, led, asked_for(joints.scene, held))
+
+
+def asked_for(scene: Scene, tracks: Sequence[str]) -> str:
+    """What to write where one wheel alone rolls on one of some tracks that nothing keeps there."""
+    for track in tracks:
+        rolled = [(k.name, r) for k in scene.every_link for r in k.rolls if r.through is not None]
+        wheels = [(name, rolling) for name, rolling in rolled if rolling.on == track]
+        if len(wheels) == 1 and not wheels[0][1].keeper:
+            return keeper_asked(scene.links, wheels[0][0], track)
+    return ""
 
 
 def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> Iterator[str]:

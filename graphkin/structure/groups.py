@@ -223,7 +223,8 @@ class Unresolved(Struct, frozen=True):
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
     its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
     ``spun`` the first driver that turns one of its links against a known one, about a pin that
-    moves, where wheels roll; ``led`` are drivers, as written, that reach one of them.
+    moves, where wheels roll; ``led`` are drivers, as written, that reach one of them. ``asked`` is
+    what to write where a wheel on such a track may need a link that keeps it there.
     """
 
     links: tuple[str, ...]
@@ -232,6 +233,7 @@ class Unresolved(Struct, frozen=True):
     wedged: tuple[str, ...] = ()
     spun: Driver | None = None
     led: tuple[str, ...] = ()
+    asked: str = ""
 
     @property
     def title(self) -> str:

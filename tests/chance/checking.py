@@ -18,7 +18,7 @@ from graphkin.text.errors import StructureError, WitnessError
 from tests.chance.branches import DeadChainError, branches_of
 from tests.chance.exact import Motion, motion
 from tests.chance.making import made
-from tests.chance.records import Standing
+from tests.chance.records import FRAME, Standing
 from tests.chance.written import DIGITS, Shaken, Written
 
 EPS = 2.0**-52
@@ -34,7 +34,7 @@ TINY = 1e-9
 """What counts as rest, in parts of what the drivers could do."""
 
 ASKED = re.compile(
-    r"wheel of link (\w+) alone hold link (\w+), write link = \"?(\w+)\"? in rolls of link"
+    r"wheel of (the frame|link \w+) alone hold link (\w+), write link = \"?(\w+)\"? in rolls of"
 )
 """How an error proposes to name what keeps a wheel at a track."""
 
@@ -96,34 +96,33 @@ def case(seed: int) -> Case | None:
     if not kinds:
         return None
     try:
-        written, branches = told(standing)
+        return told(seed, standing, kinds)
     except DeadChainError:
         return None
-    text = written.text(branches)
-    return Case(
-        seed, kinds, standing, written, text, Mechanism(read_text(text, f"made-{seed}", None, {}))
-    )
 
 
-def told(standing: Standing) -> tuple[Written, dict[str, str]]:
-    """A mechanism as its scene tells it, and its branches.
+def told(seed: int, standing: Standing, kinds: tuple[str, ...]) -> Case:
+    """A mechanism as its scene tells it.
 
     Where the scene leaves open what keeps a wheel at a track, it names that as the error proposes.
     """
-    for _ in standing.straights:
+    for left in range(len(standing.straights), -1, -1):
         written = Written(standing)
         try:
-            return written, branches_of(written)
+            text = written.text(branches_of(written))
+            mechanism = Mechanism(read_text(text, f"made-{seed}", None, {}))
+            assert mechanism.program
+            break
         except StructureError as error:
             asked = ASKED.search(str(error))
-            if asked is None:
+            if asked is None or not left:
                 raise
             wheel, on, keeper = asked.groups()
+            wheel = FRAME if wheel == "the frame" else wheel.removeprefix("link ")
             for each in standing.straights:
                 if (each.wheel, each.on) == (wheel, on):
                     each.keeper = keeper
-    written = Written(standing)
-    return written, branches_of(written)
+    return Case(seed, kinds, standing, written, text, mechanism)
 
 
 @dataclass

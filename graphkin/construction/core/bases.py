@@ -256,7 +256,7 @@ def no_construction(group: Group) -> StructureError:
         return StructureError(Problem(place, found, "one driver within a group that is tried"))
     if group.tracks:
         found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
-        return StructureError(Problem(place, found, HELD, LEVEL))
+        return StructureError(Problem(place, found, HELD, group.asked or LEVEL))
     if group.wedged:
         wheels = f"wheel {group.wedged[0]}"
         if len(group.wedged) > 1:
