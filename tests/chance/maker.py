@@ -260,6 +260,30 @@ class Maker:
             waiting += more
         return FRAME in found
 
+    def counts_alike(self, body: str, along: complex) -> bool:
+        """Whether a block along a guide of a body, and all that slides there, count one way.
+
+        Where guides add up to more than half a turn the program counts a rack with the link along
+        which it slides, and the loops with all that turns as one.
+        """
+        if self.shifts(body):
+            return True
+        bodies, found = self.standing.bodies, {body: self.angle(body)}
+        lean = phase(along * bodies[body].axis.conjugate())
+        waiting = [body]
+        while waiting:
+            here = waiting.pop()
+            for slide in self.standing.slides.values():
+                ends = [slide.block, slide.on]
+                if here in ends:
+                    other = ends[1 - ends.index(here)]
+                    if other not in found:
+                        way = phase(bodies[other].axis * bodies[here].axis.conjugate())
+                        found[other] = found[here] + way
+                        waiting.append(other)
+        alike = all(abs(turned - self.angle(each)) < 1 for each, turned in found.items())
+        return alike and abs(found[body] + lean - phase(along)) < 1
+
     def slide_coordinate(self, block: str) -> float:
         """Where a block stands on its guide."""
         slide = self.standing.slides[block]

@@ -356,9 +356,11 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
             return pen.given("nought")
         if pen.has("turned", link):
             return pen.the("turned", link)
-        if driver := gives_angle(pen.scene, link):
+        driver = gives_angle(pen.scene, link)
+        if driver is not None and stands(pen, driver.against):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
-        if (known := turned_with_driven(pen.scene, link)) is not None:
+        known = turned_with_driven(pen.scene, link)
+        if known is not None and stands(pen, known):
             axes = axis(pen, shapes, link), axis(pen, shapes, known)
             found = pen.draw(counted_near, *axes, angle_of(pen, shapes, known))
             return pen.want("turned", link, found)
@@ -368,6 +370,11 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
         if pen.turns(link):
             pen.make(CountedTurn(link=link, heading=ends[0], radians=ends[1], turn=found))
         return pen.want("turned", link, found)
+
+
+def stands(pen: Pen, link: str) -> bool:
+    """Whether a link stands already: one against which a driver turns another may come later."""
+    return link == FRAME or link in pen.bases
 
 
 def refuse_idle_turns(pen: Pen) -> None:
