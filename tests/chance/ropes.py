@@ -91,9 +91,11 @@ def frame_drum(m: Maker) -> None:
     turned = m.coin()
     if turned:
         m.turn(track, FRAME)
-    straight(m, FRAME, centre, track, m.direction(), m.length())
+    found = straight(m, FRAME, centre, track, m.direction(), m.length())
     if turned:
         return
+    if abs(m.angle(track) + math.radians(found.start)) > 3:  # a bar on pins counts from there
+        raise LooseError
     known = m.any_body(but=[track])
     foot = end[1] + m.vector()
     bar(m, (m.point(known, foot), foot), end)
