@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator, Sequence
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.known_names import keeper_asked, quoted
-from graphkin.scene.model import FRAME, Cam, Driver, Scene
+from graphkin.scene.model import FRAME, Cam, Driver, Scene, of_one_size
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
@@ -19,6 +19,7 @@ from graphkin.structure.pairs import Contact, Pin, Sliding
 from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
+TIPS = "a plank on rollers of different sizes tips as they roll, which is not constructed"
 ALONG = 1e-9
 """Sine of the angle below which a follower's guide lies along the path of a plate."""
 
@@ -67,12 +68,18 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
 
 
 def asked_for(scene: Scene, tracks: Sequence[str]) -> str:
-    """What to write where one wheel alone rolls on one of some tracks that nothing keeps there."""
+    """What to write where one wheel alone rolls on one of some tracks that nothing keeps there.
+
+    Where wheels of several sizes roll on it, that this is not constructed.
+    """
     for track in tracks:
-        rolled = [(k.name, r) for k in scene.every_link for r in k.rolls if r.through is not None]
-        wheels = [(name, rolling) for name, rolling in rolled if rolling.on == track]
+        rolled = [(k, r) for k in scene.every_link for r in k.rolls if r.through is not None]
+        wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
         if len(wheels) == 1 and not wheels[0][1].keeper:
-            return keeper_asked(scene.links, wheels[0][0], track)
+            return keeper_asked(scene.links, wheels[0][0].name, track)
+        rims = [link.rim for link, _ in wheels]
+        if any(not of_one_size(rims[0], rim) for rim in rims[1:]):
+            return TIPS
     return ""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from cmath import phase, rect
+from cmath import rect
 
 from tests.chance.groups import bar
 from tests.chance.lifts import MOTIONS, lifted, raised
@@ -225,9 +225,9 @@ def settled(pieces: list[tuple[float, float, str]]) -> list[tuple[float, float, 
     """Pieces of which none leads below where the law begins."""
     found, height = [], 0.0
     for end, rise, how in pieces:
-        rise = abs(rise) if height + rise < 0 else rise
-        height += rise
-        found.append((end, rise, how))
+        lift = abs(rise) if height + rise < 0 else rise
+        height += lift
+        found.append((end, lift, how))
     return found
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import mpmath
 
+
 def trapezoid(u: Any) -> Any:
     """The modified trapezoid: f″ a quarter of a sine, constant, a quarter of a cosine."""
     if u > 0.5:
@@ -22,7 +23,9 @@ def trapezoid(u: Any) -> Any:
         return first + begun * past + most * past**2 / 2
     second = first + begun / 4 + most / 32
     past = u - mpmath.mpf(3) / 8
-    return second + (begun + most / 4) * past + most * (1 - mpmath.cos(4 * pi * past)) / (4 * pi) ** 2
+    return (
+        second + (begun + most / 4) * past + most * (1 - mpmath.cos(4 * pi * past)) / (4 * pi) ** 2
+    )
 
 
 def sine(u: Any) -> Any:

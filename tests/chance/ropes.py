@@ -82,7 +82,7 @@ def spool(m: Maker) -> None:
 
 
 def frame_drum(m: Maker) -> None:
-    """A bar, or a strand, that rolls on a drum of the frame: turned by a driver, or led by a rod."""
+    """A bar that rolls on a drum of the frame: turned by a driver, or its end led by a rod."""
     if m.standing.bodies[FRAME].wheels:
         raise LooseError
     centre, place = m.anchor(FRAME)
@@ -169,7 +169,7 @@ def free_wheel(m: Maker) -> None:
 
 
 def touching(m: Maker) -> None:
-    """Profiles of a body that stands and of a rocker or a sliding follower: a bar at the instant."""
+    """Profiles of a body that stands and of a rocker or a follower touch: a bar at the instant."""
     a = m.any_body()
     start = m.anchor(a)
     radii = m.length(), m.length()
@@ -221,4 +221,3 @@ def by_time(m: Maker) -> None:
     rate = 360 * abs(m.rate())
     drive.law, drive.acceleration = (swing, rate), 0.0
     drive.speed = swing * math.radians(rate) * (math.radians(1) if drive.kind == "turn" else 1)
-

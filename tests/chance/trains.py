@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from tests.chance.groups import bar, meshed, wheel_body
 from tests.chance.maker import LooseError, Maker
@@ -32,7 +33,7 @@ def compound(m: Maker) -> None:
         rims[number].append(other)
         rims[number + 1].append(own)
         stages.append((own, other, belt))
-    gaps = [abs(b[1] - a[1]) for a, b in zip(pins, pins[1:], strict=False)]
+    gaps = [abs(b[1] - a[1]) for a, b in pairwise(pins)]
     for number, (own, other, belt) in enumerate(stages):
         sums = [a + b for a in rims[number] for b in rims[number + 1]]
         wrong = [s for s in sums if s != other + own and abs(s - gaps[number]) < 1e-3 * s]
@@ -90,9 +91,7 @@ def simpson(m: Maker) -> None:
     rings = [small + 2 * own for own in sizes]
     sun, first = wheel_body(m, centre), wheel_body(m, centre)
     m.turn(first, m.rng.choice([on, FRAME]))
-    pins = [
-        (m.name(), centre[1] + (small + own) * m.direction()) for own in sizes
-    ]
+    pins = [(m.name(), centre[1] + (small + own) * m.direction()) for own in sizes]
     joined, last = bar(m, centre, pins[0]), bar(m, centre, pins[1])
     m.turn(last, m.rng.choice([on, FRAME]))
     planets = [wheel_body(m, pin) for pin in pins]

@@ -235,7 +235,10 @@ class Written:
         swing, rate = (mpmath.mpf(repr(each)) for each in drive.law)
         self.numbers[id(drive)] = where, mpmath.radians(swing) if turned else swing, rate
         late = f"(t - {self.standing.moment!r})"
-        return [*lines, f'{key} = "{number(position)} + {drive.law[0]!r}*sin({drive.law[1]!r}*{late})"']
+        return [
+            *lines,
+            f'{key} = "{number(position)} + {drive.law[0]!r}*sin({drive.law[1]!r}*{late})"',
+        ]
 
 
 class Exact:
