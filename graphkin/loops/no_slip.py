@@ -319,7 +319,8 @@ def counted_turnings(
     """By turning, the angle within half a turn of which it is counted (N,), radians.
 
     What the scene states of a link's whole turns comes first, then the start of what rolls first
-    as written. A link that a driver turns others from counts from nought where no wheel says more.
+    as written. A link that a driver turns others from counts from nought where no wheel says more,
+    but with what slides along it where a driver turns that.
     """
     found: dict[int, Reals] = {}
 
@@ -338,8 +339,10 @@ def counted_turnings(
     for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
         for link, angle in slip.near.items():
             count(link, angle)
-    for driver in scene.drivers:
-        if driver.kind == "turn":
+    drivers = [driver for driver in scene.drivers if driver.kind == "turn"]
+    driven = {turned.of.get(driver.link) for driver in drivers}
+    for driver in drivers:
+        if turned.of.get(driver.against) not in driven:
             count(driver.against, 0.0)
     found.pop(turned.of[FRAME], None)
     return found

@@ -16,6 +16,7 @@ from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
 from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.touching_wheels import asked_of
 from graphkin.structure.wheel_groups import next_coupled, spun_afar, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
@@ -61,7 +62,7 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
     spun, led = spun_afar(joints, known, links, driven), tuple(reaching(joints, known, links))
-    return Unresolved(links, driven, held, wedged, spun, led)
+    return Unresolved(links, driven, held, wedged, spun, led, asked_of(joints.scene, held))
 
 
 def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> Iterator[str]:

@@ -224,6 +224,7 @@ class Unresolved(Struct, frozen=True):
     its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
     ``spun`` the first driver that turns one of its links against a known one, about a pin that
     moves, where there are wheels; ``led`` are drivers, as written, that reach one of them.
+    ``asked`` is what to write where a wheel on such a track may need a link that keeps it there.
     """
 
     links: tuple[str, ...]
@@ -232,6 +233,7 @@ class Unresolved(Struct, frozen=True):
     wedged: tuple[str, ...] = ()
     spun: Driver | None = None
     led: tuple[str, ...] = ()
+    asked: str = ""
 
     @property
     def title(self) -> str:

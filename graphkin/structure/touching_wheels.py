@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import next_name, quoted
+from graphkin.scene.known_names import keeper_asked, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
 from graphkin.text.errors import Problem, StructureError
 
+TIPS = "a plank on rollers of different sizes tips as they roll, which is not constructed"
 TOUCH = 1e-9
 """Gap between wheels that touch, as a share of their distance, that rounding may leave."""
 
@@ -233,16 +234,25 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
 
 
 def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
-    """Words for a track that seems to be led by links which hang on it themselves.
-
-    What keeps its wheel where it rolls was not put in, unless a name asks for it.
-    """
+    """Words for a track from whose wheel what keeps it there is missing; empty where none is."""
     for name in loose:
         for rolling in scene.links[name].rolls:
             if rolling.through and rolling.on != FRAME and not rolling.keeper:
-                called = quoted(next_name(scene.links))
-                return (
-                    f"; or, if a pin and the wheel of link {name} alone hold link {rolling.on}, "
-                    f"write link = {called} in rolls of link {name}"
-                )
+                return f"; or, {keeper_asked(scene.links, name, rolling.on)}"
+    return ""
+
+
+def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
+    """What to write where one wheel alone rolls on one of some tracks that nothing keeps there.
+
+    Where wheels of several sizes roll on it, that this is not constructed.
+    """
+    for track in tracks:
+        rolled = [(k, r) for k in scene.every_link for r in k.rolls if r.through is not None]
+        wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
+        if len(wheels) == 1 and not wheels[0][1].keeper:
+            return keeper_asked(scene.links, wheels[0][0].name, track)
+        rims = [link.rim for link, _ in wheels]
+        if any(not of_one_size(rims[0], rim) for rim in rims[1:]):
+            return TIPS
     return ""

@@ -81,3 +81,14 @@ def test_an_interval_without_a_root_gives_none():
         lambda _, x: np.where(x < 0.3, -1.0, 2.0), np.array([0]), np.array([0.0]), np.array([1.0])
     )
     assert np.isnan(place).all()
+
+
+def test_a_root_just_before_a_jump_is_found_to_all_digits():
+    """As where a bar lies half a turn from where it counts: a wheel jumps by its rim's length."""
+    root = 3.14
+    place = found(lambda x: np.where(x < root + 1e-9, 55 * (x - root), 231.0))
+    assert place == pytest.approx([root], abs=4e-15)
+
+
+def test_a_jump_across_nought_is_no_root():
+    assert found(lambda x: np.where(x < 3.14, -1.0, 231.0)).size == 0

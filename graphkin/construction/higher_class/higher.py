@@ -33,10 +33,15 @@ Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
 
 
-@action("part", margin=lambda closing, place: closing[-1])
-def part(closing: tuple[Any, ...], place: int) -> Any:
+def part_of(closing: tuple[Any, ...] | float, place: int) -> Any:
+    """One of the values that close a group; not a number where nothing closes it."""
+    return closing if isinstance(closing, float) else closing[place]
+
+
+@action("part", margin=lambda closing, place: part_of(closing, -1))
+def part(closing: tuple[Any, ...] | float, place: int) -> Any:
     """One of the values that close a group: the tried one, or a dyad's sign."""
-    return closing[place]
+    return part_of(closing, place)
 
 
 @action("excess")

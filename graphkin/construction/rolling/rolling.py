@@ -55,12 +55,6 @@ def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
     return -(turn - start) * radius
 
 
-@action("less-axis")
-def less_axis(turn: Real, axis: Point) -> Real:
-    """An angle less that of a link that keeps its direction."""
-    return turn - phase(axis)
-
-
 @action("opposite")
 def opposite(number: Real) -> Real:
     """A number with the other sign."""
@@ -362,9 +356,11 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
             return pen.given("nought")
         if pen.has("turned", link):
             return pen.the("turned", link)
-        if driver := gives_angle(pen.scene, link):
+        driver = gives_angle(pen.scene, link)
+        if driver is not None and stands(pen, driver.against):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
-        if (known := turned_with_driven(pen.scene, link)) is not None:
+        known = turned_with_driven(pen.scene, link)
+        if known is not None and stands(pen, known):
             axes = axis(pen, shapes, link), axis(pen, shapes, known)
             found = pen.draw(counted_near, *axes, angle_of(pen, shapes, known))
             return pen.want("turned", link, found)
@@ -374,6 +370,11 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
         if pen.turns(link):
             pen.make(CountedTurn(link=link, heading=ends[0], radians=ends[1], turn=found))
         return pen.want("turned", link, found)
+
+
+def stands(pen: Pen, link: str) -> bool:
+    """Whether a link stands already: one against which a driver turns another may come later."""
+    return link == FRAME or link in pen.bases
 
 
 def refuse_idle_turns(pen: Pen) -> None:
@@ -477,9 +478,9 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
                 own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
                 if not pen.has("turned", link):
                     pen.want("turned", link, own)
-            turn = pen.draw(difference, turn, own)
         else:
-            turn = pen.draw(less_axis, turn, axis_)
+            own = pen.draw(counted_near, axis_, pen.given("ahead"), pen.given("nought"))
+        turn = pen.draw(difference, turn, own)
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
