@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import cv2
 import numpy as np
 from msgspec import Struct
+
+from graphkin.classroom.printing.qr_code import QUIET, SIDE, corners_of_a3, modules
+
+AGREES, BEFORE = 0.85, 0.08
+"""The share of its modules by which a square that cannot be read is one of some, and by how much
+that must be more than the share of any other: two squares have about three quarters in common.
+"""
 
 
 class FoundCode(Struct, frozen=True):
@@ -40,3 +47,28 @@ def corners_of(position: Any) -> Any:
     """The corners of a square as an array."""
     order = position.top_left, position.top_right, position.bottom_right, position.bottom_left
     return np.array([(corner.x, corner.y) for corner in order], dtype=float)
+
+
+def code_among(sheet: Any, density: float, codes: Sequence[str]) -> FoundCode | None:
+    """Of some codes of one length that whose square stands on a sheet that lies flat, so many
+    pixels for each mm, where a part of it is not seen; None where none surely is.
+    """
+    squares = np.array([modules(code) for code in codes], dtype=float)
+    count = squares.shape[1]
+    size = SIDE / count
+    spread = max(1, round(size * density / 2))
+    smooth = cv2.blur(sheet, (spread, spread))
+    centres = (np.arange(count) + 0.5) * size
+    best, most = None, -1.0
+    for x, y in corners_of_a3(QUIET * size):
+        across, down = (np.rint((a + centres) * density - 0.5).astype(int) for a in (x, y))
+        seen = smooth[np.ix_(down, across)].astype(float)
+        dark = seen < (seen.min() + seen.max()) / 2
+        alike = (squares == dark).mean(axis=(1, 2))
+        if alike.max() > most:
+            first, second = int(alike.argmax()), np.sort([*alike, 0.0])[-2]
+            most = float(alike[first])
+            sure = most >= AGREES and most >= second + BEFORE
+            ring = np.array([[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]]) + (x, y)
+            best = FoundCode(codes[first], ring * density - 0.5) if sure else None
+    return best

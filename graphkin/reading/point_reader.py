@@ -21,6 +21,8 @@ from graphkin.reading.point_search import (
     DRAWINGS,
     DRAWN,
     FITS,
+    JOINS,
+    SAME,
     SURE,
     PointSearch,
 )
@@ -176,15 +178,29 @@ class PointReader(PointSearch):
         if self.sheet.field(number) is self.sheet.layout.mechanism:
             return False
         far = self.best_far(number, own, place)
-        if far is None or far.cover < WHOLE:
+        if far is None:
+            return False
+        there, here = (self.likely(number, each, own) for each in (far.place, place))
+        if self.is_one_with_another(number, place):
+            return there > here - RIVAL - JOINS  # the other's lines join its own there
+        if far.cover < WHOLE:
             return False
         if far.count < MEET and self.agreement(number, far.place) < WHOLE:
             return False
         beyond = self.beyond(number, far.place)
         if len(beyond) < 2 or max(beyond) >= DRAWN:
             return False
-        there, here = (self.likely(number, each, own) for each in (far.place, place))
         return there > here - (RIVAL if far.count >= MEET else 0.0)  # two cross by chance as well
+
+    def is_one_with_another(self, number: int, place: complex) -> bool:
+        """Whether a point that was read before lies at a place as well: what leads there is
+        explained by it.
+        """
+        steps = self.sheet.exact.program.steps
+        return any(
+            abs(self.own[other] - place) < SAME and steps[other].plane is steps[number].plane
+            for other in self.readings.keys() & self.own.keys()
+        )
 
     def told(
         self,
@@ -236,7 +252,8 @@ class PointReader(PointSearch):
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                ask = ask or from_key > OUTSIDE or abs(best.place - key.middle) > APART
+                far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
+                ask = ask or from_key > OUTSIDE or far
                 ask = ask or (apart > FITS and bool(self.doubted & behind))
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
@@ -265,6 +282,18 @@ class PointReader(PointSearch):
             None if best is None else round(abs(best.place - own.middle), 3),
             round(own.radius, 3),
             *self.tail(number),
+        )
+
+    def is_checked(self, behind: frozenset[int]) -> bool:
+        """Whether all points behind one are read, and nobody is asked of any of them: then no
+        mistake is unseen, however far the pencil takes it from the key.
+        """
+        points = behind.intersection(self.sheet.points)
+        corners = behind.intersection(self.sheet.corners)
+        return (
+            all(n in self.readings and not self.readings[n].ask for n in points)
+            and corners <= self.own.keys()
+            and not corners & (self.unread | self.guessed)
         )
 
     def is_there(self, number: int, best: LinesCrossing, key: ExpectedPlace) -> bool:

@@ -251,7 +251,9 @@ class PointSearch:
     # --- near what is expected --------------------------------------------------------------------
 
     def best_near(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
-        """The best crossing of what leads to a point near where it is expected."""
+        """The best crossing of what leads to a point near where it is expected; where none fits,
+        the end of a single line that does.
+        """
         lines = [
             some
             for leading in self.sheet.leading[number]
@@ -272,7 +274,13 @@ class PointSearch:
                     score = found.cover * found.count - 0.03 * min(away, 40.0)
                     if score > most:
                         best, most = found, score
-        return best or self.end_near(number, lines, where)
+        if best is not None and where.away(best.place, best.error) <= FITS:
+            return best
+        end = self.end_near(number, lines, where)
+        if best is None or end is None:
+            return best or end
+        told = end.ends or end.count > 1
+        return end if told and where.away(end.place, end.error) <= FITS else best
 
     def end_near(
         self, number: int, lines: Sequence[Sequence[InkLine]], where: ExpectedPlace

@@ -103,7 +103,9 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         grey = grey_of(photograph)
         if photograph.left is not None:
             grey = of_halves(grey_of(photograph.left), grey, order)
-        code, corners = known_code(grey, order.variants)
+            code, corners = code_of_halves(grey, order.variants)
+        else:
+            code, corners = known_code(grey, order.variants)
         found = found_sheet(grey, order, code, corners)
         points, corners_at = unread(found, order) if order.by_hand else read_points(grey, found)
     except (Unreadable, GraphkinError, *FAULTS, cv2.error) as error:
@@ -141,6 +143,22 @@ def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
         raise Unreadable("no code is found: the square left of the title block must be seen whole")
     (each,) = ours.values()
     return each.text, each.corners
+
+
+def code_of_halves(sheet: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
+    """The code on a sheet that was put together of its halves, with its corners: it stands where
+    they meet, and scans may lack some of it. Raises Unreadable.
+    """
+    from graphkin.reading.codes import code_among
+    from graphkin.reading.halves import DENSITY
+
+    try:
+        return known_code(sheet, variants)
+    except Unreadable:
+        found = code_among(sheet, DENSITY, tuple(variants))
+        if found is None:
+            raise
+        return found.text, found.corners
 
 
 def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSheet:

@@ -20,7 +20,9 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
+from graphkin.numbers.plane import Line
 from graphkin.reading import read_run, registration
+from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
@@ -29,11 +31,12 @@ from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing, along_way
 from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
+from graphkin.reading.pictures import Unreadable
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import PointSearch
 from graphkin.reading.read_run import ReadOutcome, read_order
-from graphkin.reading.read_sheet import Grid, SheetRecord
+from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves
 from graphkin.reading.settled_points import (
     SETTLED,
     PointDecision,
@@ -383,6 +386,25 @@ def test_two_scans_of_the_halves_are_one_sheet(
             assert abs(complex(*point.at) - complex(*true[point.step].at)) < 0.6
 
 
+def test_the_code_is_told_where_the_halves_lack_some_of_it(a_class: Path, code: str) -> None:
+    """It stands where they meet: of the codes of the class there is one that fits the rest."""
+    image = printed(a_class, code, "velocity").copy()
+    image[:, 2100:2126] = image[:, 2126:2127]  # 2.6 mm that neither picture holds
+    assert not codes_in(image)
+    variants = read_order(open_class(a_class), Grid()).variants
+    found = code_among(image, 10.0, tuple(variants))
+    assert found is not None
+    assert found.text == code
+    page = next(each for each in sheets_of(a_class, code).of("task") if each.kind == "velocity")
+    square = registration.square_of(page.pages[0]) * 10 - 0.5
+    assert found.corners == pytest.approx(square, abs=0.1)
+    assert code_among(image, 10.0, ["ABCDEFGHJK", "234567ABCD"]) is None
+    sheet = cv2.resize(image, None, fx=0.9, fy=0.9, interpolation=cv2.INTER_AREA)
+    assert code_of_halves(sheet, variants)[0] == code
+    with pytest.raises(Unreadable):
+        code_of_halves(np.full_like(sheet, 255), variants)
+
+
 def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path: Path) -> None:
     drawing = drawn_sheet(a_class, code, "velocity", Habits(), 3)
     for name in ("one-left", "one-right"):
@@ -472,6 +494,14 @@ def test_a_line_that_ends_before_a_place_does_not_arrive_there() -> None:
     assert ink.cover(200 + 100j, 266 + 100j, hidden=1.0, arrives=True) < 0.8
 
 
+def velocity_of(folder: Path, code: str) -> LetteredSheet:
+    """A student's sheet of velocities as it should be drawn."""
+    sheets = sheets_of(folder, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    return LetteredSheet(drawing, page)
+
+
 def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) -> None:
     """Right and what follows from an unseen mistake are both possible there."""
     sheets = sheets_of(a_class, code)
@@ -489,6 +519,57 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
         key = ExpectedPlace(300 + off + 100j, np.eye(2) * 4.0)
         told = reader.told(number, key, own, read)
         assert (told.verdict, told.ask) == ("right", asked)
+    behind = reader.behind(number)
+    for n in behind & {*sheet.points}:  # where all behind it is read and settled, none is unseen
+        reader.readings[n] = msgspec.structs.replace(point(n, ask=False), verdict="right")
+    for n in behind & {*sheet.corners}:
+        reader.own[n] = 0j
+    assert not reader.told(number, key, own, read).ask
+    some = next(iter(behind & {*sheet.points}))
+    reader.readings[some] = point(some)
+    assert reader.told(number, key, own, read).ask
+
+
+def test_a_line_that_ends_as_expected_counts_where_another_crosses_it_elsewhere(
+    a_class: Path, code: str
+) -> None:
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
+    a, o = (complex(sheet.place(n, values[n])) for n in (number, pole))
+    way = (a - o) / abs(a - o)
+    line = next(
+        each.far
+        for each in sheet.leading[number]
+        if each.after and isinstance(values[each.far], Line)
+    )
+    along = values[line].along.conjugate() / abs(values[line].along)
+    stray = a - 2.5 * way - 20 * along, a - 2.5 * way + 20 * along
+    where = ExpectedPlace(a, np.eye(2) * 0.1)
+    for lines in (((o, a),), ((o, a), stray)):
+        search = PointSearch(sheet, ink_of(*lines), Pencil(0.4, 0.4))
+        search.next = search.drawings = search.ahead({})
+        found = search.best_near(number, where)
+        assert found is not None
+        assert abs(found.place - a) < 1
+
+
+def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: Path) -> None:
+    (code,) = read_order(open_class(rack), Grid()).variants
+    sheet = velocity_of(rack, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    a, b, t, o = (next(n for n in values if steps[n].name == name) for name in "abto")
+    places = {n: complex(sheet.place(n, values[n])) for n in (a, b, t, o)}
+    assert abs(places[b] - places[t]) < 0.01
+    whole = [(places[o], places[a]), (places[a], places[t]), (places[o], places[t])]
+    apart = places[o], places[o] + (places[t] - places[o]) * np.exp(0.08j)
+    for lines, rival in ((whole, False), ([*whole, apart], True)):
+        reader = PointReader(sheet, ink_of(*lines), Pencil(0.4, 0.4))
+        reader.own = {n: places[n] for n in (a, t)}
+        reader.readings = {n: point(n, ask=False) for n in (a, t)}
+        reader.next = reader.drawings = reader.ahead({})
+        own = ExpectedPlace(places[b], np.eye(2) * 0.05)
+        assert reader.has_rival(b, places[b], own) is rival
 
 
 def test_rays_end_where_the_field_does(a_class: Path, code: str) -> None:
