@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, complain, say
-from graphkin.cli.options import class_argument, formats_option, jobs_option
+from graphkin.cli.folder_options import class_argument
+from graphkin.cli.options import formats_option, jobs_option
 
 if TYPE_CHECKING:
     from fractions import Fraction

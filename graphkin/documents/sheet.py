@@ -37,9 +37,9 @@ from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import escape, extent, flowed
+from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.style import VECTORS
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
 
 TITLE = 182.0

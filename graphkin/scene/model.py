@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import Any, Literal, get_args
 
 from msgspec import Struct, field
@@ -556,7 +555,7 @@ class Scene(Struct, frozen=True, dict=True):
     names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, object] = field(default_factory=dict)
-    source: Path | None = None
+    source: str | None = None
 
     @property
     def every_link(self) -> tuple[Link, ...]:

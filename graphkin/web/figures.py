@@ -10,7 +10,7 @@ from msgspec import Struct
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.parameter_words import quantities, unit_of
 from graphkin.construction.links.counted_turn import counted_link
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
 from graphkin.motion.sweep import sweep_of

@@ -12,7 +12,7 @@ from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Stat
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import TURNING
 from graphkin.drawing.glyphs import advance
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
 from graphkin.text.errors import PageError
 

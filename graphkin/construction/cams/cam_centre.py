@@ -17,8 +17,7 @@ from graphkin.construction.core.vocabulary import coordinate as along_guide
 from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
 from graphkin.numbers.cam_followers import (
     TipMotion,

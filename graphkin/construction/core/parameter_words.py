@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from graphkin.construction.core.amounts import written
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity, shortest

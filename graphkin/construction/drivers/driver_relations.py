@@ -27,8 +27,7 @@ from graphkin.construction.core.relation import (
 )
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.expression import CONSTANT
 from graphkin.scene.model import FRAME, Driver
 from graphkin.scene.quantity import Quantity, shortest

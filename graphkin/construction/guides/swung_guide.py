@@ -16,8 +16,7 @@ from graphkin.construction.guides.guides import height_of, local_line
 from graphkin.construction.links.compass_arc import compass
 from graphkin.construction.links.dyad_by_arcs import arcs_meet
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Pin, Sliding

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
 from graphkin.construction.core.naming import angle_symbol, way_of
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.pairs import Pin, Sliding

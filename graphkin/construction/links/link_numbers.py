@@ -16,7 +16,8 @@ from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import GAP, NUMBER, Label
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark
-from graphkin.drawing.richtext import escape, extent
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Link
 
