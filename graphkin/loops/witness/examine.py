@@ -109,11 +109,8 @@ class Examined(Struct, frozen=True, eq=False):
         if not known:
             return 0.0, "", LEAST_LIMIT
         worst = max(beyond or known, key=farthest)
-        return (
-            found[worst],
-            every.names[worst],
-            max(limit[q] for q in (beyond and [worst]) or known),
-        )
+        most = max(limit[q] for q in (beyond and [worst]) or known)
+        return found[worst], every.names[worst], most
 
 
 def examine(
