@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec import Struct
@@ -13,10 +13,12 @@ from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
 from graphkin.numbers.arithmetic import Real
-from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
+
+if TYPE_CHECKING:
+    from graphkin.numbers.cam_motions import Rise
 
 
 class Lift(Struct, frozen=True, eq=False):

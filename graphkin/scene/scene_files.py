@@ -94,7 +94,7 @@ def find(name: str) -> str:
         Problem(
             name,
             "is neither a file nor a shipped lab",
-            "a .toml file or one of " + ", ".within(names()),
+            "a .toml file or one of " + ", ".join(names()),
             hint + "graphkin list shows the labs",
         )
     )

@@ -81,7 +81,7 @@ class Examined(Struct, frozen=True, eq=False):
         each = self.differences
         known = np.where(self.solved.report.good, 0.0, np.nan)
         worst = np.where(each.judged, each.found, 0.0).max(axis=0, initial=0.0)
-        return np.maximum(known, worst)
+        return np.asarray(np.maximum(known, worst))
 
     @property
     def agrees(self) -> Flags:
@@ -109,11 +109,8 @@ class Examined(Struct, frozen=True, eq=False):
         if not known:
             return 0.0, "", LEAST_LIMIT
         worst = max(beyond or known, key=farthest)
-        return (
-            found[worst],
-            every.names[worst],
-            max(limit[q] for q in (beyond and [worst]) or known),
-        )
+        most = max(limit[q] for q in (beyond and [worst]) or known)
+        return found[worst], every.names[worst], most
 
 
 def examine(
