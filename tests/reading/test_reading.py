@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import itertools
 import json
+import shutil
 from pathlib import Path
 from wsgiref.util import setup_testing_defaults
 
@@ -18,12 +20,14 @@ from pypdf import PdfWriter
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
+from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.cli.main import app
 from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
+from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
@@ -175,6 +179,52 @@ def test_grade_marks_what_was_read(a_class: Path, taken: Path, tmp_path: Path) -
     assert found.exit_code in (0, 1), found.output
     marks = (tmp_path / "report" / "marks.csv").read_text(encoding="utf-8-sig").splitlines()
     assert any("0042" in line for line in marks), marks
+
+
+def a_probe(a_class: Path, name: str) -> Probe:
+    opened = open_class(a_class)
+    every = probes(opened.book.mechanism({"n": "7"}), drawn_items(opened))
+    return next(each for each in every if each.item.field == name)
+
+
+@pytest.mark.parametrize(
+    ("tail", "tip", "follows"),
+    [
+        (None, "follows", True),
+        ("right", "follows", True),
+        ("follows", "follows", True),
+        ("wrong", "follows", False),
+        ("follows", "right", False),
+        (None, "wrong", False),
+    ],
+)
+def test_a_length_follows_whose_tip_does_and_whose_tail_is_not_wrong(
+    a_class: Path, tail: str | None, tip: str, follows: bool
+) -> None:
+    probe = a_probe(a_class, "v_D_mm")
+    first, last = probe.steps[0], probe.steps[-1]
+    verdicts = {last: tip} if tail is None else {first: tail, last: tip}
+    assert is_followed(probe, verdicts) is follows
+
+
+def test_what_is_decided_to_follow_earns_follow(a_class: Path, taken: Path, tmp_path: Path) -> None:
+    """The lecturer moves d by 12 mm and says that it follows; the mark is not that of the key."""
+    out = shutil.copytree(taken / "read", tmp_path / "read")
+    session = DeskSession(out, words("en"))
+    d = next(point for point in session.records["plain"].points if point.name == "d")
+    assert d.at is not None
+    earned = {}
+    for verdict in ("wrong", "follows"):
+        said = {"sheet": "plain", "step": d.step, "verdict": verdict, "at": [d.at[0] + 12, d.at[1]]}
+        session.decide(json.dumps(said).encode())
+        report = tmp_path / verdict
+        found = call("grade", a_class, out, "-o", report, "--format", "html")
+        assert found.exit_code in (0, 1), found.output
+        with (report / "marks.csv").open(encoding="utf-8-sig", newline="") as stream:
+            row = next(row for row in csv.DictReader(stream) if row["id"] == "0042")
+        earned[verdict] = float(row["v_D_mm"]), row["v_D_mm why"]
+    assert earned["wrong"][0] == 0
+    assert earned["follows"] == (1.6, "follows")
 
 
 def test_nothing_that_a_camera_writes_is_kept(taken: Path) -> None:
@@ -845,8 +895,12 @@ def test_only_the_page_with_its_token_gets_pictures(taken: Path) -> None:
 
 @pytest.mark.parametrize("language", ["en", "it", "ro"])
 def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
-    page = desk_page(DeskSession(taken / "read", words(language))).decode()
+    session = DeskSession(taken / "read", words(language))
+    page = desk_page(session).decode()
     assert words(language)("desk.title") in page
+    (sheet,) = [each for each in session.sheets() if each["name"] == "hard"]
+    assert sheet["kind"] == words(language)("sheet.acceleration")
+    assert sheet["who"].startswith("0042 ")
     assert "<built-in" not in page
 
 

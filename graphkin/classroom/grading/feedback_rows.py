@@ -39,6 +39,7 @@ PLAIN = {
     Status.BLANK: "feedback.blank",
 }
 UNREAD = {
+    "open": "unread.open",
     "number": "unread.number",
     "unit": "unread.unit",
     "large": "unread.large",
@@ -192,7 +193,9 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         parts = [words("feedback.kept_back")]
     else:
         parts = [far(mark, words)]
-    if mark.status is Status.FOLLOWS:
+    if mark.status is Status.FOLLOWS and not mark.source:
+        parts.append(words("feedback.follows_drawn", share=percent(mark)))
+    elif mark.status is Status.FOLLOWS:
         source = graded.mark(mark.source).item.symbol
         parts.append(words("feedback.follows", source=source, share=percent(mark)))
     elif mark.slip and mark.slip != REVERSED:
