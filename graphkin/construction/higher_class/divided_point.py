@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from msgspec import Struct
 
+from graphkin.construction.acceleration import acceleration
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
+from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen, image, second_image
 from graphkin.construction.core.program import Part, Plane, Target
@@ -21,6 +23,7 @@ from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.velocity import velocity
 from graphkin.construction.velocity.parallel_through import parallel_through
 from graphkin.construction.velocity.perpendicular_through import perpendicular_through
 from graphkin.drawing.style import CHAIN_LINES
@@ -29,7 +32,7 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Leading, Pin, Sliding
 from graphkin.text import MINUS
 
 if TYPE_CHECKING:
@@ -199,14 +202,39 @@ class PlanQuantity(Struct, frozen=True):
 
     quantity: str
     rate: str
+    given: str  # by a driver
     part: Part
     plane: Plane
     named: Callable[[str], str]
+    turn_tip: Callable[[Pen, str, str, str], None]
+    slide_on: Callable[[Pen, LinkShapes, Leading, str, int], None]
+    plate_points: Callable[[Pen, LinkShapes, Base], None]
+    known_end: Callable[[Pen, Sliding, str, str], int]
 
 
-VELOCITY = PlanQuantity("velocity", OMEGA, Part.VELOCITY, Plane.VELOCITIES, image)
+VELOCITY = PlanQuantity(
+    "velocity",
+    OMEGA,
+    "speed",
+    Part.VELOCITY,
+    Plane.VELOCITIES,
+    image,
+    velocity.turn_tip,
+    velocity.slide_on,
+    velocity.plate_points,
+    lambda pen, pair, link, point: image_under(pen, partner(pair, link), point),
+)
 ACCELERATION = PlanQuantity(
-    "acceleration", EPSILON, Part.ACCELERATION, Plane.ACCELERATIONS, second_image
+    "acceleration",
+    EPSILON,
+    "acceleration",
+    Part.ACCELERATION,
+    Plane.ACCELERATIONS,
+    second_image,
+    acceleration.turn_tip,
+    acceleration.slide_on,
+    acceleration.plate_points,
+    known_end,
 )
 
 
@@ -287,11 +315,8 @@ def along_guide(
     pen: Pen, shapes: LinkShapes, link: str, pair: Sliding, kind: PlanQuantity, of: str
 ) -> int:
     """The parallel to a guide of a known link from what is known of a sliding point's motion."""
-    if kind is VELOCITY:
-        start = image_under(pen, partner(pair, link), of)
-    else:
-        with pen.on(kind.part, kind.plane):
-            start = known_end(pen, pair, link, of)
+    with pen.on(kind.part, kind.plane):
+        start = kind.known_end(pen, pair, link, of)
     guide = known_guide(pen, shapes, pair)
     with pen.on(kind.part, kind.plane), pen.hands_way():
         return parallel_through(pen, start, guide, pair.links[0])

@@ -10,7 +10,6 @@ from typing import ClassVar
 
 from msgspec.structs import replace
 
-from graphkin.construction.acceleration import acceleration as accelerations
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.bases import bases, ending
@@ -30,7 +29,6 @@ from graphkin.construction.core.vocabulary import (
 )
 from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.higher_class import coupled_train
 from graphkin.construction.higher_class.divided_point import (
     ACCELERATION,
@@ -51,7 +49,6 @@ from graphkin.construction.higher_class.misclosure import (
 from graphkin.construction.higher_class.right_plan import components, in_order, settle
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.velocity import velocity as velocities
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -431,17 +428,10 @@ def move_trial(
         case Pin(point=pivot):
             pen.want(kind.rate, trial.link, value)
             if base.end is not None:
-                if kind is VELOCITY:
-                    velocities.turn_tip(pen, trial.link, pivot, base.end)
-                else:
-                    accelerations.turn_tip(pen, trial.link, pivot, base.end)
+                kind.turn_tip(pen, trial.link, pivot, base.end)
         case _ as pair:
-            slide = velocities.slide_on if kind is VELOCITY else accelerations.slide_on
-            slide(pen, shapes, pair, trial.link, value)
-    if kind is VELOCITY:
-        velocities.plate_points(pen, shapes, base)
-    else:
-        accelerations.plate_points(pen, shapes, base)
+            kind.slide_on(pen, shapes, pair, trial.link, value)
+    kind.plate_points(pen, shapes, base)
 
 
 def missed(
@@ -463,18 +453,14 @@ def missed(
             roles = dict(zip(("p", "q", "foot", "tip"), ends, strict=True))
             return BarMisclosure(size=size, wanted=wanted, **roles)
         case Tie(link, Pin(point=p), Sliding() as pair):
-            known = partner(pair, link)
             line = known_guide(pen, shapes, pair)
-            if kind is VELOCITY:
-                start = image_under(pen, known, p)
-            else:
-                start = known_end(pen, pair, link, p)
+            start = kind.known_end(pen, pair, link, p)
             tip = pen.the(kind.quantity, p)
             with pen.on(kind.part, Plane.NUMBERS):
                 size = pen.draw(lacks_across, line, start, tip)
             return GuideMisclosure(size=size, block=pair.links[0], guide=line, start=start, tip=tip)
         case Driver(kind="turn") as driver:
-            given = getattr(pen.drive(driver), "speed" if kind is VELOCITY else "acceleration")
+            given = getattr(pen.drive(driver), kind.given)
             own = omega_of(pen, driver.link, kind.rate)
             if driver.against != FRAME:
                 with pen.on(kind.part, Plane.NUMBERS):
@@ -491,12 +477,9 @@ def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: PlanQuantit
     """What a trial plan misses of a given sliding speed or acceleration."""
     pair = slide_of(pen, driver)
     first = pen.scene.link(driver.link).points[0]
-    given = getattr(pen.drive(driver), "speed" if kind is VELOCITY else "acceleration")
+    given = getattr(pen.drive(driver), kind.given)
     line = known_guide(pen, shapes, pair)
-    if kind is VELOCITY:
-        start = image_under(pen, driver.against, first)
-    else:
-        start = known_end(pen, pair, driver.link, first)
+    start = kind.known_end(pen, pair, driver.link, first)
     with pen.on(kind.part, Plane.NUMBERS):
         tip = pen.the(kind.quantity, first)
         found = pen.draw(part_along, line, start, tip)
