@@ -6,9 +6,9 @@ them come by it, and in what time (``--rooms`` for some rooms of them); then eac
 these, the quickest first, for at most ``--seconds``, until the first that fails
 (``mutant_trials``). What no test comes by, for it stands outside of all functions, is tried in a
 copy of its own by the tests that import its module, those of its room and what is kept of all
-outputs. ``--only PATH…`` takes the mutants from some modules, ``--from`` goes on in the list. What
-survives is printed with its line; a survivor wants a test, or is equivalent: ``survivors.txt``
-keeps those of the last run with a word each.
+outputs. ``-j`` says how many processes run at once, ``--only PATH…`` takes the mutants from some
+modules, ``--from`` goes on in the list. What survives is printed with its line; a survivor wants a
+test, or is equivalent: ``survivors.txt`` keeps those of the last run with a word each.
 """
 
 from __future__ import annotations
@@ -25,9 +25,11 @@ import subprocess
 import sys
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from importlib.util import cache_from_source
 from itertools import accumulate
+from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -175,19 +177,24 @@ def written(source: bytes, mutant: Mutant, after: str) -> bytes:
     return b"".join(lines)
 
 
-def reached(copy: Path, rooms: Sequence[str]) -> dict[int, list[tuple[float, str]]]:
+def reached(copy: Path, rooms: Sequence[str], jobs: int) -> dict[int, list[tuple[float, str]]]:
     """The tests that come by each mutant, the quickest first; without those that fail anyway."""
     found: dict[int, list[tuple[float, str]]] = defaultdict(list)
-    for room in rooms:
-        kept = copy.parent / f"{room}.reached"
-        run(copy, [f"tests/{room}"], REACHED=str(kept))
+    files = [copy.parent / f"{room}.reached" for room in rooms]
+    with ThreadPoolExecutor(jobs) as pool:
+        runs = [
+            pool.submit(run, copy, [f"tests/{room}"], REACHED=str(kept))
+            for room, kept in zip(rooms, files, strict=True)
+        ]
+    assert all(each.result() >= 0 for each in runs)
+    for kept in files:
         times: dict[str, float] = defaultdict(float)
         for line in lines_of(kept.with_suffix(".times")):
             test, seconds, outcome = line.rsplit("\t", 2)
-            times[test] += float(seconds) if outcome == "passed" else float("inf")
+            times[test] += float(seconds) if outcome == "passed" else inf
         for line in lines_of(kept):
             number, _, test = line.partition("\t")
-            if times.get(test, float("inf")) < float("inf"):
+            if times.get(test, inf) < inf:
                 found[int(number)].append((times[test], test))
     return {number: sorted({*tests}) for number, tests in found.items()}
 
@@ -197,19 +204,28 @@ def lines_of(path: Path) -> list[str]:
     return path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
 
 
-def tried(copy: Path, tests: Mapping[int, Sequence[tuple[float, str]]], most: float) -> set[int]:
+def tried(
+    copy: Path, tests: Mapping[int, Sequence[tuple[float, str]]], most: float, jobs: int
+) -> set[int]:
     """Those of some mutants that a test finds which comes by, in at most so many seconds."""
-    jobs = []
+    trials = []
     for number, timed in tests.items():
         sums = accumulate(seconds for seconds, _ in timed)
         within = [test for whole, (_, test) in zip(sums, timed, strict=True) if whole <= most]
-        jobs.append((number, within or [timed[0][1]]))
-    path = copy.parent / "tried.json"
-    path.write_text(json.dumps(jobs), encoding="utf-8")
-    files = sorted({test.partition("::")[0] for _, some in jobs for test in some})
-    run(copy, files, TRIED=str(path))
-    fates = dict(line.split("\t", 1) for line in lines_of(path.with_suffix(".fates")))
-    return {int(number) for number, fate in fates.items() if fate}
+        trials.append((number, within or [timed[0][1]]))
+    found = set[int]()
+    shares = {copy.parent / f"{k}.tried": trials[k::jobs] for k in range(jobs) if trials[k::jobs]}
+    runs = []
+    with ThreadPoolExecutor(jobs) as pool:
+        for path, some in shares.items():
+            path.write_text(json.dumps(some), encoding="utf-8")
+            files = sorted({test.partition("::")[0] for _, own in some for test in own})
+            runs.append(pool.submit(run, copy, files, TRIED=str(path)))
+    assert not any(each.result() for each in runs), "the tests could not be tried"
+    for path in shares:
+        fates = (line.split("\t", 1) for line in lines_of(path.with_suffix(".fates")))
+        found |= {int(number) for number, fate in fates if fate}
+    return found
 
 
 def survives(copy: Path, mutant: Mutant) -> bool:
@@ -257,6 +273,7 @@ def main(words: Sequence[str] | None = None) -> None:
     parser.add_argument("count", type=int, nargs="?", default=12)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--from", type=int, default=0, metavar="N", dest="first")
+    parser.add_argument("-j", type=int, default=os.cpu_count() or 1, metavar="N", dest="jobs")
     parser.add_argument("--only", nargs="+", type=Path, metavar="PATH")
     parser.add_argument("--rooms", nargs="+", default=ROOMS, choices=ROOMS, metavar="ROOM")
     parser.add_argument("--seconds", type=float, default=60.0)
@@ -267,8 +284,8 @@ def main(words: Sequence[str] | None = None) -> None:
     with TemporaryDirectory() as one, TemporaryDirectory() as other:
         copy, alone = copy_of(Path(one)), copy_of(Path(other))
         switched(copy, chosen)
-        tests = reached(copy, given.rooms)
-        found = tried(copy, tests, given.seconds)
+        tests = reached(copy, given.rooms, given.jobs)
+        found = tried(copy, tests, given.seconds, given.jobs)
         for number, mutant in enumerate(chosen):
             alive = number not in found and (number in tests or survives(alone, mutant))
             fate = "SURVIVES" if alive else "found"

@@ -11,6 +11,7 @@ from wsgiref.util import setup_testing_defaults
 import cv2
 import msgspec
 import numpy as np
+import pypdfium2
 import pytest
 from click.testing import CliRunner, Result
 from PIL import Image
@@ -28,7 +29,13 @@ from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing, along_way
-from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
+from graphkin.reading.marked_drawing import (
+    GREEN,
+    MarkedSheet,
+    as_pdf,
+    drawings_of_class,
+    sentence,
+)
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import PointSearch
@@ -791,3 +798,18 @@ def test_a_wrong_point_is_said_by_direction_and_length() -> None:
     assert "10.0 mm" in said
     assert "45.0°" in said
     assert "4.1 mm" in said
+
+
+def test_the_ring_about_a_point_lies_on_the_printed_page_where_the_point_was_read() -> None:
+    """At (150, 90) mm of a sheet of A3, 420 mm wide."""
+    right = PointReading("b", 1, (150.0, 90.0), "right", False, (150.0, 90.0), (150.0, 90.0))
+    paper = io.BytesIO()
+    Image.new("RGB", (840, 594), "white").save(paper, "JPEG")
+    data = as_pdf([MarkedSheet("", paper.getvalue(), (right,), ())], words("en"))
+    page = pypdfium2.PdfDocument(data)[0].render(scale=1).to_numpy()
+    mm = page.shape[1] / 420
+    rows, columns = np.nonzero(page[: round(297 * mm)].min(axis=2) < 200)
+    ring = abs(rows / mm - 90) < 4
+    assert np.median(columns[ring]) / mm == pytest.approx(150, abs=1)
+    assert rows.min() / mm > 80
+    assert rows.max() / mm < 95
