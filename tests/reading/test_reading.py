@@ -24,7 +24,7 @@ from graphkin.drawing.areas import AREA
 from graphkin.reading import read_run, registration
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_ink import DENSITY as INK
-from graphkin.reading.drawn_ink import DrawnInk
+from graphkin.reading.drawn_ink import DrawnInk, refined
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
@@ -813,3 +813,16 @@ def test_the_ring_about_a_point_lies_on_the_printed_page_where_the_point_was_rea
     assert np.median(columns[ring]) / mm == pytest.approx(150, abs=1)
     assert rows.min() / mm > 80
     assert rows.max() / mm < 95
+
+
+@pytest.mark.parametrize("drawn", [0.4, 0.6, 1.0])
+def test_of_a_line_that_is_drawn_in_part_that_part_and_both_its_ends_are_told(drawn: float) -> None:
+    """A line 0.4 mm wide from 0.3 mm on one side to 0.2 mm on the other, and nothing behind."""
+    across, part = np.arange(-20, 21) * 0.05, np.linspace(0, 1, 101)
+    middle = 0.3 * (1 - part) - 0.2 * part
+    strip = (abs(across - middle[:, None]) < 0.2) * (part <= drawn + 1e-9)[:, None]
+    found = refined(strip.astype(float), np.ones(strip.shape), across, part, 0.25, -0.15)
+    assert found is not None
+    near, distant, cover, _ = found
+    assert (near, distant) == pytest.approx((0.3, -0.2), abs=0.03)
+    assert cover == pytest.approx(drawn, abs=0.01)
