@@ -13,6 +13,7 @@ from wsgiref.util import setup_testing_defaults
 import cv2
 import msgspec
 import numpy as np
+import pypdfium2
 import pytest
 from click.testing import CliRunner, Result
 from PIL import Image
@@ -29,12 +30,18 @@ from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
-from graphkin.reading.drawn_ink import DrawnInk
+from graphkin.reading.drawn_ink import DrawnInk, refined
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.line_crossings import LinesCrossing, along_way
-from graphkin.reading.marked_drawing import GREEN, drawings_of_class, sentence
+from graphkin.reading.marked_drawing import (
+    GREEN,
+    MarkedSheet,
+    as_pdf,
+    drawings_of_class,
+    sentence,
+)
 from graphkin.reading.pictures import Unreadable
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
@@ -926,3 +933,31 @@ def test_a_wrong_point_is_said_by_direction_and_length() -> None:
     assert "10.0 mm" in said
     assert "45.0°" in said
     assert "4.1 mm" in said
+
+
+def test_the_ring_about_a_point_lies_on_the_printed_page_where_the_point_was_read() -> None:
+    """At (150, 90) mm of a sheet of A3, 420 mm wide."""
+    right = PointReading("b", 1, (150.0, 90.0), "right", False, (150.0, 90.0), (150.0, 90.0))
+    paper = io.BytesIO()
+    Image.new("RGB", (840, 594), "white").save(paper, "JPEG")
+    data = as_pdf([MarkedSheet("", paper.getvalue(), (right,), ())], words("en"))
+    page = pypdfium2.PdfDocument(data)[0].render(scale=1).to_numpy()
+    mm = page.shape[1] / 420
+    rows, columns = np.nonzero(page[: round(297 * mm)].min(axis=2) < 200)
+    ring = abs(rows / mm - 90) < 4
+    assert np.median(columns[ring]) / mm == pytest.approx(150, abs=1)
+    assert rows.min() / mm > 80
+    assert rows.max() / mm < 95
+
+
+@pytest.mark.parametrize("drawn", [0.4, 0.6, 1.0])
+def test_of_a_line_that_is_drawn_in_part_that_part_and_both_its_ends_are_told(drawn: float) -> None:
+    """A line 0.4 mm wide from 0.3 mm on one side to 0.2 mm on the other, and nothing behind."""
+    across, part = np.arange(-20, 21) * 0.05, np.linspace(0, 1, 101)
+    middle = 0.3 * (1 - part) - 0.2 * part
+    strip = (abs(across - middle[:, None]) < 0.2) * (part <= drawn + 1e-9)[:, None]
+    found = refined(strip.astype(float), np.ones(strip.shape), across, part, 0.25, -0.15)
+    assert found is not None
+    near, distant, cover, _ = found
+    assert (near, distant) == pytest.approx((0.3, -0.2), abs=0.03)
+    assert cover == pytest.approx(drawn, abs=0.01)
