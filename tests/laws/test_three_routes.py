@@ -6,6 +6,7 @@ from tests.chance.checking import case, checked
 from tests.chosen import EVERY
 
 SEEN = {
+    41: "a flat follower that an arm carries round a cam at rest, by a table",
     59: "a bar on a drum of the frame, with a block hung on it",
     78: "two closures less than a degree apart, between a chain's dead points",
     104: "a strand just half a turn from where it counts: a root before a jump",
@@ -13,6 +14,7 @@ SEEN = {
     119: "two links tried at once, with no dyad that closes in two ways",
     122: "a block that keeps a wheel seems to hold the wheel's track, too, where nothing is closed",
     161: "a sun driven against a block on a link that a driver turns",
+    206: "a lever with a flat face",
     248: "a plate on a guide of the link that it leads",
     251: "a link that turns far more quickly than the driver: a trial must not be too small",
     302: "a small wheel on a long track, in the 43rd of 44 closures",
