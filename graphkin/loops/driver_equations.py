@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.cam_laws import ByLaw
-from graphkin.loops.no_slip import within_half_a_turn
+from graphkin.loops.no_slip import turned_from, within_half_a_turn
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
 from graphkin.numbers.arithmetic import Real
@@ -202,11 +202,10 @@ def bases_of(
 
     Those that a driver turns count with it.
     """
-    driven = {turned.of[driver.link] for driver in scene.drivers if driver.kind == "turn"}
-    found = []
+    counting, found = turned_from(scene, turned), []
     for d, driver in enumerate(scene.drivers):
         k = turned.of[driver.against]
-        if driver.kind != "turn" or k in driven or k == turned.of[FRAME]:
+        if driver not in counting or k == turned.of[FRAME]:
             continue
         if list(turned.of.values()).count(k) > 1 and driver.against not in counted:
             lean, start = turned.angle[driver.against], near.get(driver.against, 0.0)

@@ -340,12 +340,16 @@ def span_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
 
 
 def lengths_of(pen: Pen, shapes: LinkShapes, group: Higher) -> list[int]:
-    """The lengths of the bars of a group, and those that its drivers set."""
+    """The lengths of the bars of a group, and those that its drivers set.
+
+    A cam's centre of curvature is no end of a bar: it follows once the group stands.
+    """
     lengths = [
         shapes.length(name, points[0], point)
         for name in group.links
         for points in (pen.scene.link(name).points,)
         for point in points[1:]
+        if point not in pen.scene.cam_centres
     ]
     return lengths + [pen.drive(d).position for d in slid_within(pen, group)]
 

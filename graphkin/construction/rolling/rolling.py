@@ -13,7 +13,12 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, coordinate, difference, sum_of
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
 from graphkin.construction.guides.set_by_coordinate import set_at, set_point
-from graphkin.construction.links.counted_turn import CountedTurn, counted_link, counted_near
+from graphkin.construction.links.counted_turn import (
+    CountedTurn,
+    counted_link,
+    counted_near,
+    turned_ahead,
+)
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.links.plate_points import plate_points
@@ -53,6 +58,12 @@ def rolled_on_track(lead: Real, start: Real, coordinate: Real, radius: Real) -> 
 def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
     """How far along its track a wheel has rolled when it has turned to an angle against it."""
     return -(turn - start) * radius
+
+
+@action("less-axis")
+def less_axis(turn: Real, axis: Point) -> Real:
+    """An angle less that of a link that keeps its direction."""
+    return turn - turned_ahead(axis)
 
 
 @action("opposite")
@@ -478,9 +489,9 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
                 own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
                 if not pen.has("turned", link):
                     pen.want("turned", link, own)
+            turn = pen.draw(difference, turn, own)
         else:
-            own = pen.draw(counted_near, axis_, pen.given("ahead"), pen.given("nought"))
-        turn = pen.draw(difference, turn, own)
+            turn = pen.draw(less_axis, turn, axis_)
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
