@@ -200,6 +200,7 @@ def test_a_wrong_choice_is_told_why_in_one_line(opened: Opened, pages: Path):
     assert "Alone: 0;" in counts.inner_text() and "Wrong turns: 0." in counts.inner_text()
     told = by_mouse(page, "perpendicular", ("a",), ("O2", "B"))
     assert told == "vBA is perpendicular to AB, not to O2B."
+    assert "Wrong turns: 1." in counts.inner_text()
     told = by_lists(page, "perpendicular", "o", "AB")
     assert told == "vB is perpendicular to O2B, not to AB."
     assert "O2 is at rest, so in the plan its image is o" in why(page)

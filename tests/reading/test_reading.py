@@ -404,19 +404,6 @@ def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(
         assert told["code"] == code
 
 
-def test_a_picture_of_a_telephone_is_read(a_class: Path, taken: Path, tmp_path: Path) -> None:
-    image = np.asarray(Image.open(taken / "plain.jpg").convert("L"))
-    (tmp_path / "plain.heic").write_bytes(heic(image))
-    found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
-    assert found.exit_code == 0, found.output
-    (record,) = records_in(tmp_path / "read")
-    before = next(each for each in records_in(taken / "read") if each.name == "plain")
-    assert record.code == before.code
-    for point, other in zip(record.points, before.points, strict=True):
-        assert point.verdict == other.verdict
-        assert abs(complex(*point.at) - complex(*other.at)) < 0.3
-
-
 HALVED = [(90.5, 181.0, 150, 3), (0.6, -0.8, 200, 0)]
 """How the halves of a sheet lie on a scanner, its dots to an inch, and by how much they lap."""
 
@@ -469,6 +456,8 @@ def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path
         (tmp_path / f"{name}.jpg").write_bytes(left.data)
     found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
     assert "one: refused: the frame of the right half is not found" in found.output
+    if not EVERY:
+        return  # the other way round it takes twenty seconds more
     right = scan(drawing.image, 150, 0.0, 1, (210.0, 420.0))
     for name in ("two-left", "two-right"):
         (tmp_path / f"{name}.jpg").write_bytes(right.data)
@@ -785,12 +774,16 @@ def test_a_single_line_leaves_a_cloud_open_along_itself() -> None:
 
 
 def test_by_hand_the_points_that_marks_need_are_asked(
-    a_class: Path, taken: Path, tmp_path: Path
+    a_class: Path, taken: Path, code: str, tmp_path: Path
 ) -> None:
-    out = tmp_path / "read"
-    call("read", a_class, taken / "plain.jpg", "-o", out, "--by-hand", "--jobs", "1")
-    record = kept(out, "plain")
+    """Of a picture as telephones save it."""
+    out, image = tmp_path / "read", np.asarray(Image.open(taken / "plain.jpg").convert("L"))
+    (tmp_path / "plain.heic").write_bytes(heic(image))
+    call("read", a_class, tmp_path / "plain.heic", "-o", out, "--by-hand", "--jobs", "1")
+    record, by_camera = kept(out, "plain"), kept(taken / "read", "plain")
     assert record is not None
+    assert by_camera is not None
+    assert (record.code, record.kind) == (code, by_camera.kind)
     assert {point.verdict for point in record.points} == {"unread"}
     needed = {"velocity": {"d", "I3"}, "acceleration": {"d′", "J3", "J4"}}[record.kind]
     assert {point.name for point in record.points if point.ask} == needed

@@ -32,7 +32,7 @@ from graphkin.web.protocol import PageProtocol, in_parts, strokes, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from graphkin.writers.svg import number
-from tests.chosen import SCENES
+from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "offset-slider-crank", "slotted-lever")
@@ -142,7 +142,7 @@ def test_the_run_tells_every_step_of_every_sentence_of_every_sheet_once(name):
     assert told.bounds(len(sheets_of(name)) - 1)[1] == len(told.said)
 
 
-@pytest.mark.parametrize("name", [*LABS, "pump-collinear", *SCENES])
+@pytest.mark.parametrize("name", [*LABS, "pump-collinear", *CHOSEN])
 def test_a_step_draws_three_strokes_at_most(name):
     for sheet in sheets_of(name):
         own, _, timed = in_parts(sheet)
