@@ -69,6 +69,7 @@ def code_among(sheet: Any, density: float, codes: Sequence[str]) -> FoundCode | 
             first, second = int(alike.argmax()), np.sort([*alike, 0.0])[-2]
             most = float(alike[first])
             sure = most >= AGREES and most >= second + BEFORE
-            ring = np.array([[0, 0], [SIDE, 0], [SIDE, SIDE], [0, SIDE]]) + (x, y)
+            right, low = x + SIDE, y + SIDE
+            ring = np.array([[x, y], [right, y], [right, low], [x, low]])
             best = FoundCode(codes[first], ring * density - 0.5) if sure else None
     return best

@@ -124,7 +124,9 @@ class PointReader(PointSearch):
         return {n: pair(self.own[n]) for n in self.sheet.corners if n in self.own}
 
     def read_point(self, number: int, key: ExpectedPlace, own: ExpectedPlace) -> PointReading:
-        """A point, looked for where it is expected, then where it may be after a mistake."""
+        """A point, looked for where it is expected, then where it may be after a mistake; there it
+        needs to be no likelier where all ways are drawn to it, and here they are not.
+        """
         if not np.isfinite(own.middle):
             return self.told(number, key, own, None)
         best = self.best_near(number, own)
@@ -137,8 +139,10 @@ class PointReader(PointSearch):
         led = best is not None and (self.agreement(number, best.place) >= DRAWN or stands)
         if best is not None and fits and led and (best.count > 1 or best.ends):
             other = self.elsewhere(number, best.place, own)
-            doubtful = other is not None or self.has_rival(number, best.place, own)
-            return self.told(number, key, own, other or best, doubtful=doubtful)
+            rival = other or self.rival(number, best.place, own)
+            if other is None and rival is not None and self.is_likelier(number, rival, best, own):
+                other = rival
+            return self.told(number, key, own, other or best, doubtful=rival is not None)
         if best is None and self.is_at_ends(number, own):
             return self.told(number, key, own, LinesCrossing(own.middle, own.spread, 1, 0.0))
         far = self.best_far(number, own)
@@ -148,7 +152,9 @@ class PointReader(PointSearch):
             close = best is not None and own.away(best.place, best.error) <= SURE
             if best is not None and fits and close and abs(far.place - best.place) < 2 * SHORT:
                 there = 0.0  # the same line runs on a little
-            if there > here + AS_EXPECTED * (fits + close + stands):
+            whole = far.count > 1 and self.agreement(number, far.place) >= WHOLE
+            ahead = AS_EXPECTED * (fits + close + stands) if led or not whole else 0.0
+            if there > here + ahead:
                 best, fits = far, False
         return self.told(number, key, own, best, doubtful=not (fits and led))
 
@@ -171,26 +177,35 @@ class PointReader(PointSearch):
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         return far if there > here + ELSEWHERE else None
 
-    def has_rival(self, number: int, place: complex, own: ExpectedPlace) -> bool:
-        """Whether all ways of a plan meet and end at another place about as well as at one that
-        fits: vectors that nothing explains may be those of this point.
+    def rival(self, number: int, place: complex, own: ExpectedPlace) -> LinesCrossing | None:
+        """Where all ways of a plan meet and end about as well as at another place that fits:
+        vectors that nothing explains may be those of this point.
         """
         if self.sheet.field(number) is self.sheet.layout.mechanism:
-            return False
+            return None
         far = self.best_far(number, own, place)
         if far is None:
-            return False
+            return None
         there, here = (self.likely(number, each, own) for each in (far.place, place))
         if self.is_one_with_another(number, place):
-            return there > here - RIVAL - JOINS  # the other's lines join its own there
-        if far.cover < WHOLE:
-            return False
-        if far.count < MEET and self.agreement(number, far.place) < WHOLE:
-            return False
+            # the other's lines join its own there
+            return far if there > here - RIVAL - JOINS else None
         beyond = self.beyond(number, far.place)
-        if len(beyond) < 2 or max(beyond) >= DRAWN:
-            return False
-        return there > here - (RIVAL if far.count >= MEET else 0.0)  # two cross by chance as well
+        whole = far.count >= MEET or self.agreement(number, far.place) >= WHOLE
+        if far.cover < WHOLE or not whole or len(beyond) < 2 or max(beyond) >= DRAWN:
+            return None
+        # two cross by chance as well
+        return far if there > here - (RIVAL if far.count >= MEET else 0.0) else None
+
+    def is_likelier(
+        self, number: int, rival: LinesCrossing, best: LinesCrossing, own: ExpectedPlace
+    ) -> bool:
+        """Whether a point rather lies at a rival of its place: all of its vectors end there, or
+        those at its place are another point's.
+        """
+        if self.is_one_with_another(number, best.place):
+            return True
+        return self.likely(number, rival.place, own) > self.likely(number, best.place, own)
 
     def is_one_with_another(self, number: int, place: complex) -> bool:
         """Whether a point that was read before lies at a place as well: what leads there is

@@ -58,6 +58,8 @@ RAY, MOST_RAYS, PARTED, BREAK = 7.0, 16, 0.8, 8
 """The shortest ray that counts, in mm; how many of a place do; by how many degrees they differ;
 over how many steps nothing is drawn where a ray ends.
 """
+SHORTENED = 9.0
+"""How much farther or nearer than its ray a line may end, in mm: a ray leaves it where it turns."""
 BROAD = 0.6
 """A ray that ends so near a longer one, in mm, is nothing but that one's stroke."""
 EXPLAINED = 0.5
@@ -279,7 +281,7 @@ class PointSearch:
         end = self.end_near(number, lines, where)
         if best is None or end is None:
             return best or end
-        told = end.ends or end.count > 1
+        told = (end.ends or end.count > 1) and self.agreement(number, end.place) >= DRAWN
         return end if told and where.away(end.place, end.error) <= FITS else best
 
     def end_near(
@@ -605,7 +607,9 @@ class PointSearch:
         return max(self.ink.cover(place, place + each, 0.8) for each in (ahead, -ahead))
 
     def settled(self, number: int, place: complex) -> LinesCrossing:
-        """A place that was found, where the lines that lead to it cross exactly."""
+        """A place that was found, where the lines that lead to it cross exactly; where they do not,
+        where one of them ends.
+        """
         values = self.ahead({number: place})
         lines = []
         for leading in self.sheet.leading[number]:
@@ -614,7 +618,15 @@ class PointSearch:
                 some = self.ink.lines(far, place, 0.8, GUESSED)
                 lines += [some] if some else []
         found = through(place, distinct(lines, place), GUESSED)
-        return found or LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
+        if found is not None:
+            return found
+        for line in sorted((e for some in lines for e in some), key=lambda e: -e.cover):
+            foot = place - 1j * line.way * line.off(place)
+            stroke = self.ink.stroke(foot, line.way, SHORTENED)
+            if stroke is not None and stroke.end is not None:
+                error = along_way(line.way, END, line.error)
+                return LinesCrossing(foot + line.way * stroke.end, error, 1, DRAWN)
+        return LinesCrossing(place, np.eye(2) * 0.25, 1, DRAWN)
 
 
 def unbroken(drawn: Any) -> Any:

@@ -608,14 +608,52 @@ def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: 
     places = {n: complex(sheet.place(n, values[n])) for n in (a, b, t, o)}
     assert abs(places[b] - places[t]) < 0.01
     whole = [(places[o], places[a]), (places[a], places[t]), (places[o], places[t])]
-    apart = places[o], places[o] + (places[t] - places[o]) * np.exp(0.08j)
+    apart = places[o], places[o] + (places[t] - places[o]) * np.exp(1j * np.radians(6))
     for lines, rival in ((whole, False), ([*whole, apart], True)):
         reader = PointReader(sheet, ink_of(*lines), Pencil(0.4, 0.4))
         reader.own = {n: places[n] for n in (a, t)}
         reader.readings = {n: point(n, ask=False) for n in (a, t)}
         reader.next = reader.drawings = reader.ahead({})
         own = ExpectedPlace(places[b], np.eye(2) * 0.05)
-        assert reader.has_rival(b, places[b], own) is rival
+        found = reader.rival(b, places[b], own)
+        assert (found is not None) is rival
+        told = reader.read_point(b, own, own)
+        assert told.ask is rival
+        assert told.at is not None
+        assert abs(complex(*told.at) - (apart[1] if rival else places[b])) < 3
+
+
+@pytest.mark.parametrize(("drawn_there", "taken"), [(1.0, True), (0.8, False)])
+def test_a_place_to_which_all_ways_are_drawn_needs_no_more_than_one_to_which_they_are_not(
+    a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, drawn_there: float, *, taken: bool
+) -> None:
+    """What is expected has else something in advance of what is a little likelier."""
+    sheet = velocity_of(a_class, code)
+    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    reader.next = reader.drawings = reader.ahead({})
+    here, there = 300 + 100j, 312 + 100j
+    found = {each: LinesCrossing(each, np.eye(2) * 0.01, 2, 1.0) for each in (here, there)}
+    monkeypatch.setattr(reader, "best_near", lambda *_: found[here])
+    monkeypatch.setattr(reader, "best_far", lambda *_: found[there])
+    monkeypatch.setattr(reader, "likely", lambda _, place, *__: {here: 3.0, there: 3.2}[place])
+    drawn = {here: 0.55, there: drawn_there}
+    monkeypatch.setattr(reader, "agreement", lambda _, place, **__: drawn[place])
+    own = ExpectedPlace(here, np.eye(2) * 0.2)
+    told = reader.read_point(number, own, own)
+    assert told.ask
+    assert told.at == ((312.0, 100.0) if taken else (300.0, 100.0))
+
+
+def test_a_single_way_leads_where_it_ends(a_class: Path, code: str) -> None:
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
+    a, o = (complex(sheet.place(n, values[n])) for n in (number, pole))
+    search = PointSearch(sheet, ink_of((o, a)), Pencil(0.4, 0.4))
+    search.next = search.drawings = search.ahead({})
+    short = a - 6 * (a - o) / abs(a - o)  # as a ray that runs a little aslant leaves the line
+    assert abs(search.settled(number, short).place - a) < 0.6
 
 
 def test_rays_end_where_the_field_does(a_class: Path, code: str) -> None:
