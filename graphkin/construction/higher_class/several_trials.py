@@ -123,6 +123,27 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             share = share + steps_of(missed, every, share, missed(every, share))
         return np.column_stack([tried[:, :1], share])
 
+    def closed_beside(self, known: Sequence[Any], tried: Array, signs: Array) -> Array:
+        """Trial values at which all closes beside some (K, n), by Newton's method.
+
+        NaN where it does not come to rest.
+        """
+        import numpy as np
+
+        def missed(row: Array, share: Array) -> Array:
+            found = self.found([array[row] for array in known], share, signs[row])
+            return np.stack([found[one.misfit] for one in self.unknowns], axis=1)
+
+        share, left = tried.copy(), np.arange(len(tried))
+        for _ in range(ROUNDS):
+            way = steps_of(missed, left, share[left], missed(left, share[left]))
+            share[left] += way
+            left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
+            if not left.size:
+                break
+        share[left] = np.nan
+        return share
+
     def row_of(self, value: Sequence[Any]) -> Array:
         """A closure as numbers: trial values, signs, the sine of crossing."""
         import numpy as np
