@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
 
 from msgspec import Struct
@@ -303,20 +303,13 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 
     Where lines have no room, the links go on to a continuation sheet, and then what is asked.
     """
-    words, width = drawing.words, SCHEME[0] - x - 8
-    room = int((BELOW[3] - y - 10.5) / LEADING) + 1
-    links, plan = members(drawing), plan_at(drawing)
-    elsewhere = words("page.moved")
-    for said, links, moved in (
-        (asked(drawing), links, set[Moved]()),
-        (asked(drawing), words("page.members", list=elsewhere), {Moved.MEMBERS}),
-        ([elsewhere], words("page.members", list=elsewhere), {Moved.MEMBERS, Moved.ASKED}),
-    ):
-        lines = flowed(said, "; ", width, 2.5)
-        for told in filter(None, (links, plan)):
-            lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
-        if len(lines) <= room:
-            break
+    words, room = drawing.words, int((BELOW[3] - y - 10.5) / LEADING) + 1
+    moved = set[Moved]()
+    lines = task_lines(drawing, moved, SCHEME[0] - x - 8)
+    for part in (Moved.MEMBERS, Moved.ASKED):
+        if len(lines) > room:
+            moved.add(part)
+            lines = task_lines(drawing, moved, SCHEME[0] - x - 8)
     marks: list[Mark] = [Text(x, y + 4.5, words("page.asked"), "caption", 3.5)]
     marks += [
         Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
@@ -324,6 +317,18 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
         if line
     ]
     return [*marks, *scheme(drawing)], moved
+
+
+def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
+    """The lines of a task in a width, an empty one between parts; what is moved is only named."""
+    elsewhere = drawing.words("page.moved")
+    lines = flowed([elsewhere] if Moved.ASKED in moved else asked(drawing), "; ", width, 2.5)
+    links = members(drawing)
+    if Moved.MEMBERS in moved:
+        links = drawing.words("page.members", list=elsewhere)
+    for told in filter(None, (links, plan_at(drawing))):
+        lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
+    return lines
 
 
 def asked(drawing: Drawing) -> list[str]:

@@ -80,7 +80,8 @@ def place(
     seats.settle(seats.order())
     seats.improve(seats.regretted(BAD), SHORT)
     seats.shift(seats.unplaced())
-    if len(seats.seeking()) <= HOPELESS:
+    fields = 1 if len(field) == 4 and isinstance(field[0], float) else len({*field})
+    if len(seats.seeking()) <= HOPELESS * fields:
         _widen(seats)
     seats.settle(seats.regretted(0.2))
     return [_spot(offers, i, place) for i, place in enumerate(seats.pick)]
