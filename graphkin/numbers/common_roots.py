@@ -216,6 +216,21 @@ def closed_in(
     return row[every], share[every]
 
 
+def roots_beside(missed: Misses, start: Array) -> Array:
+    """Where Newton's method comes to rest from starts (K, n); NaN where it does not."""
+    import numpy as np
+
+    share, left = start.copy(), np.arange(len(start))
+    for _ in range(ROUNDS):
+        way = steps_of(missed, left, share[left], missed(left, share[left]))
+        share[left] += way
+        left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
+        if not left.size:
+            break
+    share[left] = np.nan
+    return share
+
+
 def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:
     """Of those that all but stand at one place only one, with the steps of each."""
     import numpy as np

@@ -22,7 +22,7 @@ SCENES = Path(__file__).parents[2] / "examples" / "scenes"
         ("eight-link-2", ["*l* = 18 mm", "*v* = 360 mm/s", "*k* = 6"]),
         ("roller", ["*r* = 90 mm", "*v* = 400 mm/s", "*a* = 1000 mm/s²"]),
         ("crank-rocker", ["*n* = 4", "*L* = 90 mm"]),
-        ("crank-fixed-slot", ["*angle* = 50°", "*beta* = 25°", "*a* = 80 mm", "*e* = 200 mm"]),
+        ("crank-fixed-slot", ["*angle* = 50°", "*β* = 25°", "*a* = 80 mm", "*e* = 200 mm"]),
         ("excavator-relative", ["*t* = 0.5 s"]),
     ],
 )

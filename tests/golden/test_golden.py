@@ -14,6 +14,8 @@ OTHERS = 24
 SLOW = tuple(
     f"scene-{name}"
     for name in (
+        "plates-coupled",
+        "plates-ring",
         "rapid-return",
         "rod-and-wheel",
         "stephenson-2-binary",

@@ -15,7 +15,7 @@ from graphkin.construction.core.naming import (
     length_scale,
     sense,
 )
-from graphkin.construction.core.parameter_words import is_derived, reckoned
+from graphkin.construction.core.parameter_words import is_derived, parameter_symbol, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
     Relation,
@@ -164,7 +164,7 @@ def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
         name = match[0]
         if name not in known:
             return "π" if name == CONSTANT else name
-        return drawing.words.decimal(shortest(known[name])) if values else f"*{escape(name)}*"
+        return drawing.words.decimal(shortest(known[name])) if values else parameter_symbol(name)
 
     parts = re.split(r"([A-Za-z_]\w*)", text)
     return "".join(
