@@ -685,6 +685,28 @@ def test_a_vector_that_runs_on_beyond_a_place_is_seen(a_class: Path, code: str) 
         assert far is None or abs(far.place - a) > 2
 
 
+def test_a_place_where_vectors_end_fits_better_than_one_that_they_pass(
+    a_class: Path, code: str
+) -> None:
+    sheets = sheets_of(a_class, code)
+    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
+    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    sheet, fits = LetteredSheet(drawing, page), list[float]()
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
+    o, a = (complex(sheet.place(n, values[n])) for n in (pole, number))
+    for long in (1.0, 1.3):
+        search = PointSearch(sheet, ink_of((o, o + long * (a - o))), Pencil(0.4, 0.4))
+        search.next = search.ahead({})
+        fits.append(search.stopped(number, a))
+    assert fits[0] > fits[1] + 0.2
+    search.own = {number: 340 + 120j}
+    assert search.goes_on(300 + 100j, 320 + 110j)
+    assert not search.goes_on(300 + 100j, 340 + 120j)
+    assert not search.goes_on(300 + 100j, 310 + 120j)
+    assert not search.goes_on(300 + 100j, 280 + 90j)
+
+
 def test_others_leave_a_line_at_its_node() -> None:
     ink = ink_of((200 + 100j, 260 + 100j), (232 + 100j, 245 + 120j))
     assert ink.node(230.5 + 100j, 1 + 0j, 4.0) == pytest.approx(1.5, abs=0.4)
