@@ -243,15 +243,16 @@ def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
 
 
 def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
-    """What to write where one wheel alone rolls on one of some tracks that nothing keeps there.
+    """What to write where a wheel rolls on one of some tracks that nothing keeps there.
 
-    Where wheels of several sizes roll on it, that this is not constructed.
+    Where wheels of several sizes, all kept, roll on it, that this is not constructed.
     """
     for track in tracks:
         rolled = [(k, r) for k in scene.every_link for r in k.rolls if r.through is not None]
         wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
-        if len(wheels) == 1 and not wheels[0][1].keeper:
-            return keeper_asked(scene.links, wheels[0][0].name, track)
+        loose = next((link.name for link, rolling in wheels if not rolling.keeper), None)
+        if loose is not None:
+            return keeper_asked(scene.links, loose, track)
         rims = [link.rim for link, _ in wheels]
         if any(not of_one_size(rims[0], rim) for rim in rims[1:]):
             return TIPS

@@ -150,8 +150,12 @@ class Maker:
     # --- guides ----------------------------------------------------------------------------------
 
     def may_be_block(self, body: str) -> bool:
-        """Whether a body that stands may become a block of an unknown guide."""
-        return body != FRAME and body not in self.standing.slides
+        """Whether a body that stands may become a block of an unknown guide.
+
+        The follower of a cam that has a guide slides there, so that a lever may not.
+        """
+        levers = {cam.follower for cam in self.standing.cams if cam.lever}
+        return body != FRAME and body not in self.standing.slides and body not in levers
 
     def guide(self, block: str, on: str, along: complex, through: str | None = None) -> None:
         """A slide between two bodies, the block's x axis along it."""

@@ -676,7 +676,7 @@ def test_a_ring_on_a_straight_track_is_refused_by_name():
 
 
 def test_what_keeps_a_wheel_in_a_ring_may_be_driven_against_a_track():
-    """Willis for the wheel in the ring: ω = ω_arm·(1 - 150/50); a rack turns its pinion by v/r."""
+    """Willis: the wheel in the ring has ω_arm·(1 - 150/50); the rack turns its pinion by v/r."""
     text = """
 graphkin = 1
 title = "ring, rack"

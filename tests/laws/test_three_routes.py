@@ -32,6 +32,7 @@ SEEN = {
     798: "a wheel on a block of a driven crank that has gone more than half round",
     993: "a plate's leg on the bar that lies on a wheel",
     1066: "a cam on a bar of a group that is tried along a guide",
+    1133: "a block of a group that is tried, on a guide that comes later",
     1187: "a sun driven against a block that pins alone turn",
     1263: "a closure close beside the end of where the chain can be drawn",
     1318: "a wheel on pins, more than half a turn from the bar that lies on it",
