@@ -765,7 +765,7 @@ def test_an_arm_sees_the_cam_move_as_its_law_says(name):
       {{ to = 310, rise = -{rise}, motion = "3-4-5" }}, {{ to = 360 }}]\n"""
     text = text[:begin] + law + text[end:]
     for angle in range(5, 360, 20):
-        mechanism = Mechanism(read_text(text, "cam", None, {"angle": angle}))
+        mechanism = Mechanism(read_text(text, "cam", None, {"angle" if fixed else "alpha": angle}))
         solution = mechanism.solve()
         assert mechanism.witness(solution).agrees
         arm = solution.links["1"]

@@ -43,5 +43,5 @@ def test_a_parameter_that_no_expression_takes_is_not_named():
 def test_a_parameter_put_into_an_expression_is_named_once_with_its_unit():
     """s = l·cos(alpha): both are needed, and the rod shows one of them."""
     scene = load(SCENES / "centrodes-cardan.toml").scene
-    assert other_parameters(scene, words("en")) == [("alpha", "*alpha*", "45°")]
+    assert other_parameters(scene, words("en")) == [("alpha", "*α*", "45°")]
     assert "*B**A* = *l* = 100 mm" in given(drawing_of("centrodes-cardan", None, "velocity"))
