@@ -27,9 +27,10 @@ from graphkin.reading.point_search import (
     PointSearch,
 )
 
-OUTSIDE, APART = 8.0, 3.0
-"""The squared distance from the key, in deviations, and that in mm, from which it may follow from a
-mistake that nobody saw.
+OUTSIDE, APART = 6.5, 3.0
+"""The squared distance from the key, in deviations, beyond which a place is none that the pencil
+explains (95 of 100 lie within 6.0); and that in mm, from which it may follow from a mistake that
+nobody saw.
 """
 RIVAL = 0.3
 """By how much less likely another place may be, for somebody to be asked which it is."""

@@ -571,6 +571,8 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     for n in behind & {*sheet.corners}:
         reader.own[n] = 0j
     assert not reader.told(number, key, own, read).ask
+    beyond = ExpectedPlace(305.2 + 100j, np.eye(2) * 4.0)  # 1.06 of what the pencil explains
+    assert reader.told(number, beyond, own, read).ask
     some = next(iter(behind & {*sheet.points}))
     reader.readings[some] = point(some)
     assert reader.told(number, key, own, read).ask
