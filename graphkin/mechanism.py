@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from msgspec import Struct
@@ -27,6 +26,8 @@ from graphkin.text.errors import Problem, SceneError
 from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from matplotlib.axes import Axes
 
     from graphkin.construction.tape.batch_runner import BatchRunner
@@ -187,7 +188,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         program, values = self.program, self.scene.values
         if not self.is_of_higher_class:
             return run(program, needed, values, FLOAT, overrides=overrides, begun=begun)
-        from graphkin.construction.higher_class.settling import run_settled
+        from graphkin.construction.higher_class.closure_solver import run_settled
 
         return run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
 

@@ -17,11 +17,10 @@ from msgspec import Struct, field
 from graphkin.construction.core.program import Step, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.construction.higher_class.refining import in_doubles
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import is_ball
 from graphkin.numbers.formal import FORMAL, Formal, letter, point
-from graphkin.numbers.kinds import ball_kind
+from graphkin.numbers.kinds import ball_kind, in_doubles
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene
 from graphkin.text.errors import SceneError

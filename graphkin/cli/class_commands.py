@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, READING, complain
-from graphkin.cli.options import folder_option, force_option, leave, tell
+from graphkin.cli.folder_options import folder_option
+from graphkin.cli.options import force_option, leave, tell
 
 if TYPE_CHECKING:
     from graphkin.classroom.roster.student import Student

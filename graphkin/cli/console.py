@@ -35,9 +35,7 @@ BROKEN_PIPE = 141
 PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
 """Set in the environment, a fault in graphkin itself shows where it happened."""
 
-OBEYED = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
-)
+OBEYED = "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
 """Characters that control a terminal or hide what is written; tabs and ends of lines do not."""
 READING = "graphkin.scene"
 """Where the context of a command keeps how its scene was called."""
@@ -183,7 +181,9 @@ def say(text: str, *, err: bool = False) -> None:
     """Print a line. Names of files and cells may hold anything: what a terminal would obey, or
     what turns the order of letters, is printed as JSON writes it, \\u001b.
     """
-    click.echo(OBEYED.sub(lambda found: f"\\u{ord(found[0]):04x}", text), err=err)
+    if not all(line.isprintable() for line in text.split("\n")):
+        text = re.sub(OBEYED, lambda found: f"\\u{ord(found[0]):04x}", text)
+    click.echo(text, err=err)
 
 
 def cut_short() -> NoReturn:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, complain
+from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
     FORMATS,
     force_option,
@@ -18,7 +19,6 @@ from graphkin.cli.options import (
     language_option,
     leave,
     mechanism_of,
-    output_option,
     pairs_of,
     scales_of,
     scene_argument,

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, complain, say
-from graphkin.cli.options import class_argument, formats_option, jobs_option
+from graphkin.cli.folder_options import class_argument
+from graphkin.cli.options import formats_option, jobs_option
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -185,6 +186,8 @@ def grade(  # noqa: PLR0915
         raise click.UsageError(said, context)
     drawings, answers = answers, drawn_table(opened, answers)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
+    if drawings != answers:
+        note_followed(opened, drawings, given)
     turns = read_turns(answers, ids)
     words = words_of(opened, lang)
     processes = jobs or usual_jobs(opened)
@@ -230,6 +233,17 @@ def drawn_table(opened: ClassFolder, folder: Path) -> Path:
 
     write_answers(opened, folder)
     return folder / ANSWERS
+
+
+def note_followed(opened: ClassFolder, folder: Path, given: Answers) -> None:
+    """Let the answers know what was found on the drawings to follow from own earlier points."""
+    from msgspec.structs import replace
+
+    from graphkin.reading.drawn_answers import drawn_rows
+
+    for row in drawn_rows(opened, folder):
+        own = given.of.get(row.who, {})
+        own |= {field: replace(own[field], followed=True) for field in row.followed if field in own}
 
 
 def marked_drawings(

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import click
 
 from graphkin.cli.console import READING, say
-from graphkin.text.errors import FileError, Problem
 
 if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
@@ -26,19 +24,6 @@ class Option(Protocol):
         """The same command with it."""
 
 
-class FolderType(click.Path):
-    """A folder to write into; nothing at all is no folder."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path of a folder."""
-        if not str(value).strip():
-            self.fail("the name of the folder is empty; . is the current one", param, ctx)
-        if Path(value).is_file():
-            hint = "name another folder with -o"
-            raise FileError(Problem(str(value), "is a file", "a folder", hint))
-        return super().convert(value, param, ctx)
-
-
 def scene_argument(command: Any) -> Any:
     """SCENE and --set, which every command but list takes."""
     command = click.option(
@@ -49,12 +34,6 @@ def scene_argument(command: Any) -> Any:
         help="Give a parameter of the scene another value, such as n=7. May be repeated.",
     )(command)
     return click.argument("name", metavar="SCENE")(command)
-
-
-def folder_option(help: str, metavar: str = "DIR", name: str = "folder", **more: Any) -> Option:
-    """-o, the folder of a command that writes files."""
-    kind = FolderType(path_type=Path)
-    return click.option("-o", "--output", name, metavar=metavar, type=kind, help=help, **more)
 
 
 def formats_option(metavar: str, default: str, help: str) -> Option:
@@ -71,12 +50,6 @@ def jobs_option(
     return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
 
 
-output_option = folder_option(
-    "Folder to write into, made if it is missing; the current one by default.", default=Path()
-)
-"""The folder of a command that writes files, the current one if none is named."""
-class_argument = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
-"""The folder of a class."""
 language_option = click.option(
     "--lang",
     type=click.Choice(["ro", "en", "it"]),
@@ -111,9 +84,10 @@ def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:
     from graphkin.mechanism import Mechanism
     from graphkin.scene import scene_files
     from graphkin.scene.read_scene import read_scene
+    from graphkin.text import paths
 
     path, pairs = scene_files.find(name), pairs_of(settings)
-    current().meta[READING] = str(path) if Path(name).is_dir() else name
+    current().meta[READING] = path if paths.is_folder(name) else name
     return Mechanism(read_scene(path, pairs))
 
 

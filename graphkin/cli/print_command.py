@@ -11,13 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import FAILED, complain, say, say_aside
-from graphkin.cli.options import (
-    class_argument,
-    formats_option,
-    ink_option,
-    jobs_option,
-    language_option,
-)
+from graphkin.cli.folder_options import class_argument
+from graphkin.cli.options import formats_option, ink_option, jobs_option, language_option
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.print_run import Outcome, Tell

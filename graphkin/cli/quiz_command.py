@@ -5,7 +5,8 @@ from __future__ import annotations
 import click
 
 from graphkin.cli.console import complain, say
-from graphkin.cli.options import force_option, jobs_option, language_option, output_option, tell
+from graphkin.cli.folder_options import output_option
+from graphkin.cli.options import force_option, jobs_option, language_option, tell
 
 SHOWN = 5
 """Variants that are left out, of which it is told one by one."""

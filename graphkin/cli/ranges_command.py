@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from graphkin.cli.console import complain
-from graphkin.cli.options import FolderType, force_option, tell
+from graphkin.cli.folder_options import FolderType
+from graphkin.cli.options import force_option, tell
 
 if TYPE_CHECKING:
     from graphkin.classroom.lab.fair_ranges import FairRanges

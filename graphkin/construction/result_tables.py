@@ -12,8 +12,8 @@ from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out, on_sheets
 from graphkin.drawing.marks import Mark, Text
-from graphkin.drawing.richtext import escape, flowed
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.richtext import flowed
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.plane import Vector
 from graphkin.text import Words
 

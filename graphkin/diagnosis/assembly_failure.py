@@ -10,12 +10,12 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
 from graphkin.construction.higher_class.closure_solver import (
+    BITS,
     ClosingError,
     MergingError,
     closer_of,
     sign_table,
 )
-from graphkin.construction.higher_class.settling import BITS
 from graphkin.diagnosis.exact_intersection import Meeting, loci_of, meeting
 from graphkin.diagnosis.ranges import closes_where, closings, where_it_closes
 from graphkin.diagnosis.singularity_words import closed_by, in_line
@@ -169,7 +169,7 @@ def least_miss(scene: Scene, failed: StepFailed) -> str:
     least = np.inf
     for signs in sign_table(len(trying.signs)):
         rows = np.broadcast_to(np.array(signs, dtype=float), (len(tried), len(signs)))
-        missed = np.abs(trying.misfits(here, tried[:, None], rows))
+        missed = np.abs(trying.misfits(here, tried[:, None], rows)[:, 0])
         least = np.nanmin(missed, initial=least)
     if not np.isfinite(least):
         return ", wherever the first of them is tried"

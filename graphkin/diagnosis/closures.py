@@ -9,16 +9,15 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.bases import contact_name
+from graphkin.construction.core.bases import kept_touches
 from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed, Trace
-from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.construction.higher_class.settling import run_settled, ways
+from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
-from graphkin.structure.pairs import Pin, contacts
+from graphkin.structure.pairs import Pin
 
 
 class GroupClosure(Struct, frozen=True):
@@ -113,16 +112,8 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
     outer = (group.left, group.right) if isinstance(group, Dyad) else ()
     known = {pair.point for pair in outer if isinstance(pair, Pin)}  # the same in every closure
     led = [p for p in points if p not in known]
-    return next(iter((*free, *led, *touched(scene, group, program), *points)))
-
-
-def touched(scene: Scene, group: Group, program: Program) -> Iterator[str]:
-    """Where the wheels touch that the links of a group keep on their tracks."""
-    for contact in contacts(scene):
-        rolling = contact.rolling
-        name = contact_name(contact)
-        if rolling.keeper in group.links and ("position", name) in program.targets:
-            yield name
+    kept = [p for p in kept_touches(scene, group.links) if ("position", p) in program.targets]
+    return next(iter((*free, *led, *kept, *points)))
 
 
 def dyad_closure(

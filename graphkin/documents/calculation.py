@@ -16,7 +16,8 @@ from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import Mark, Page, Text
-from graphkin.drawing.richtext import escape, extent, flowed, narrow_words, plain, words_of
+from graphkin.drawing.richtext import extent, flowed, narrow_words, plain, words_of
+from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError, Problem
 
 LETTER = 2.5

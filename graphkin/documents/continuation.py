@@ -8,8 +8,10 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.result_tables import tables, tables_on_sheets
 from graphkin.documents.listing import in_columns, on_sheets
+from graphkin.documents.members import members
 from graphkin.documents.sheet import (
     Moved,
+    asked,
     construction_head,
     page_title,
     title_block,
@@ -65,7 +67,7 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
     """The sheets of data that have no room on one, and of tables, which begin below the data."""
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     room = int((LOW - y) / LEADING) + 1
-    lines = data_lines(drawing, view, x) if Moved.DATA in moved else []
+    lines = told_lines(drawing, view, moved, x)
     parts = [lines[i : i + room] for i in range(0, len(lines), room)]
     told = [
         [Text(x, y + i * LEADING, line, "caption", 2.5, name="data") for i, line in enumerate(part)]
@@ -86,12 +88,18 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
         last = []
 
 
-def data_lines(drawing: Drawing, view: str, x: float) -> list[str]:
-    """The data in lines across a sheet from a place on."""
-    pieces = given(drawing, solved=view != "task")
-    pieces[0] = f"{drawing.words('page.data')}: {pieces[0]}"
-    width = AREA[2] - x - 3
-    lines = flowed(pieces, "; ", width, 2.5)
+def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
+    """The data, what is asked and what the links are, so far as they are moved, in lines across a
+    sheet from a place on."""
+    words, width, lines = drawing.words, AREA[2] - x - 3, list[str]()
+    if Moved.DATA in moved:
+        first, *others = given(drawing, solved=view != "task")
+        lines += flowed([f"{words('page.data')}: {first}", *others], "; ", width, 2.5)
+    if Moved.ASKED in moved:
+        first, *others = asked(drawing)
+        lines += flowed([f"{words('page.asked')}: {first}", *others], "; ", width, 2.5)
+    if Moved.MEMBERS in moved:
+        lines.append(members(drawing))
     return [
         part
         for line in lines
@@ -107,8 +115,7 @@ def cut(line: str, width: float) -> list[str]:
 def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list[Mark]:
     """What is on a sheet that goes on alone. Raises PageError where not even it holds the rest."""
     marks, x, y = title_line(drawing, drawing.words("page.continued"))
-    if Moved.DATA in moved:
-        lines = [*data_lines(drawing, view, x)]
+    if lines := told_lines(drawing, view, moved, x):
         for line in lines:
             marks.append(Text(x, y, line, "caption", 2.5, name="data"))
             y += LEADING

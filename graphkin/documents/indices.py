@@ -11,8 +11,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.sentence import Sentence
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 
 INDEX = re.compile(r"_\{([^}]*)\}")
 """The index of a symbol in a sentence."""

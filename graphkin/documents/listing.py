@@ -110,20 +110,23 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
 def on_sheets(drawing: Drawing, columns: Sequence[Rect], begun: int) -> Iterator[list[Mark]]:
     """The sentences but those begun before, on as many sheets with the same columns as they need.
 
-    They are in large lettering. Raises PageError where a sentence is longer than a column.
+    They are in large lettering. One that is longer than a column is parted.
     """
-    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     height, leading, _ = LOOKS[0]
-    sets = [
-        [flowed(words, " ", right - left - INDENT, height) for words in said]
-        for left, _, right, _ in columns
-    ]
-    while begun < len(said):
-        marks, after = filled(sets, columns, height, leading, begun)
-        if after == begun:
-            raise too_long(len(sets[0][begun]), "ask for less on one sheet")
+    widths = [right - left - INDENT for left, _, right, _ in columns]
+    room = int(min(low - top for _, top, _, low in columns) / leading) + 1
+    parts: list[tuple[str, list[str]]] = []
+    for number, sentence in enumerate(sentences(drawing)[begun:], begun + 1):
+        lines = flowed(words_of(sentence.markup), " ", min(widths), height)
+        starts = range(0, len(lines), room)
+        parts += [(f"{number}." * (k == 0), lines[k : k + room]) for k in starts]
+    numbers = [number for number, _ in parts]
+    whole = [words_of(" ".join(lines)) for _, lines in parts]
+    sets = [[flowed(words, " ", width, height) for words in whole] for width in widths]
+    after = 0
+    while after < len(parts):
+        marks, after = filled(sets, columns, height, leading, after, numbers)
         yield marks
-        begun = after
 
 
 def filled(
@@ -132,8 +135,12 @@ def filled(
     height: float,
     leading: float,
     begun: int,
+    numbers: Sequence[str] = (),
 ) -> tuple[list[Mark], int]:
-    """Columns with the lines of sentences from one on, broken for each, and which has no room."""
+    """Columns with the lines of sentences from one on, broken for each, and which has no room.
+
+    ``numbers`` are what stands before each where sentences are parted.
+    """
     marks: list[Mark] = []
     place, y = 0, columns[0][1]
     for number in range(begun, len(sets[0])):
@@ -143,7 +150,8 @@ def filled(
                 return marks, number
             y = columns[place][1]
         x = columns[place][0]
-        marks.append(Text(x + 5, y, f"{number + 1}.", "caption", height, "end"))
+        if told := numbers[number] if numbers else f"{number + 1}.":
+            marks.append(Text(x + 5, y, told, "caption", height, "end"))
         for line in sets[place][number]:
             marks.append(Text(x + INDENT, y, line, "caption", height))
             y += leading

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.scene.model import Link
 from graphkin.text import Words
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from enum import Enum
 
 from msgspec import Struct
@@ -37,9 +37,9 @@ from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import escape, extent, flowed
+from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.style import VECTORS
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
 
 TITLE = 182.0
@@ -56,6 +56,8 @@ class Moved(Enum):
     """What goes on to a continuation sheet where it has no room; its value names it in words."""
 
     DATA = "data"
+    ASKED = "asked"
+    MEMBERS = "members"
     CONSTRUCTION = "construction"
     TABLES = "tables"
 
@@ -273,7 +275,7 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
             moved.add(Moved.CONSTRUCTION)
         marks = [construction_head(drawing, left, top + 4.5), *told]
     else:
-        marks = list(wanted(drawing, left, top))
+        marks, moved = wanted(drawing, left, top)
     found, more = with_room(
         drawing,
         Moved.TABLES,
@@ -296,17 +298,37 @@ def construction_head(drawing: Drawing, x: float, y: float) -> Text:
     return Text(x, y, drawing.words("page.construction"), "caption", 3.5)
 
 
-def wanted(drawing: Drawing, x: float, y: float) -> Iterator[Mark]:
-    """What a task asks, what the links are and how the plan is drawn, beside the scheme."""
-    width = SCHEME[0] - x - 8
-    yield Text(x, y + 4.5, drawing.words("page.asked"), "caption", 3.5)
-    lines = flowed(asked(drawing), "; ", width, 2.5)
-    for told in filter(None, (members(drawing), plan_at(drawing))):
+def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]]:
+    """What a task asks, what the links are and how the plan is drawn, beside the scheme.
+
+    Where lines have no room, the links go on to a continuation sheet, and then what is asked.
+    """
+    words, room = drawing.words, int((BELOW[3] - y - 10.5) / LEADING) + 1
+    moved = set[Moved]()
+    lines = task_lines(drawing, moved, SCHEME[0] - x - 8)
+    for part in (Moved.MEMBERS, Moved.ASKED):
+        if len(lines) > room:
+            moved.add(part)
+            lines = task_lines(drawing, moved, SCHEME[0] - x - 8)
+    marks: list[Mark] = [Text(x, y + 4.5, words("page.asked"), "caption", 3.5)]
+    marks += [
+        Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
+        for i, line in enumerate(lines)
+        if line
+    ]
+    return [*marks, *scheme(drawing)], moved
+
+
+def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
+    """The lines of a task in a width, an empty one between parts; what is moved is only named."""
+    elsewhere = drawing.words("page.moved")
+    lines = flowed([elsewhere] if Moved.ASKED in moved else asked(drawing), "; ", width, 2.5)
+    links = members(drawing)
+    if Moved.MEMBERS in moved:
+        links = drawing.words("page.members", list=elsewhere)
+    for told in filter(None, (links, plan_at(drawing))):
         lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
-    for i, line in enumerate(lines):
-        if line:
-            yield Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
-    yield from scheme(drawing)
+    return lines
 
 
 def asked(drawing: Drawing) -> list[str]:

@@ -15,8 +15,8 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import LineMark, Mark, Text
-from graphkin.drawing.richtext import escape, extent
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.drawing.symbols import head, turned_arrow
 
 ROUND, OPEN = 3.4, 230.0

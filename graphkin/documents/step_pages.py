@@ -130,7 +130,7 @@ def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mar
         for number, sentence in enumerate(said[:stage], 1)
         for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width, 2.5))
     ]
-    room = max(int((BELOW[3] - y - 3.5) / SMALL_LEADING) + 1, 0)
+    room = max(int((BELOW[3] - y - 3.5) // SMALL_LEADING) + 1, 0)
     shown = done
     if len(done) > room:  # a line tells that sentences before are left out
         shown = done[len(done) - room + 1 :]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.relation import Relation
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.findings import natural
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (

@@ -27,7 +27,7 @@ class Level(NamedTuple):
     offered: int  # the cheapest ones, at one go
 
 
-NONE, CLOSE = Level(0, 0), Level(24, 10)
+NONE, FEW, CLOSE = Level(0, 0), Level(24, 4), Level(24, 10)
 
 
 class CandidateSet:
@@ -37,7 +37,7 @@ class CandidateSet:
     ``best`` is what the cheapest place of each label costs.
     """
 
-    def __init__(self, page: Clearance) -> None:
+    def __init__(self, page: Clearance, first: Level = CLOSE) -> None:
         """Offer every label its nearest places."""
         self.page = page
         near = tries(page.subjects, NEAR)
@@ -45,7 +45,7 @@ class CandidateSet:
         self.level = [NONE] * len(near.x)  # of the candidates with a leader
         self.clashes, self.rest = Clashes(), NO_PLACES
         every = np.arange(len(near.x))
-        seen, offered = (np.full(len(every), number) for number in CLOSE)
+        seen, offered = (np.full(len(every), number) for number in first)
         self._offer(page.near(page.open(every, near, 0 * every, seen)), offered)
 
     def widen(self, levels: Mapping[int, Level]) -> bool:

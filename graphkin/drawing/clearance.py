@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from graphkin.drawing.candidates import Blots, Subjects, Tries, distance_cost
 from graphkin.drawing.clashes import PAD, OpenPlaces
@@ -39,6 +40,7 @@ FAR_OFF, LONG = 2.5, 24.0  # mm; the first is beyond the gap
 BEYOND = 8.0  # another line between a label and its segment
 SLANT = 0.34  # sine of the angle to a line below which a leader runs along it
 AIR = 0.7  # each mm of air that is missing
+PART = 2048  # candidates compared with all that is drawn at one go, a multiple of TOGETHER
 FEW = 8  # labels, whose candidates are compared with all that is drawn at once
 
 # Kinds of shapes; how far (mm) each should be beyond a label's own subject, and the cost of each
@@ -82,6 +84,15 @@ class Open(NamedTuple):
         back = radius / length
         ends = self.root_x - way_x * back, self.root_y - way_y * back
         return np.array([self.x + way_x * share, self.y + way_y * share, *ends]).T.copy()
+
+
+def in_parts(work: Callable[[Open], NDArray[Any]], some: Open) -> NDArray[Any]:
+    """What is found of candidates, each by itself, some of many at a time: memory is bounded."""
+    if len(some.label) <= PART:
+        return work(some)
+    every = np.arange(len(some.label))
+    parts = (every[start : start + PART] for start in range(0, len(every), PART))
+    return np.concatenate([work(some.take(part)) for part in parts])
 
 
 class Clearance:
@@ -128,7 +139,7 @@ class Clearance:
     def near(self, some: Open) -> OpenPlaces:
         """Return candidates as places without a leader."""
         leader = np.full((len(some.label), 4), NOWHERE)
-        return OpenPlaces(*some[:5], some.cost + self._doubt(some), leader)
+        return OpenPlaces(*some[:5], some.cost + in_parts(self._doubt, some), leader)
 
     def led(self, some: Open) -> OpenPlaces:
         """Return candidates as places with a leader, but those where it runs into what is named.
@@ -165,7 +176,7 @@ class Clearance:
         columns = (column.take(at) for column in (cost, own, some.root_x, some.root_y))
         wide, high = subjects.half[row].T
         found = Open(which[row], x.take(at), y.take(at), wide, high, *columns)
-        return found.take(where(self._clear_of_all(found)))
+        return found.take(where(in_parts(self._clear_of_all, found)))
 
     def _clear_of_all(self, some: Open) -> Mask:
         """Return which candidates are as far from all shapes as they must be."""

@@ -11,7 +11,8 @@ from msgspec import Struct, field
 
 from graphkin.drawing.areas import A4_AREA, A4_FRAME, TITLE_HEIGHT, TITLE_WIDTH, Rect
 from graphkin.drawing.marks import LineMark, Mark, Text, box
-from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
+from graphkin.drawing.richtext import extent, flowed, plain, words_of
+from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError, Problem
 
 SIZES = {"A3": (420.0, 297.0), "A2": (594.0, 420.0)}

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from graphkin.text import paths
 from graphkin.text.errors import PageError, Problem
 
+if TYPE_CHECKING:
+    from pathlib import Path
+
 FAMILY = "Graphkin Sans"
-FOLDER = Path(__file__).parent / "fonts"
+FOLDER = paths.beside(__file__, "fonts")
+"""The folder of the fonts, as text."""
 FILES = {False: "GraphkinSans", True: "GraphkinSans-Italic"}
 ALIKE = str.maketrans({"⟂": "⊥", "\u2009": "\u00a0", "\u202f": "\u00a0", "\t": " ", "\n": " "})
 BLANKS = " \u00a0"
@@ -21,8 +25,9 @@ Measure = tuple[float, float, float]
 def table() -> dict[str, Any]:
     """Read the font's metrics once."""
     import json
+    from pathlib import Path
 
-    text = (FOLDER / "metrics.json").read_text(encoding="utf-8")
+    text = Path(FOLDER, "metrics.json").read_text(encoding="utf-8")
     found: dict[str, Any] = json.loads(text)
     return found
 
@@ -80,15 +85,18 @@ def known(text: str) -> str:
 
 def font_file(italic: bool) -> Path:
     """Give the TrueType file of a face."""
-    return FOLDER / f"{FILES[italic]}.ttf"
+    from pathlib import Path
+
+    return Path(FOLDER, f"{FILES[italic]}.ttf")
 
 
 @lru_cache(maxsize=2)
 def font_face(italic: bool) -> str:
     """Write the @font-face rule that carries a whole face inside a style sheet."""
     from base64 import b64encode
+    from pathlib import Path
 
-    data = b64encode((FOLDER / f"{FILES[italic]}.woff2").read_bytes()).decode("ascii")
+    data = b64encode(Path(FOLDER, f"{FILES[italic]}.woff2").read_bytes()).decode("ascii")
     style = "italic" if italic else "normal"
     return (
         f'@font-face{{font-family:"{FAMILY}";font-style:{style};font-weight:400;'

@@ -16,7 +16,7 @@ from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import LED, SMALL, Label
 from graphkin.drawing.leaders import strong_lines, with_leaders
 from graphkin.drawing.marks import Mark, Text, reach
-from graphkin.drawing.placement import Spot, place
+from graphkin.drawing.placement import HOPELESS, Spot, place
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.shapes import Array, Box
 from graphkin.drawing.style import OWN_LINES
@@ -82,7 +82,7 @@ class FieldContent(Struct):
         ``made`` are the field's foot and the places of all labels if these were sought before,
         with other boards'. In a worse crowd letters of the construction are left out, then names
         of vectors, and a note says which. Raises PageError when another label finds no place even
-        so.
+        so. Where more than HOPELESS find none, key numbers would not help either.
         """
         meanings: list[str] = []
         wished = list(self.labels)
@@ -90,6 +90,10 @@ class FieldContent(Struct):
         spots = made[1] if made else self.spots(foot)
         for rounds_left in reversed(range(ROUNDS)):
             before = list(self.labels)
+            if sum(not spot.free for spot in spots) > HOPELESS:
+                self.labels = wished
+                foot, spots = in_turn(self, self.notes, wished)
+                break
             if all(spot.free for spot in spots) and not self.unled(spots):
                 break
             if not rounds_left:

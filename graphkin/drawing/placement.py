@@ -9,7 +9,7 @@ from msgspec import Struct
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.assignment import Assignment
-from graphkin.drawing.candidate_sets import CLOSE, CandidateSet, Level
+from graphkin.drawing.candidate_sets import CLOSE, FEW, CandidateSet, Level
 from graphkin.drawing.candidates import Subjects
 from graphkin.drawing.clearance import Clearance
 from graphkin.drawing.shapes import NOWHERE, Box
@@ -25,6 +25,8 @@ STRUCK = 20.0  # what a place costs at least whose leader crosses a strong line
 WIDE = Level(108, 12)  # how far a label looks that has such a place
 BAD = 2.0  # what a label may pay above its best before places are traded
 CROWD, AROUND = 8, 20.0  # how many labels are a crowd around one without a place, within how far
+HOPELESS = 60  # so many labels without a place that none are sought for them but the nearest
+MANY = 300  # labels of which each is offered fewer places
 SHORT, LONG, LONGEST = 8, 16, 150  # how many labels are pushed about in a chase
 LAST_RESORT = (
     (Level(48, 16), Level(128, 32)),
@@ -72,12 +74,15 @@ def place(
     """
     if not wishes:
         return []
-    offers = CandidateSet(Clearance(_subjects(wishes), lines, boxes, field, CLEAR, strong))
+    page = Clearance(_subjects(wishes), lines, boxes, field, CLEAR, strong)
+    offers = CandidateSet(page, FEW if len(wishes) > MANY else CLOSE)
     seats = Assignment(offers, [_fine(wish) for wish in wishes])
     seats.settle(seats.order())
     seats.improve(seats.regretted(BAD), SHORT)
     seats.shift(seats.unplaced())
-    _widen(seats)
+    fields = 1 if len(field) == 4 and isinstance(field[0], float) else len({*field})
+    if len(seats.seeking()) <= HOPELESS * fields:
+        _widen(seats)
     seats.settle(seats.regretted(0.2))
     return [_spot(offers, i, place) for i, place in enumerate(seats.pick)]
 

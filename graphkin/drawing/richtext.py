@@ -26,15 +26,14 @@ PRIMES = "′″‴"
 """Signs after a letter below which its index stands."""
 STACKED = 2
 """Signs of the longest index above which an exponent may stand."""
-SPECIAL = "\\*_^{}"
-TOKEN = re.compile(r"[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|.", re.DOTALL)
+TOKEN = r"(?s)[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|."
 UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
 GAP = rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<= \. ))(?:{UNITS}))"
 """Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥, ∥ and ÷, nor
 between the dots of room to write in."""
-EQUAL = re.compile("(?<= =) ")
+EQUAL = "(?<= =) "
 """Blanks behind =, at which a line of what is equal ends where nothing else will do."""
-WORDS = re.compile(r"[^ ]+(?: [^ ]+)* ?")
+WORDS = "[^ ]+(?: [^ ]+)* ?"
 
 
 class TextRun(NamedTuple):
@@ -55,11 +54,6 @@ class TextPiece(NamedTuple):
     level: int
 
 
-def escape(text: str) -> str:
-    """Make plain text safe to stand in markup."""
-    return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
-
-
 def plain(markup: str) -> str:
     """Give the words of a markup without its signs."""
     return "".join(piece.text for piece in pieces(markup))
@@ -75,7 +69,7 @@ def pieces(markup: str) -> list[TextPiece]:
     """Cut a markup into pieces of one face and one level."""
     found: list[TextPiece] = []
     italic, level = False, 0
-    for token in TOKEN.findall(markup):
+    for token in re.findall(TOKEN, markup):
         if token == "*":
             italic = not italic
         elif token == "}" and level:
@@ -153,7 +147,7 @@ def spaced_runs(markup: str, height: float) -> tuple[TextRun, ...]:
 
 def split(run: TextRun) -> Iterator[TextRun]:
     """Split a run at double blanks and drop leading ones; what is left stays in its place."""
-    for match in WORDS.finditer(run.text):
+    for match in re.finditer(WORDS, run.text):
         skipped = advance(run.text[: match.start()], run.italic) * run.size
         yield TextRun(match[0], run.x + skipped, run.y, run.size, run.italic)
 
@@ -220,7 +214,7 @@ def narrow_words(markup: str, width: float, height: float) -> list[str]:
     return [
         part
         for word in words_of(markup)
-        for part in (EQUAL.split(word) if extent(word, height)[0] > width else [word])
+        for part in (re.split(EQUAL, word) if extent(word, height)[0] > width else [word])
     ]
 
 

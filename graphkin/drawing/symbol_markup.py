@@ -5,17 +5,22 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from graphkin.drawing.richtext import escape
-
-NAME = re.compile(
+NAME = (
     r"^(?P<times>\d*)(?P<letter>[^\W\d_¹²]+)(?P<index>\d*(?:,\w+?)?)(?P<prime>[′″‴⁗]?)"
     r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]*)(?:\^(?P<sup>\w))?$"
 )
+SPECIAL = "\\*_^{}"
+"""The signs of the markup itself."""
 FOURTH = "⁗"
 TAGS = {"¹": "I", "²": "II"}
 """The tags of two auxiliary plans as they are written: below, so that none reads as a power."""
 WITHIN = ({"¹": "a", "²": "b"}, TAGS)
 """The same of plans within one of these, then within one of those: Ia, IbII."""
+
+
+def escape(text: str) -> str:
+    """Make plain text safe to stand in markup."""
+    return "".join("\\" + sign if sign in SPECIAL else sign for sign in text)
 
 
 def tag_words(tag: str) -> str:
@@ -28,7 +33,7 @@ def tag_words(tag: str) -> str:
 def symbol(name: str) -> str:
     """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
     numeral of its plan; nothing where there is no name."""
-    found = NAME.match(name)
+    found = re.match(NAME, name)
     if not name or name.isdigit():
         return name
     if not found:

@@ -8,16 +8,19 @@ that carries both, whatever moves the cam.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.rigid_bodies import Body, Numbers, bodies_of, guide_line
 from graphkin.numbers.arithmetic import Point, Real, turn_by
-from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.expression import Number
 from graphkin.scene.model import FRAME, Cam, Driver, Link, Scene
 from graphkin.scene.quantity import Quantity, exact
+
+if TYPE_CHECKING:
+    from graphkin.numbers.cam_motions import Rise
 
 
 class ByLaw(Quantity, frozen=True, eq=False):
@@ -50,9 +53,10 @@ class ByLaw(Quantity, frozen=True, eq=False):
         cam = self.cam
         rise = cam.displacement(place, numbers.values, numbers.kind)
         if cam.lever is None:
-            return Rise(rise.at + start, rise.rate, rise.bend)
+            return rise._replace(at=rise.at + start)
         away = -cam.lever.side
-        return Rise(start * turn_by(away * rise.at), away * rise.rate, away * rise.bend)
+        turned = start * turn_by(away * rise.at)
+        return rise._replace(at=turned, rate=away * rise.rate, bend=away * rise.bend)
 
     def resting(self, numbers: Numbers) -> Point:
         """The direction of a lever on the base circle, by half angles; on a level plate."""

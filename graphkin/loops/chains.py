@@ -7,7 +7,7 @@ slide (metres). All arrays carry the N settings of a batch first.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
@@ -16,7 +16,7 @@ from graphkin.loops.rigid_bodies import Complexes, Numbers, Reals
 from graphkin.loops.vector_chains import Chain, Tree
 
 
-class Linear(NamedTuple):
+class Linear(Struct, frozen=True, eq=False):
     """The vectors of all chains in one position, split by the unknown that moves them.
 
     ``turned`` (N, R, K) is the part of each chain that turns with θ_k, ``along`` (N, R, m) its

@@ -19,7 +19,7 @@ from msgspec import Struct
 
 from graphkin.loops.equations import Equations, equations, tied_by
 from graphkin.loops.poses import setting_of
-from graphkin.loops.rigid_bodies import Reals
+from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
 
@@ -309,20 +309,43 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
 
 
 def led_together(part: Equations, unknowns: Reals) -> Reals:
-    """Unknowns (1, K + m) where guides of one link that lead one point have it in one place."""
+    """Unknowns (1, K + m) where guides that lead one point have it in one place.
+
+    They are guides of one link, or of a link and of a block that slides on it, as of a plank on
+    rollers.
+    """
     found = unknowns.copy()
     led: dict[tuple[str, str], list[int]] = {}
+    blocks = {g.block: j for j, g in enumerate(part.guides) if g.turns_alike and g.first}
     for j, guide in enumerate(part.guides):
         led.setdefault((guide.on, guide.point), []).append(j)
-    for first, *others in (each for (_, point), each in led.items() if point):
-        guide = part.guides[first]
-        here = found[0, part.turning_count + first] + 1j * guide.offset
-        foot = guide.through + here * guide.along
+    for (on, point), (first, *others) in led.items():
+        if not point:
+            continue
+        foot = foot_of(part, found, first)
         for j in others:
-            other = part.guides[j]
-            way = (foot - other.through) * np.conj(other.along)
-            found[0, part.turning_count + j] = np.ravel(way.real)[0]
+            slide_to(part, found, j, foot)
+        for block, under in blocks.items():
+            guide = part.guides[under]
+            if guide.on == on and (block, point) in led:
+                way = (foot - foot_of(part, found, under)) * np.conj(guide.along)
+                for j in led[block, point]:
+                    slide_to(part, found, j, way)
     return found
+
+
+def foot_of(part: Equations, unknowns: Reals, j: int) -> Complexes:
+    """Where a guide has its block's point, in the axes of the link that it lies on."""
+    guide = part.guides[j]
+    here = unknowns[0, part.turning_count + j] + 1j * guide.offset
+    return np.ravel(guide.through + here * guide.along)
+
+
+def slide_to(part: Equations, unknowns: Reals, j: int, foot: Complexes) -> None:
+    """A block slides along its guide to where its point is nearest to a place."""
+    guide = part.guides[j]
+    way = (foot - guide.through) * np.conj(guide.along)
+    unknowns[0, part.turning_count + j] = np.ravel(way.real)[0]
 
 
 def is_sure(scene: Scene, group: Group) -> bool:

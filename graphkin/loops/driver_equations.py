@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.cam_laws import ByLaw
-from graphkin.loops.no_slip import within_half_a_turn
+from graphkin.loops.no_slip import turned_from, within_half_a_turn
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
 from graphkin.numbers.arithmetic import Real
-from graphkin.numbers.cam_motions import Rise
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
+
+if TYPE_CHECKING:
+    from graphkin.numbers.cam_motions import Rise
 
 
 class Lift(Struct, frozen=True, eq=False):
@@ -151,14 +153,12 @@ def drives_of(
     turned: Turnings,
     numbers: Numbers,
     near: Mapping[str, Real],
-    rolling: Collection[str],
-    *,
-    whole: bool,
+    counted: Collection[str],
 ) -> Drives:
-    """The drivers' equations; ``whole`` where full turns count, too.
+    """The drivers' equations.
 
     ``near`` are the angles (radians) near which links stand whose pins leave whole turns open;
-    those of ``rolling`` links follow from what rolls.
+    full turns count where those of some links, ``counted``, follow from wheels.
     """
     count = len(scene.drivers)
     selects = np.zeros((count, turned.count + len(guides)))
@@ -187,28 +187,27 @@ def drives_of(
     rates = speed, acceleration
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
-    bases = bases_of(scene, turned, near, rolling, numbers)
-    return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
+    bases = bases_of(scene, turned, near, counted, numbers)
+    return Drives(selects[:, 1:], turning, *places, bool(counted), *rates, lifts, bases)
 
 
 def bases_of(
     scene: Scene,
     turned: Turnings,
     near: Mapping[str, Real],
-    rolling: Collection[str],
+    counted: Collection[str],
     numbers: Numbers,
 ) -> tuple[DrivenAgainst, ...]:
     """The links that drivers turn others against, where these turn as one with further links.
 
     Those that a driver turns count with it.
     """
-    driven = {turned.of[driver.link] for driver in scene.drivers if driver.kind == "turn"}
-    found = []
+    counting, found = turned_from(scene, turned), []
     for d, driver in enumerate(scene.drivers):
         k = turned.of[driver.against]
-        if driver.kind != "turn" or k in driven or k == turned.of[FRAME]:
+        if driver not in counting or k == turned.of[FRAME]:
             continue
-        if list(turned.of.values()).count(k) > 1 and driver.against not in rolling:
+        if list(turned.of.values()).count(k) > 1 and driver.against not in counted:
             lean, start = turned.angle[driver.against], near.get(driver.against, 0.0)
             found.append(DrivenAgainst(d, k, numbers.reals(lean), numbers.reals(start)))
     return tuple(found)

@@ -21,6 +21,7 @@ from graphkin.loops.chains import Chains, Linear, packed
 from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
     Gear,
+    NoSlip,
     Slips,
     counted_turnings,
     gears_of,
@@ -197,7 +198,7 @@ def equations(
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
     near = starting_angles(written, every, numbers)
     turned = standing(turned, near, numbers)
-    rolling = {link for slip in every for link in slip.links}
+    tied = set[str]().union(*(tied_by_contact(written, slip) for slip in every))
     counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
@@ -214,10 +215,20 @@ def equations(
         chains=chains,
         closing=tuple(closing),
         slips=packed_slips(slips, counted, turned, guides, numbers),
-        drives=drives_of(scene, bodies, guides, turned, numbers, near, rolling, whole=bool(every)),
+        drives=drives_of(scene, bodies, guides, turned, numbers, near, tied),
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
     )
+
+
+def tied_by_contact(scene: Scene, slip: NoSlip) -> set[str]:
+    """The links of a contact that it turns, or that count with what does.
+
+    A track that a driver slides counts by itself.
+    """
+    slid = {driver.link for driver in scene.drivers if driver.kind == "slide"}
+    wheel, on, *_ = slip.links
+    return {wheel} if slip.track is not None and on in slid else {*slip.links}
 
 
 def tied_by(driver: Driver) -> tuple[str, ...]:

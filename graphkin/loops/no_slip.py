@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
 from graphkin.loops.vector_chains import Tree, Turnings
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
+from graphkin.scene.model import FRAME, Driver, Rolling, Scene, Wheel
 from graphkin.text.errors import Problem, StructureError
 
 TOUCH = 1e-6
@@ -319,7 +319,8 @@ def counted_turnings(
     """By turning, the angle within half a turn of which it is counted (N,), radians.
 
     What the scene states of a link's whole turns comes first, then the start of what rolls first
-    as written. A link that a driver turns others from counts from nought where no wheel says more.
+    as written. A link that a driver turns others from counts from nought where no wheel says more,
+    but with what slides along it where a driver turns that.
     """
     found: dict[int, Reals] = {}
 
@@ -338,8 +339,21 @@ def counted_turnings(
     for slip in sorted(slips, key=lambda slip: order.index(slip.links[0])):
         for link, angle in slip.near.items():
             count(link, angle)
-    for driver in scene.drivers:
-        if driver.kind == "turn":
-            count(driver.against, 0.0)
+    for driver in turned_from(scene, turned):
+        count(driver.against, 0.0)
     found.pop(turned.of[FRAME], None)
     return found
+
+
+def turned_from(scene: Scene, turned: Turnings) -> list[Driver]:
+    """The drivers that turn a link against one which no driver turns.
+
+    Of two drivers that turn one link the later moves the other way: the link that it names second.
+    """
+    drivers = [driver for driver in scene.drivers if driver.kind == "turn"]
+    turning = [turned.of.get(driver.link, -1) for driver in drivers]
+    return [
+        driver
+        for n, (driver, k) in enumerate(zip(drivers, turning, strict=True))
+        if (k < 0 or k not in turning[:n]) and turned.of.get(driver.against) not in turning
+    ]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from graphkin.loops.equations import Equations
 from graphkin.loops.rigid_bodies import Guide, Reals
@@ -14,7 +15,7 @@ Spot = tuple[str, int, str]
 """A guide by its block, its number there, and whether it is a track."""
 
 
-class Pose(NamedTuple):
+class Pose(Struct, frozen=True, eq=False):
     """The angle of every link's x axis (radians) and the coordinate on every guide (m)."""
 
     angles: Mapping[str, float]

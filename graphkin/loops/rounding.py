@@ -35,7 +35,7 @@ class PlaceBound(NamedTuple):
     acceleration: Reals
 
 
-class Loads(NamedTuple):
+class Loads(Struct, frozen=True, eq=False):
     """Magnitudes for every turning, the frame's first (N, K + 1), and for every slide (N, m)."""
 
     turned: Reals

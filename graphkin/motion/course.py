@@ -14,8 +14,9 @@ from graphkin.construction.compile import write
 from graphkin.construction.core.batch import BLOCK, run_batch, run_blocks
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.links.counted_turn import counted_link
+from graphkin.motion.closures_followed import FollowedClosures
 from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
@@ -38,13 +39,15 @@ class Course(Struct, frozen=True, dict=True):
     ``here`` is a u at which these closures hold, where the construction may look at the shape of
     the mechanism; without it they hold where the scene stands. ``turned`` tells how far links have
     turned that only their pins turn and whose wheels depend on it; without it they count near what
-    the scene says throughout.
+    the scene says throughout. ``closures`` are those of a group of several trials where they were
+    followed; elsewhere they are sought anew at every place.
     """
 
     sweep: Sweep
     branches: Branches
     here: float | None = None
     turned: Turned | None = None
+    closures: FollowedClosures | None = None
 
     @cached_property
     def scene(self) -> Scene:
@@ -164,7 +167,13 @@ class Course(Struct, frozen=True, dict=True):
             values = self.values(at[part])
             with np.errstate(all="ignore"):
                 trace = run_batch(
-                    self.program, self.early, values, batch_kind(), keep, margins=True
+                    self.program,
+                    self.early,
+                    values,
+                    batch_kind(),
+                    keep,
+                    margins=True,
+                    overrides=self.closing(values, at[part]),
                 )
             for row, number in enumerate(self.crossings):
                 found[row, part] = trace.margins[number]
@@ -173,6 +182,20 @@ class Course(Struct, frozen=True, dict=True):
                 closed = np.where(np.isfinite(value), closed, np.nan)
             found[-1, part] = closed
         return found
+
+    def closing(self, values: Mapping[str, Any], at: Reals) -> dict[int, tuple[Any, ...]]:
+        """What closes the group whose closures were followed, by its step, for each u (N,)."""
+        if self.closures is None:
+            return {}
+        steps = self.program.steps
+        number = next(n for n in self.early if closer_of(steps[n]) is not None)
+        solver, args = closer_of(steps[number]), steps[number].args
+        assert solver is not None
+        with np.errstate(all="ignore"):
+            before = [n for n in self.early if n < number]
+            trace = run_batch(self.program, before, values, batch_kind(), args)
+            known = [spread(trace.values[arg], len(at)) for arg in args]
+            return {number: self.closures.closed(solver, known, at)}
 
     def closes(self, at: Any) -> Flags:
         """Whether everything can be placed, for each u (N,)."""
@@ -185,8 +208,20 @@ class Course(Struct, frozen=True, dict=True):
         wanted = list(self.program.answers if targets is None else targets)
         needed = self.program.needed(wanted)
         keep = [self.program.targets[target] for target in wanted]
-        values = self.values(np.asarray(at, dtype=float), geometric=geometric)
+        at = np.asarray(at, dtype=float)
+        values = self.values(at, geometric=geometric)
+        overrides = self.closing(values, at)
         with np.errstate(all="ignore"):
+            if overrides:
+                return run_batch(
+                    self.program,
+                    needed,
+                    values,
+                    batch_kind(),
+                    keep,
+                    margins=True,
+                    overrides=overrides,
+                )
             return run_blocks(self.program, needed, values, batch_kind(), keep, margins=True)
 
     def columns(

@@ -14,7 +14,9 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.batch import run_batch
-from graphkin.construction.higher_class.closure_solver import ClosureSolver
+from graphkin.construction.higher_class.closure_solver import ClosureSolver, Trying
+from graphkin.construction.higher_class.several_trials import SeveralTrials
+from graphkin.motion.closures_followed import FollowedClosures, closed_on, paired
 from graphkin.motion.course import Course, Reals, spread
 from graphkin.motion.turns_followed import following
 from graphkin.numbers.arithmetic import batch_kind
@@ -37,7 +39,10 @@ SURE = 1e-6
 ENOUGH = 1e-10
 """Share of the sweep to which the places of new numbers and dead points are narrowed."""
 PARTS = 16
-"""Parts into which an interval is cut, all at once, where the motion is not sure."""
+"""Parts into which an interval is cut, all at once, where the motion is not sure.
+
+It is halved where several links are tried at once: places together cost as much as apart there.
+"""
 LEAP = 6
 """Places of the grid over which the motion is led where no closure is found between."""
 LEAP_NEAR = 0.1
@@ -60,14 +65,15 @@ class NumberedPlace(Struct, frozen=True):
     """One place of the motion: u, the closure's number there, and where all points stand.
 
     ``turned`` are the angles (degrees) of the links that only their pins turn and whose wheels
-    depend on it. ``leapt`` tells that no closure was found on the way to it, though the motion goes
-    on there.
+    depend on it. ``every`` holds trial values, signs and sines of crossing of all closures there.
+    ``leapt`` tells that no closure was found on the way to it, though the motion goes on there.
     """
 
     at: float
     number: int
     points: Reals
     turned: Reals
+    every: Reals
     leapt: bool = False
 
 
@@ -80,35 +86,67 @@ class Numbered:
         self.targets = [target for target in targets if target[0] == "position"]
         self.rows = [*self.targets, *(("turned", link) for link in course.counting)]
 
-    def with_number(self, number: int, here: float) -> Course:
-        """The course with another number of the closure."""
+    @property
+    def parts(self) -> int:
+        """Into how many parts an interval is cut where the motion is not sure."""
+        return 2 if self.course.tries_several else PARTS
+
+    def with_number(
+        self, number: int, start: float, end: float, way: FollowedClosures | None
+    ) -> Course:
+        """The course with another number of the closure, on a part of the way that was followed."""
         branches = {**self.course.branches, self.link: Closure(number)}
-        return replace(self.course, branches=branches, here=here)
+        part = way and way.within(min(start, end), max(start, end))
+        return replace(self.course, branches=branches, here=(start + end) / 2, closures=part)
+
+    def followed(self, found: Sequence[NumberedPlace]) -> FollowedClosures | None:
+        """What closes the group on the way through some places, if it tries several links."""
+        if not self.course.tries_several:
+            return None
+        rising = sorted(found, key=lambda node: node.at)
+        rows = np.array([node.every[node.number - 1] for node in rising])
+        return FollowedClosures(np.array([node.at for node in rising]), rows)
 
     def node(
         self, at: float, number: int, closures: Reals, *, leapt: bool = False
     ) -> NumberedPlace:
         """The place of a closure, of all those there."""
-        points, turned = np.split(closures[number - 1], [len(self.targets)])
-        return NumberedPlace(at, number, points, np.degrees(turned.real), leapt)
+        points, turned, _ = np.split(closures[number - 1], [len(self.targets), len(self.rows)])
+        every = closures[~np.isnan(closures[:, 0]), len(self.rows) :].real
+        return NumberedPlace(at, number, points, np.degrees(turned.real), every, leapt)
 
     def turned(self, node: NumberedPlace) -> dict[str, float]:
         """The angles (degrees) of the links that count at a place of the motion."""
         return dict(zip(self.course.counting, node.turned.tolist(), strict=True))
 
-    def places(self, at: Reals) -> Reals:
-        """Where all points stand in every closure, and how far links have turned (radians).
+    def paired(self, low: NumberedPlace, high: NumberedPlace) -> list[FollowedClosures]:
+        """All closures between two places of a group that tries several links, as they lead on.
 
-        Shape (closures, points and links, N); NaN for none.
+        None where it tries one, or where the number of closures changes between.
         """
-        parts = [self._places(at[k : k + CHUNK]) for k in range(0, len(at), CHUNK)]
-        ways = max(len(part) for part in parts)
-        whole = np.full((ways, len(self.rows), len(at)), np.nan + 0j)
+        if not self.course.tries_several:
+            return []
+        trying = self._known(np.array([high.at]))[0]
+        assert isinstance(trying, SeveralTrials)
+        both = sorted((low, high), key=lambda node: node.at)
+        return paired(trying, (both[0].at, both[1].at), both[0].every, both[1].every)
+
+    def places(self, at: Reals, ways: Sequence[FollowedClosures] = ()) -> Reals:
+        """Where all points stand in every closure, how far links have turned (radians), and what
+        closes the group.
+
+        Shape (closures, points and links and trial, N); NaN for none. All are sought, or those that
+        are on their ``ways`` are closed anew.
+        """
+        parts = [self._places(at[k : k + CHUNK], ways) for k in range(0, len(at), CHUNK)]
+        most = max(len(part) for part in parts)
+        whole = np.full((most, parts[0].shape[1], len(at)), np.nan + 0j)
         for k, part in enumerate(parts):
             whole[: len(part), :, k * CHUNK : k * CHUNK + part.shape[2]] = part
         return whole
 
-    def _places(self, at: Reals) -> Reals:
+    def _known(self, at: Reals) -> tuple[Trying, list[Reals], dict[str, Any]]:
+        """What is tried, what is known of each place, and the values of the scene there."""
         program, values = self.course.program, self.course.values(at)
         step = program.steps[self.step]
         assert step.action is not None and isinstance(step.action.value, ClosureSolver)
@@ -116,26 +154,32 @@ class Numbered:
         with np.errstate(all="ignore"):
             trace = run_batch(program, before, values, batch_kind(), step.args)
             known = [spread(trace.values[arg], len(at)) for arg in step.args]
-            trying = step.action.value.trying
-            closures = trying.closures(known)
+        return step.action.value.trying, known, values
+
+    def _places(self, at: Reals, ways: Sequence[FollowedClosures]) -> Reals:
+        trying, known, values = self._known(at)
+        with np.errstate(all="ignore"):
+            closures = closed_on(ways, trying, known, at) or trying.closures(known)
         counts = np.bincount(closures.table[:, 0].astype(int), minlength=len(at))
         every = [
-            self._stand(at, values, trying.parts(np.array(closures.picked(number))))
+            self._stand(at, values, trying, np.array(closures.picked(number)))
             for number in range(1, int(counts.max(initial=0)) + 1)
         ]
-        return np.array(every) if every else np.empty((0, len(self.rows), len(at)), complex)
+        size = len(self.rows) + closures.table.shape[1] - 1
+        return np.array(every) if every else np.empty((0, size, len(at)), complex)
 
-    def _stand(self, at: Reals, values: dict[str, Any], closed: tuple[Any, ...]) -> Reals:
-        """Where all points and links stand in one closure at each place."""
+    def _stand(self, at: Reals, values: dict[str, Any], trying: Trying, closed: Reals) -> Reals:
+        """Where all points and links stand in one closure at each place, and what closes it."""
         program = self.course.program
-        overrides = {self.step: closed}
+        overrides = {self.step: trying.parts(closed)}
         keep = [program.targets[target] for target in self.rows]
         with np.errstate(all="ignore"):
             trace = run_batch(
                 program, self.course.early, values, batch_kind(), keep, overrides=overrides
             )
         rows = np.array([spread(trace.values[number], len(at)) for number in keep])
-        return np.where(np.isfinite(rows).all(axis=0), rows, np.nan)
+        rows = np.where(np.isfinite(rows).all(axis=0), rows, np.nan)
+        return np.concatenate([rows, closed[:, 1:].T])
 
 
 def numbered(course: Course) -> Numbered | None:
@@ -192,7 +236,7 @@ def nodes(group: Numbered, start: float, stop: float) -> tuple[list[NumberedPlac
             found.append(node)
             ahead = [at for at in grid[:0:-1].tolist() if abs(at - start) > abs(node.at - start)]
         else:
-            between = np.linspace(found[-1].at, target, PARTS + 1)[1:-1].tolist()
+            between = np.linspace(found[-1].at, target, group.parts + 1)[1:-1].tolist()
             known |= closures_at(group, between)
             ahead += between[::-1]
     raise too_many(course)
@@ -295,21 +339,25 @@ def changes(group: Numbered, found: list[NumberedPlace]) -> list[tuple[float, fl
         if found[k].number == found[k - 1].number:
             continue
         low, high = found[k - 1], found[k]
+        ways = group.paired(low, high)
         while abs(high.at - low.at) > ENOUGH * span:
-            low, high = narrowed(group, low, high)
+            low, high = narrowed(group, low, high, ways)
         middle = (low.at + high.at) / 2
         marks.append((middle, middle, found[k].number))
     return marks
 
 
 def narrowed(
-    group: Numbered, low: NumberedPlace, high: NumberedPlace
+    group: Numbered,
+    low: NumberedPlace,
+    high: NumberedPlace,
+    ways: Sequence[FollowedClosures],
 ) -> tuple[NumberedPlace, NumberedPlace]:
     """Two neighbouring places between which the number changes, of many between two such."""
-    share = np.linspace(0, 1, PARTS + 1)[1:-1]
+    share = np.linspace(0, 1, (PARTS if ways else group.parts) + 1)[1:-1]
     at = low.at + (high.at - low.at) * share
     between = low.points[:, None] + (high.points - low.points)[:, None] * share
-    closures = group.places(at)
+    closures = group.places(at, ways)
     misses = np.abs(closures[:, : len(group.targets)] - between).max(axis=1)
     numbers = np.where(np.isfinite(misses), misses, np.inf).argmin(axis=0) + 1
     for k, number in enumerate(numbers.tolist()):

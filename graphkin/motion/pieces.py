@@ -179,11 +179,12 @@ def numbered_path(group: Numbered, start: float) -> Path:
 def cut(group: Numbered, found: list[NumberedPlace], start: Event, end: Event) -> Range:
     """The pieces of one number each, on the way from the first node to the last."""
     marks = changes(group, found)
+    way = group.followed(found)
     numbers = [found[0].number, *(number for _, _, number in marks)]
     firsts = [start, *(Event("number", at) for _, at, _ in marks)]
     lasts = [*(Event("number", at) for at, _, _ in marks), end]
     return tuple(
-        Piece(first, last, group.with_number(number, (first.at + last.at) / 2))
+        Piece(first, last, group.with_number(number, first.at, last.at, way))
         for number, first, last in zip(numbers, firsts, lasts, strict=True)
     )
 
@@ -255,7 +256,11 @@ def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
     """Pieces before and after one place, at which the last and the first are one."""
     end, start = before[-1].course.turned, after[0].course
     turned = start.turned if end is None else end.joined(start.turned)
-    joined = replace(after[0], low=before[-1].low, course=replace(start, turned=turned))
+    closures = before[-1].course.closures
+    if closures is not None:
+        closures = closures.joined(start.closures)
+    course = replace(start, turned=turned, closures=closures)
+    joined = replace(after[0], low=before[-1].low, course=course)
     return (*before[:-1], joined, *after[1:])
 
 
@@ -345,7 +350,10 @@ def turned_back(piece: Piece, turns: int, gone: dict[str, float]) -> Piece:
     turned = piece.course.turned
     if turned is not None:
         turned = turned.moved(-turns * TURN, {link: -turns * by for link, by in gone.items()})
-    return Piece(low, high, replace(piece.course, turned=turned))
+    closures = piece.course.closures
+    if closures is not None:
+        closures = closures.moved(-turns * TURN)
+    return Piece(low, high, replace(piece.course, turned=turned, closures=closures))
 
 
 def marched(course: Course, start: float, stop: float) -> Range:

@@ -130,3 +130,25 @@ NAMES = {"d": "float64", "D": "float64", "f": "float32", "F": "float32", "g": "l
     "G": "longdouble"
 }
 """The kinds of arrays by numpy's letters for reals and for complex numbers."""
+
+
+def in_doubles(value: Any) -> Any:
+    """The double, or the array of doubles, next to a number of any kind."""
+    if hasattr(value, "shape") and value.shape:
+        import numpy as np
+
+        return value.astype(np.complex128 if value.dtype.kind == "c" else np.float64)
+    if isinstance(value, complex | float | int):
+        return value
+    parts = float(value.real), float(value.imag)
+    return complex(*parts) if is_complex(value) else parts[0]
+
+
+def is_complex(value: Any) -> bool:
+    """Whether a number of another kind than Python's is one of the plane."""
+    return type(value).__name__.startswith(("mpc", "acb", "complex", "clongdouble"))
+
+
+def middle(value: Any) -> Any:
+    """The middle of a ball; any other number as it is."""
+    return value.mid() if is_ball(value) else value

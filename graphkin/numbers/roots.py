@@ -210,4 +210,35 @@ def closed_in(misfit: Misfit, which: Array, low: Array, high: Array) -> Array:
         pole = (turn >= SURE) & (abs(value) > GROWN * height[live])
         narrow = abs(candidate - low[live]) <= NEXT * np.maximum(abs(low[live]), abs(candidate))
         live = live[~(pole | narrow | (least[live] == 0) | (abs(candidate - low[live]) < 1e-300))]
+    rough = (least > HIDDEN * height) & (least <= CLOSE * height)
+    halved_in(misfit, which, (low, high), (best, least), rough)
     return np.where(least <= CLOSE * height, best, np.nan)
+
+
+def halved_in(
+    misfit: Misfit,
+    which: Array,
+    ends: tuple[Array, Array],
+    found: tuple[Array, Array],
+    rough: Array,
+) -> None:
+    """Close in by halves on ``rough`` roots, which false position does not settle.
+
+    So does one that lies just before a jump of its function. ``found`` are the best place of each
+    and the misfit there, which are set anew.
+    """
+    import numpy as np
+
+    (low, high), (best, least) = ends, found
+    live = np.flatnonzero(rough)
+    if not live.size:
+        return
+    start, end = low[live].copy(), high[live].copy()
+    after = np.array(misfit(which[live], end))
+    for _ in range(ROUNDS):
+        middle = (start + end) / 2
+        value = misfit(which[live], middle)
+        closer = abs(value) < least[live]
+        best[live[closer]], least[live[closer]] = middle[closer], abs(value[closer])
+        beyond = value * after > 0
+        start, end = np.where(beyond, start, middle), np.where(beyond, middle, end)

@@ -60,7 +60,8 @@ class DeskSession(Struct, dict=True):
         return {
             "name": record.name,
             "code": record.code,
-            "kind": record.kind,
+            "who": record.who,
+            "kind": self.words(f"sheet.{record.kind}") if record.kind else "",
             "refused": record.refused,
             "lines": record.key_lines,
             "points": points,

@@ -6,9 +6,12 @@ A point that a person has yet to look at leaves its fields open: they are writte
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from msgspec import Struct
+
+from graphkin.classroom.grading.answer_numbers import OPEN
 from graphkin.classroom.grading.class_folder import ClassFolder
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.lab.lab_model import Item
@@ -22,21 +25,33 @@ from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, 
 from graphkin.text.errors import GraphkinError
 
 ANSWERS = "answers.csv"
-OPEN = "?"
-"""What stands for an answer that is not decided yet."""
 Places = Mapping[int, complex | None]
 """Where steps lie on paper; None for what is not drawn. What is not there at all is open."""
 
 
+class DrawnRow(Struct, frozen=True):
+    """What the drawings of a student tell: a cell for each field, and which of them follow."""
+
+    who: str
+    cells: tuple[str, ...]
+    followed: tuple[str, ...]
+
+
 def answers_table(opened: ClassFolder, out: Path) -> bytes:
     """The answers of all whose sheets were read, in the order of the roster."""
+    head = ["id", *(item.field for item in drawn_items(opened))]
+    rows: list[list[object]] = [[row.who, *row.cells] for row in drawn_rows(opened, out)]
+    return csv_text([head, *rows]).encode("utf-8")
+
+
+def drawn_rows(opened: ClassFolder, out: Path) -> Iterator[DrawnRow]:
+    """What was read and decided by now, of each student whose sheets were read."""
     standing = SettledPoints(out).standing
     try:
         records = latest_of(records_in(out), standing)
     except GraphkinError:
         records = {}
     form = drawn_items(opened)
-    rows: list[list[object]] = [["id", *(item.field for item in form)]]
     variants = {each.code: each for each in opened.edition.variants}
     language = language_of(opened.book.mechanism({}), None).language
     order = PrintOrder(opened.edition.lab, opened.edition.scene, language, "colour")
@@ -46,15 +61,25 @@ def answers_table(opened: ClassFolder, out: Path) -> bytes:
             continue
         sheets = sheets_of(order, variants[taker.code], language)
         places: dict[int, tuple[str, complex | None]] = {}
+        verdicts: dict[int, str] = {}
         for kind, page in task_pages(sheets):
             if kind in own:
                 drawing = next(each for each in sheets.drawings if each.kind == kind)
                 sheet = LetteredSheet(drawing, page)
                 found = places_of(sheet, own[kind], standing)
                 places |= {n: (kind, at) for n, at in found.items() if n not in places}
+                settled = settled_points(own[kind], standing)
+                verdicts = {point.step: point.verdict for point in settled} | verdicts
         told = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
-        rows.append([taker.student.id, *(cell(told[item.field], places) for item in form)])
-    return csv_text(rows).encode("utf-8")
+        cells = tuple(cell(told[item.field], places) for item in form)
+        followed = [item.field for item in form if is_followed(told[item.field], verdicts)]
+        yield DrawnRow(taker.student.id, cells, tuple(followed))
+
+
+def is_followed(probe: Probe, verdicts: Mapping[int, str]) -> bool:
+    """Whether the tip of a length or place follows from own points, and its tail is not wrong."""
+    tail, tip = (verdicts.get(step, "right") for step in (probe.steps[0], probe.steps[-1]))
+    return tip == "follows" and tail in ("right", "follows")
 
 
 def drawn_items(opened: ClassFolder) -> tuple[Item, ...]:

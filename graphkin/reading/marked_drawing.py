@@ -19,8 +19,7 @@ from graphkin.classroom.grading.class_folder import ClassFolder
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.language_names import language_in
 from graphkin.construction.core.quantities import MOTION
-from graphkin.drawing.glyphs import FILES
-from graphkin.drawing.glyphs import FOLDER as FONTS
+from graphkin.drawing.glyphs import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.settled_points import SettledPoints, latest_of, settled_points
@@ -150,7 +149,7 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     """The drawings as a PDF, a page for each."""
     from PIL import Image, ImageDraw, ImageFont
 
-    font = ImageFont.truetype(str(FONTS / f"{FILES[False]}.ttf"), 22)
+    font = ImageFont.truetype(str(font_file(italic=False)), 22)
     pages = []
     for sheet in sheets:
         image = Image.open(io.BytesIO(sheet.picture)).convert("RGB")

@@ -47,6 +47,7 @@ class SheetRecord(Struct, frozen=True):
     file: str
     key: str
     code: str = ""
+    who: str = ""
     kind: str = ""
     refused: str | None = None
     map: tuple[tuple[float, float], ...] = ()
@@ -112,12 +113,14 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         spent = round(perf_counter() - start, 3)
         told = isinstance(error, Unreadable | GraphkinError)
         refused = str(error).splitlines()[0] if told else f"cannot be read: {type(error).__name__}"
-        return SheetRead(replace(record, code=code, refused=refused, seconds=spent))
+        who = called(order, code)
+        return SheetRead(replace(record, code=code, who=who, refused=refused, seconds=spent))
     pixels = mapped(found.map, order.grid)
     spent = round(perf_counter() - start, 3)
     read = replace(
         record,
         code=code,
+        who=called(order, code),
         kind=found.sheet.kind,
         map=pixels,
         seconds=spent,
@@ -127,6 +130,12 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         residual=round(found.residual, 3),
     )
     return SheetRead(read, flat_picture(grey, found.map))
+
+
+def called(order: ReadOrder, code: str) -> str:
+    """Whose sheet has a code: id and name of the student; nothing for a code that is not read."""
+    variant = order.variants.get(code)
+    return f"{variant.id} {variant.name}".strip() if variant is not None else ""
 
 
 def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:

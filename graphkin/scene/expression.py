@@ -43,12 +43,10 @@ RATES = ("mm/s", "cm/s", "m/s", "in/s", "rev/min", "rot/min", "rad/s", "deg/s", 
 MEASURED = rf"(?as)(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|°)"
 """A number or an expression with a unit behind it."""
 MARKS = "_.+-*/() \t\r\n"
-JUXTAPOSED = re.compile(
-    r"(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]", re.ASCII
-)
-DECIMAL = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+JUXTAPOSED = r"(?a)(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]"
+DECIMAL = r"(?a)(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**", ast.Mod: "mod"}
-REST = re.compile(r"\bmod\b")
+REST = r"\bmod\b"
 """The sign of a rest: ``number mod 30``."""
 
 
@@ -104,10 +102,14 @@ def parse(text: str, *, counting: bool = False) -> Tree:
     """
     if len(text) > LONGEST:
         raise UnreadableError(f"an expression of {len(text)} characters", f"at most {LONGEST}")
-    if not counting and REST.search(text):
-        raise UnreadableError('"mod" in an expression', "only formulas of a lab.toml have it")
-    refuse_foreign(REST.sub("*", text))
-    flat = REST.sub("%", " ".join(text.split()))
+    flat = " ".join(text.split())
+    if "mod" in text and re.search(REST, text):
+        if not counting:
+            raise UnreadableError('"mod" in an expression', "only formulas of a lab.toml have it")
+        refuse_foreign(re.sub(REST, "*", text))
+        flat = re.sub(REST, "%", flat)
+    else:
+        refuse_foreign(text)
     try:
         with ONE_AT_A_TIME:
             body = ast.parse(flat, mode="eval").body
@@ -118,13 +120,14 @@ def parse(text: str, *, counting: bool = False) -> Tree:
 
 def unit_hint(text: str) -> Hint:
     """How to write a number that has a unit behind it; empty where it has none."""
-    measured = re.fullmatch(MEASURED, text.strip())
+    bare = text.strip()
+    measured = re.fullmatch(MEASURED, bare) if bare.endswith((*RATES, *UNITS)) else None
     rest = measured[1].strip() if measured else ""
     if not measured or not rest or rest[-1] in "+-*/(":
         return ""
     hint = f"the unit is stated once in units: write {rest}"
     if len(measured[2]) > 1 or measured[2] == "°":
-        return Mend(text.strip(), rest, hint)
+        return Mend(bare, rest, hint)
     return f"{hint}; a product has its *"
 
 
@@ -143,7 +146,7 @@ def refuse_foreign(text: str) -> None:
         raise UnreadableError(f"{foreign!a} in an expression", hints.get(foreign, ""))
     if not text.strip():
         raise UnreadableError("an empty expression")
-    joined = JUXTAPOSED.search(text)
+    joined = re.search(JUXTAPOSED, text)
     if joined:
         hint = (
             "write plain digits"
@@ -189,7 +192,7 @@ def refuse(node: ast.expr, text: str) -> NoReturn:
 def decimal(text: str) -> Fraction:
     """The exact value of a decimal number as written; underscores, nan and inf are refused."""
     bare = text.lstrip("+-")
-    if not DECIMAL.fullmatch(bare):
+    if not re.fullmatch(DECIMAL, bare):
         raise UnreadableError(f"{text[:40]} is not a finite decimal number")
     try:
         number = Decimal(text)

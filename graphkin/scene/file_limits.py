@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 import tomllib
 from errno import EINVAL
-from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 
 from graphkin.scene.expression import unit_hint
 from graphkin.scene.findings import visible
 from graphkin.scene.measures import FloatText
 from graphkin.scene.toml_faults import OPEN, UNCLOSED, advice, number_hint
+from graphkin.text import paths
 from graphkin.text.errors import Hint, Mend, Problem, SceneError
 
 LARGEST = 256 * 1024
@@ -23,7 +23,7 @@ CURLED = "“”„‟‘’‚«»″"
 WHERE = r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)\s*$"
 
 
-def read_bytes(path: Path) -> bytes:
+def read_bytes(path: paths.Named) -> bytes:
     """The bytes of a file, no more than a scene may have; SceneError when there are none."""
     try:
         return file_bytes(path, LARGEST + 1)
@@ -32,16 +32,15 @@ def read_bytes(path: Path) -> bytes:
         raise SceneError(Problem(str(path), f"the scene cannot be read: {reason}")) from None
 
 
-def file_bytes(path: Path, most: int) -> bytes:
+def file_bytes(path: paths.Named, most: int) -> bytes:
     """The bytes of a file, as far as ``most`` of them; nothing waits for a pipe or a device.
 
     Raises OSError where there is no such file; ValueError for what can be no path.
     """
-    mode = path.stat().st_mode
-    if not (S_ISREG(mode) or S_ISDIR(mode)):
+    mode = paths.mode(path)
+    if mode and not (S_ISREG(mode) or S_ISDIR(mode)):
         raise OSError(EINVAL, "a pipe or a device is no file", str(path))
-    with path.open("rb") as stream:
-        return stream.read(most)
+    return paths.first_bytes(path, most)
 
 
 def decoded(data: bytes) -> str:

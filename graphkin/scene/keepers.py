@@ -271,7 +271,8 @@ def moves(every: Mapping[str, Link], driver: Driver, name: str, pinned: bool) ->
     ends = {driver.link, driver.against}
     if name not in ends:
         return set()
-    on_track = (r.on == driver.against and r.through for r in every[driver.link].rolls)
+    rolls = every[driver.link].rolls if driver.link in every else ()
+    on_track = (r.on == driver.against and r.through for r in rolls)
     if driver.kind == "turn" and not pinned and not (name == driver.link and any(on_track)):
         return set()
     return ends - {name}

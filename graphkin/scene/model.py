@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from msgspec import Struct, field
 from msgspec.structs import astuple, replace
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
-from graphkin.numbers.cam_motions import Rise, displaced, displaced_along
 from graphkin.scene.expression import TIME
 from graphkin.scene.quantity import Quantity
 from graphkin.text.plain_table import listed
+
+if TYPE_CHECKING:
+    from graphkin.numbers.cam_motions import Rise
 
 FRAME = "0"
 """Name of the fixed link."""
@@ -317,6 +318,8 @@ class Cam(Struct, frozen=True):
         ``place`` is the cam's axis as the carrier sees it, or the coordinate (m) of one that
         slides.
         """
+        from graphkin.numbers.cam_motions import displaced, displaced_along
+
         pieces = (
             [piece.to.si(values, kind) for piece in self.law],
             [piece.rise.si(values, kind) for piece in self.law],
@@ -324,14 +327,14 @@ class Cam(Struct, frozen=True):
         )
         if self.slides:
             found = displaced_along(self.sense * (place - self.start.si(values, kind)), *pieces)
-            return Rise(found.at, self.sense * found.rate, found.bend)
+            return found._replace(rate=self.sense * found.rate)
         from_start = place * self.start.direction(values, kind).conjugate()
         found = displaced(
             from_start if self.sense > 0 else from_start.conjugate(),
             *pieces,
             [(one.si(values, kind), other.si(values, kind)) for one, other in self.slopes],
         )
-        return Rise(found.at, self.sense * found.rate, found.bend)
+        return found._replace(rate=self.sense * found.rate)
 
     def called(self, names: Mapping[str, str]) -> Cam:
         """The same with links by other names."""
@@ -556,7 +559,7 @@ class Scene(Struct, frozen=True, dict=True):
     names: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
     values: Mapping[str, object] = field(default_factory=dict)
-    source: Path | None = None
+    source: str | None = None
 
     @property
     def every_link(self) -> tuple[Link, ...]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 from msgspec.structs import replace
@@ -26,6 +25,7 @@ from graphkin.scene.read_joints import read_slides
 from graphkin.scene.read_profiles import read_profiles
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
+from graphkin.text import paths
 from graphkin.text.errors import GraphkinError, Mend, Problem, SceneError
 
 FORMAT = 1
@@ -46,18 +46,19 @@ UNITS = {"length": tuple(LENGTHS), "angle": tuple(TURNS), "speed": ("rev/min", "
 NO_SETTINGS: Mapping[str, object] = {}
 
 
-def read_scene(path: Path, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
+def read_scene(path: paths.Named, settings: Mapping[str, object] = NO_SETTINGS) -> Scene:
     """The scene in a file, its parameters set; SceneError with every problem found.
 
     The scene is named after its file, or after its folder when the file is ``scene.toml``.
     """
-    path = Path(path)
-    name = path.stem if path.stem != "scene" else path.absolute().parent.name or path.stem
-    return read_text(decoded(read_bytes(path)), name, path, settings)
+    name = paths.stem(path)
+    if name == "scene":
+        name = paths.name_of(paths.folder_of(path)) or name
+    return read_text(decoded(read_bytes(path)), name, str(path), settings)
 
 
 def read_text(
-    text: str, name: str, source: Path | None = None, settings: Mapping[str, object] = NO_SETTINGS
+    text: str, name: str, source: str | None = None, settings: Mapping[str, object] = NO_SETTINGS
 ) -> Scene:
     """The scene in a TOML text, its parameters set; SceneError with every problem found."""
     return read_into(Findings(), text, name, source, settings)
@@ -77,7 +78,7 @@ def read_into(
     findings: Findings,
     text: str,
     name: str,
-    source: Path | None = None,
+    source: str | None = None,
     settings: Mapping[str, object] = NO_SETTINGS,
 ) -> Scene:
     """The scene in a text, its problems noted; SceneError where there are any."""
@@ -111,7 +112,7 @@ def check_version(top: Table, findings: Findings) -> None:
 def assembled(
     top: Table,
     name: str,
-    source: Path | None,
+    source: str | None,
     settings: Mapping[str, object],
     findings: Findings,
 ) -> Scene:

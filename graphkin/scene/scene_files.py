@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
+from graphkin.text import paths
 from graphkin.text.errors import Problem, SceneError
+from graphkin.text.paths import within
 
-HERE = Path(__file__).resolve().parents[1]
-SHELVES = (HERE / "sheets", HERE.parent / "sheets")
+if TYPE_CHECKING:
+    from pathlib import Path
+
+HERE = paths.beside(paths.beside(__file__))
+ABOVE = paths.beside(HERE)
+SHELVES = (within(HERE, "sheets"), within(ABOVE, "sheets"))
 """The package's own shelf (a wheel), then the checkout's (an editable install)."""
-EXAMPLES = (HERE / "scenes", HERE.parent / "examples" / "scenes")
+EXAMPLES = (within(HERE, "scenes"), within(ABOVE, "examples", "scenes"))
 """The folders with the scenes that come with it, likewise."""
-LAB = "lab.toml"
-"""The file that makes a scene a lab."""
+LAB, SCENE, ENDING = "lab.toml", "scene.toml", ".toml"
+"""The file that makes a scene a lab, the scene of a folder, and how all of them end."""
 
 
-def shelf() -> Path:
+def shipped() -> str:
     """The folder with the shipped labs. Raises SceneError when the installation lacks it."""
     for folder in SHELVES:
-        if folder.is_dir():
+        if paths.is_folder(folder):
             return folder
     raise SceneError(
         Problem(
@@ -27,15 +33,25 @@ def shelf() -> Path:
     )
 
 
+def shelf() -> Path:
+    """The same folder, for what goes on from there."""
+    from pathlib import Path
+
+    return Path(shipped())
+
+
 def names() -> list[str]:
     """Names of the shipped labs, in alphabetical order."""
-    return sorted(path.parent.name for path in shelf().glob("*/scene.toml"))
+    folder = shipped()
+    return [name for name in paths.in_folder(folder) if paths.is_file(within(folder, name, SCENE))]
 
 
 def examples() -> dict[str, Path]:
     """The scenes that come with it and are no labs, by name, in alphabetical order."""
-    found = next((folder for folder in EXAMPLES if folder.is_dir()), None)
-    return {} if found is None else {path.stem: path for path in sorted(found.glob("*.toml"))}
+    from pathlib import Path
+
+    found = next((folder for folder in EXAMPLES if paths.is_folder(folder)), None)
+    return {} if found is None else {path.stem: path for path in sorted(Path(found).glob("*.toml"))}
 
 
 def folder(name: str | Path) -> Path | None:
@@ -43,6 +59,8 @@ def folder(name: str | Path) -> Path | None:
 
     None where there is no lab.toml: a scene by itself is no lab.
     """
+    from pathlib import Path
+
     path = Path(name)
     if path.is_file():
         return path.parent if path.name == LAB else None
@@ -51,21 +69,23 @@ def folder(name: str | Path) -> Path | None:
     return path if (path / LAB).is_file() else None
 
 
-def find(name: str) -> Path:
+def find(name: str) -> str:
     """The scene file of a path, of a folder with a scene.toml, or of a shipped lab's name."""
-    path = Path(name)
-    if path.is_file() and path.name == LAB:
-        path = path.absolute().parent
-    if path.is_dir() and (path / "scene.toml").is_file():
-        return path / "scene.toml"
-    if path.is_file():
+    path = name or "."
+    if paths.is_file(path) and paths.name_of(path) == LAB:
+        path = paths.folder_of(path)
+    inside = within(path, SCENE)
+    if paths.is_folder(path) and paths.is_file(inside):
+        return inside
+    if paths.is_file(path):
         return path
     if name in names():
-        return shelf() / name / "scene.toml"
-    if path.is_dir():
+        return within(shipped(), name, SCENE)
+    if paths.is_folder(path):
         expected = "a folder with scene.toml, a .toml file or the name of a lab"
         raise SceneError(Problem(name, "is a folder without scene.toml", expected))
-    beside = [str(path.with_name(other.name)) for other in path.parent.glob("*.toml")]
+    around = path[: len(path) - len(paths.name_of(path))]
+    beside = [around + other for other in paths.in_folder(around or ".") if other.endswith(ENDING)]
     from difflib import get_close_matches
 
     near = get_close_matches(name, [*beside, *names()], n=1)

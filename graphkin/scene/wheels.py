@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from fractions import Fraction
 from itertools import chain, count
 from math import prod
@@ -259,7 +258,7 @@ def contact_letters(scene: Scene) -> dict[str, tuple[str, ...]]:
 def free_stem(scene: Scene) -> str:
     """The first letter that no point of the scene has, alone or before a number."""
     names = {point.upper() for link in scene.every_link for point in link.points}
-    taken = {re.sub(r"\d+$", "", name) for name in names}
+    taken = {name.rstrip("0123456789") for name in names}
     return next(s for s in chain(STEMS, ("T" * n for n in count(2))) if s not in taken)
 
 

@@ -15,8 +15,9 @@ from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
-from graphkin.structure.pairs import Contact, Pin, Sliding
-from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
+from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.touching_wheels import asked_of
+from graphkin.structure.wheel_groups import next_coupled, spun_afar, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
 ALONG = 1e-9
@@ -60,9 +61,8 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
-    rolls = any(isinstance(pair, Contact) for link in links for pair in joints.others[link])
-    spun = next((each for each in driven if rolls and turns_afar(each, known)), None)
-    return Unresolved(links, driven, held, wedged, spun, tuple(reaching(joints, known, links)))
+    spun, led = spun_afar(joints, known, links, driven), tuple(reaching(joints, known, links))
+    return Unresolved(links, driven, held, wedged, spun, led, asked_of(joints.scene, held))
 
 
 def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> Iterator[str]:
@@ -73,11 +73,6 @@ def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> It
                 yield f"turn = {quoted(link)}"
             elif isinstance(pair, Sliding) and pair.block == link:
                 yield f"slide = {quoted(link)}"
-
-
-def turns_afar(driver: Driver, known: Collection[str]) -> bool:
-    """Whether a driver turns a link that does not stand against one that does."""
-    return driver.kind == "turn" and len({driver.link, driver.against} & {*known}) == 1
 
 
 def refuse_far_guides(scene: Scene) -> None:

@@ -8,7 +8,7 @@ from itertools import combinations
 
 from msgspec.structs import replace
 
-from graphkin.scene.known_names import named, next_name, quoted
+from graphkin.scene.known_names import named, quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
@@ -25,6 +25,7 @@ from graphkin.structure.groups import (
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Pin, all_pairs, sharers
+from graphkin.structure.touching_wheels import keeper_hint
 from graphkin.text.errors import Problem, StructureError
 
 RANK = "the rank of the constraints"
@@ -172,22 +173,6 @@ def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Proble
         + guide_hint(scene, ties, loose)
         + keeper_hint(scene, loose),
     )
-
-
-def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
-    """Words for a track that seems to be led by links which hang on it themselves.
-
-    What keeps its wheel where it rolls was not put in, unless a name asks for it.
-    """
-    for name in loose:
-        for rolling in scene.links[name].rolls:
-            if rolling.through and rolling.on != FRAME and not rolling.keeper:
-                called = quoted(next_name(scene.links))
-                return (
-                    f"; or, if a pin and the wheel of link {name} alone hold link {rolling.on}, "
-                    f"write link = {called} in rolls of link {name}"
-                )
-    return ""
 
 
 def guide_hint(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> str:

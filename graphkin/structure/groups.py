@@ -155,11 +155,11 @@ class Higher(Struct, frozen=True):
 
     What closes it at last is a link between two known points, or a driver's given motion. Where
     dyads alone do not do the rest, its chain holds groups within it that are tried in their turn.
-    Where its ``wheels``, pinned to known tracks, leave groups that need no trial, those move it
-    ``at_instant``.
+    Where its ``wheels``, pinned to known tracks, leave groups of which nothing is tried, those
+    move it ``at_instant``.
     """
 
-    trial: TriedLink
+    tried: TriedLink
     chain: tuple[Group, ...]
     last: Tie | Driver
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
@@ -170,19 +170,19 @@ class Higher(Struct, frozen=True):
     def links(self) -> tuple[str, ...]:
         """All links, that whose place is tried first and that which closes last."""
         last = self.last.links if isinstance(self.last, Tie) else ()
-        return (*self.trial.links, *(link for g in self.chain for link in g.links), *last)
+        return (*self.tried.links, *(link for g in self.chain for link in g.links), *last)
 
     @property
     def parts(self) -> tuple[TriedLink | Group, ...]:
         """The link that is tried, its chain, and the link that closes it, if one does."""
-        return (self.trial, *self.chain, *((self.last,) if isinstance(self.last, Tie) else ()))
+        return (self.tried, *self.chain, *((self.last,) if isinstance(self.last, Tie) else ()))
 
     @property
     def placing(self) -> list[Joint]:
         """The pairs by which its parts hang on what is known before them."""
         among = (getattr(part, "placed_by", ()) for part in self.parts[1:])
         outer = (getattr(part, "outer", ()) for part in self.parts[1:])
-        return [self.trial.pair, *(pair for pairs in (*among, *outer) for pair in pairs)]
+        return [self.tried.pair, *(pair for pairs in (*among, *outer) for pair in pairs)]
 
     @property
     def nested(self) -> tuple[Higher, ...]:
@@ -192,7 +192,7 @@ class Higher(Struct, frozen=True):
 
     @property
     def members(self) -> tuple[Group, ...]:
-        """What is constructed after trials, with that of the groups within it, in order."""
+        """What follows from what is tried, with that of the groups within it, in order."""
         parts = (each.members if isinstance(each, Higher) else (each,) for each in self.chain)
         return tuple(member for part in parts for member in part)
 
@@ -214,7 +214,7 @@ class Higher(Struct, frozen=True):
         """Its class, its links, where it is tried, and what closes it."""
         names, last = listed(sorted(self.links, key=natural)), self.last
         end = f"link {last.link}" if isinstance(last, Tie) else f"the driver of link {last.link}"
-        return f"{self.title} (links {names}): {self.trial.words}, closed by {end}"
+        return f"{self.title} (links {names}): {self.tried.words}, closed by {end}"
 
 
 class Unresolved(Struct, frozen=True):
@@ -223,7 +223,8 @@ class Unresolved(Struct, frozen=True):
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
     its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
     ``spun`` the first driver that turns one of its links against a known one, about a pin that
-    moves, where wheels roll; ``led`` are drivers, as written, that reach one of them.
+    moves, where there are wheels; ``led`` are drivers, as written, that reach one of them.
+    ``asked`` is what to write where a wheel on such a track may need a link that keeps it there.
     """
 
     links: tuple[str, ...]
@@ -232,6 +233,7 @@ class Unresolved(Struct, frozen=True):
     wedged: tuple[str, ...] = ()
     spun: Driver | None = None
     led: tuple[str, ...] = ()
+    asked: str = ""
 
     @property
     def title(self) -> str:

@@ -1,7 +1,7 @@
 """Groups of class III and higher: which link to try so that dyads do the rest.
 
 Cutting one constraint of a group leaves a chain that dyads construct; what was cut closes it. Where
-the chain comes to a stand, a group within it is closed by a trial of its own.
+the chain comes to a stand, a link of a group within it is tried as well.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from graphkin.structure.next_group import (
     settle,
 )
 from graphkin.structure.pairs import Joint, Pin
-from graphkin.structure.wheel_groups import geared_of, turned_by_smaller
+from graphkin.structure.wheel_groups import by_known, turned_by_smaller
 
 MOST_TRIED = 4
 """Links of a group that are tried together at most."""
@@ -53,8 +53,8 @@ def least_tried(
     }
     found = [
         group
-        for trial in trials(joints, known)
-        for group in tried(part_of[trial.link], known, waiting, trial, count)
+        for one in triable(joints, known)
+        for group in closing(part_of[one.link], known, waiting, one, count)
     ]
     scene = joints.scene
     return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
@@ -66,7 +66,7 @@ def speeding(scene: Scene, group: Higher) -> int:
     return sum(turned_by_smaller(scene, each) for each in geared)
 
 
-def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
+def triable(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
     """The links that can be tried: about a known pin first, then along a guide or track."""
     joined = [
         (link, pair) for link in joints.unknown(known) for pair in joints.between(link, known)
@@ -78,14 +78,14 @@ def trials(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
                 yield TriedLink(link, pair)
 
 
-def tried(
-    joints: Joints, known: Collection[str], waiting: list[Driver], trial: TriedLink, count: int
+def closing(
+    joints: Joints, known: Collection[str], waiting: list[Driver], tried: TriedLink, count: int
 ) -> Iterator[Higher]:
     """The group that closes when a link's place is taken as known, if one does.
 
     Those within it may try ``count`` links less one.
     """
-    grown, left, count = {*known, trial.link}, list(waiting), count - 1
+    grown, left, count = {*known, tried.link}, list(waiting), count - 1
     chain: list[Group] = []
     while True:
         last = over_given(joints, known, grown, left) or next_tie(joints, grown)
@@ -102,21 +102,16 @@ def tried(
         if group is None:
             return
         if isinstance(group, Geared):
-            group = by_known(joints, group, {*known, trial.link})
+            group = by_known(joints, group, {*known, tried.link})
         chain.append(group)
         settle(group, grown, left)
         count -= len(group.nested) if isinstance(group, Higher) else 0
     ends = {last.link, last.against} if isinstance(last, Driver) else supports(last)
     kept = needed(joints, chain, ends)
-    if trial.link not in kept.needs:
+    if tried.link not in kept.needs:
         return
-    higher = Higher(trial, kept.chain, last, ((), ()))
+    higher = Higher(tried, kept.chain, last, ((), ()))
     yield replace(higher, joints=pairs_of(joints, higher, known))
-
-
-def by_known(joints: Joints, wheel: Geared, known: Collection[str]) -> Geared:
-    """A wheel turned by its contact with a known link where it has one, not by way of others."""
-    return geared_of(wheel.link, joints.between(wheel.link, known), known) or wheel
 
 
 def over_given(
@@ -134,7 +129,7 @@ def supports(group: Group) -> set[str]:
     """The links on which a group hangs."""
     if isinstance(group, Higher):
         parts = (*group.chain, *([group.last] if isinstance(group.last, Tie) else []))
-        found = {partner(group.trial.pair, group.trial.link)}.union(*map(supports, parts))
+        found = {partner(group.tried.pair, group.tried.link)}.union(*map(supports, parts))
         if isinstance(group.last, Driver):
             found |= {group.last.link, group.last.against}
         return found - set(group.links)

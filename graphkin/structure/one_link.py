@@ -27,18 +27,20 @@ class Crank(OneLink, frozen=True):
     pivot: str
 
     @property
+    def against(self) -> str:
+        """Words for the link against which it turns; none for the frame."""
+        other = other_of(self.driver, self.link)
+        return "" if other == FRAME else f" against link {other}"
+
+    @property
     def title(self) -> str:
         """What it is called."""
-        against = other_of(self.driver, self.link)
-        beside = "" if against == FRAME else f", against link {against}"
-        return f"driven by a crank about {self.pivot}{beside}"
+        return f"driven by a crank about {self.pivot}" + (self.against and f",{self.against}")
 
     @property
     def words(self) -> str:
         """Its kind, class and order, its links and what it is joined to."""
-        other = other_of(self.driver, self.link)
-        against = "" if other == FRAME else f" against link {other}"
-        return f"crank {self.link} about {self.pivot}{against} (class I)"
+        return f"crank {self.link} about {self.pivot}{self.against} (class I)"
 
 
 class Driven(OneLink, frozen=True):

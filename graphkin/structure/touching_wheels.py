@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import quoted
+from graphkin.scene.known_names import keeper_asked, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
 from graphkin.text.errors import Problem, StructureError
 
+TIPS = "a plank on rollers of different sizes tips as they roll, which is not constructed"
 TOUCH = 1e-9
 """Gap between wheels that touch, as a share of their distance, that rounding may leave."""
 
@@ -230,3 +231,29 @@ def lone_wheels(scene: Scene) -> Iterator[Problem]:
             there = f"rolls or belt = {{ on = {quoted(link.name)} }} in a link with a wheel"
             here = "" if link.name == FRAME else "rolls or belt = { on, … } in this link, or "
             yield Problem(place, found, here + there)
+
+
+def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
+    """Words for a track from whose wheel what keeps it there is missing; empty where none is."""
+    for name in loose:
+        for rolling in scene.links[name].rolls:
+            if rolling.through and rolling.on != FRAME and not rolling.keeper:
+                return f"; or, {keeper_asked(scene.links, name, rolling.on)}"
+    return ""
+
+
+def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
+    """What to write where a wheel rolls on one of some tracks that nothing keeps there.
+
+    Where wheels of several sizes, all kept, roll on it, that this is not constructed.
+    """
+    for track in tracks:
+        rolled = [(k, r) for k in scene.every_link for r in k.rolls if r.through is not None]
+        wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
+        loose = next((link.name for link, rolling in wheels if not rolling.keeper), None)
+        if loose is not None:
+            return keeper_asked(scene.links, loose, track)
+        rims = [link.rim for link, _ in wheels]
+        if any(not of_one_size(rims[0], rim) for rim in rims[1:]):
+            return TIPS
+    return ""

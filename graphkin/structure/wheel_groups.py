@@ -1,8 +1,7 @@
 """Groups of wheels: turned by others, driven on their track, between two known ones, in a loop.
 
 In a loop no wheel follows from known links alone. Once one link is tried, each of the others is
-turned by its contact with the one before, and a contact with a known wheel says which trial is
-right.
+turned by its contact with the one before, and a contact with a known wheel says where it stands.
 """
 
 from __future__ import annotations
@@ -136,19 +135,19 @@ class CoupledTrain(Struct, frozen=True):
     What closes it at last is a contact with a wheel of a known link.
     """
 
-    trial: TriedLink
+    tried: TriedLink
     chain: tuple[Geared, ...]
     last: Contact
 
     @property
     def links(self) -> tuple[str, ...]:
         """All links, that which is tried first."""
-        return (self.trial.link, *(each.link for each in self.chain))
+        return (self.tried.link, *(each.link for each in self.chain))
 
     @property
     def parts(self) -> tuple[TriedLink | Geared, ...]:
         """The link that is tried, and the wheels in turn."""
-        return (self.trial, *self.chain)
+        return (self.tried, *self.chain)
 
     @property
     def closing(self) -> str:
@@ -164,7 +163,7 @@ class CoupledTrain(Struct, frozen=True):
     def words(self) -> str:
         """Its links, where it is tried, and what closes it."""
         names = listed(sorted(self.links, key=natural))
-        start = f"{self.title} (links {names}): {self.trial.words}"
+        start = f"{self.title} (links {names}): {self.tried.words}"
         return f"{start}, closed by the {self.last.brief}"
 
 
@@ -271,6 +270,11 @@ def geared_of(link: str, joined: tuple[Joint, ...], known: Collection[str]) -> G
     return Geared(link, twos[0], ones[0]) if ones and len(twos) == 1 else None
 
 
+def by_known(joints: Joints, wheel: Geared, known: Collection[str]) -> Geared:
+    """A wheel turned by its contact with a known link where it has one, not by way of others."""
+    return geared_of(wheel.link, joints.between(wheel.link, known), known) or wheel
+
+
 def by_centres(inner: Joint, outer: tuple[Joint, Joint], links: tuple[str, str]) -> bool:
     """Whether the wheels of a dyad's two links are pinned to one another by their centres."""
     if isinstance(inner, Contact):
@@ -297,6 +301,17 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
         for link in links
     }
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
+
+
+def spun_afar(
+    joints: Joints, known: Collection[str], links: Sequence[str], driven: Sequence[Driver]
+) -> Driver | None:
+    """The first of some drivers that turns one of its links against a known one, where some of the
+    links that do not stand have wheels."""
+    if not any(isinstance(pair, Contact) for link in links for pair in joints.others[link]):
+        return None
+    turning = (each for each in driven if each.kind == "turn")
+    return next((d for d in turning if len({d.link, d.against} & {*known}) == 1), None)
 
 
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
@@ -338,10 +353,10 @@ def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
 
 
 def closed(
-    joints: Joints, known: Collection[str], trial: TriedLink, last: Contact
+    joints: Joints, known: Collection[str], tried: TriedLink, last: Contact
 ) -> CoupledTrain | None:
     """The train that a tried link and a last contact make, wheel after wheel, if they make one."""
-    grown, chain, ends = {*known, trial.link}, list[Geared](), {*last.links, last.arm}
+    grown, chain, ends = {*known, tried.link}, list[Geared](), {*last.links, last.arm}
     while not ends <= {*grown}:
         wheel = next_wheel(joints, grown, last)
         if wheel is None:
@@ -353,7 +368,7 @@ def closed(
         if each.link in needs:
             kept.insert(0, each)
             needs = {*needs, each.contact.arm, *each.contact.links, *each.pair.links}
-    return CoupledTrain(trial, tuple(kept), last) if trial.link in needs else None
+    return CoupledTrain(tried, tuple(kept), last) if tried.link in needs else None
 
 
 def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared | None:
@@ -382,7 +397,7 @@ def cancels(scene: Scene, train: CoupledTrain) -> bool:
 
 def rate_missed(train: CoupledTrain, values: Mapping[str, Any]) -> Any:
     """How fast the last contact slips while the tried link turns with rate one (Willis)."""
-    rates: dict[str, Any] = {train.trial.link: 1}
+    rates: dict[str, Any] = {train.tried.link: 1}
     for wheel in train.chain:
         rates[wheel.link] = rate_rolled(wheel.contact, wheel.link, rates, values)
     own = train.closing

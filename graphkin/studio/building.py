@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from cmath import phase, rect
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from itertools import count, pairwise, product
 from math import degrees, radians
 from string import ascii_uppercase
@@ -15,15 +15,10 @@ from msgspec import Struct
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import SingleKey
 
-from graphkin.construction.core.branches import block_of, choosing
-from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import tables_of
 from graphkin.scene.model import FRAME
 from graphkin.scene.phrases import KEYWORDS
-from graphkin.scene.read_scene import read_text
-from graphkin.structure.decomposition import decompose
-from graphkin.structure.groups import Dyad, Group, Stretched
-from graphkin.structure.pairs import Pin
+from graphkin.studio.drawn_closure import drawn_closed
 from graphkin.studio.sketch import (
     DrawnWheel,
     Places,
@@ -33,18 +28,15 @@ from graphkin.studio.sketch import (
     is_place,
     links_of,
     points_of,
-    solved,
     table_of,
     unit_of,
     wheels_of,
 )
-from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.errors import Problem, SceneError
 
 TURN = 0.5
 """The step of angles that a hand draws, in degrees."""
 ASKED = ("velocity", "acceleration", "omega", "epsilon", "slides", "centres", "poles")
-TRIED = 64
-"""Combinations of closures that are compared with what was drawn."""
 
 
 class Act(Struct, frozen=True):
@@ -80,7 +72,7 @@ def built(text: str, act: Act) -> Built:
     KINDS[act.kind](work, act)
     after = tomlkit.dumps(work.document)
     if act.kind != "close":
-        after = closed(after, work.places)
+        after = drawn_closed(after, work.places)
     return Built(spaced(after, text), work.places)
 
 
@@ -574,72 +566,3 @@ def key_of(link: str) -> int | str:
 def turned(way: complex, step: float = TURN) -> float:
     """The direction of a way in degrees, on the grid of angles."""
     return round(degrees(phase(way)) / step) * step
-
-
-def closed(text: str, places: Places) -> str:
-    """The text with the branches that it lacks, as the closure nearest to what was drawn."""
-    try:
-        scene = read_text(text, "scene", None, {})
-        groups = decompose(scene)
-    except GraphkinError:
-        return text
-    document = tomlkit.parse(text)
-    allowed = choosing(groups)
-    kept = {name for name in scene.branches if name in allowed and fits(groups, name, document)}
-    branches = table_of(document, "branches")
-    for name in [name for name in branches if name not in kept]:
-        branches.pop(name)
-    wanted = {key: words for key, words in ways(groups) if key not in kept}
-    if not wanted:
-        return tomlkit.dumps(document)
-    if "branches" not in document:
-        document["branches"] = tomlkit.table()
-    best, nearest = text, float("inf")
-    for n, words in enumerate(product(*wanted.values())):
-        if n == TRIED:
-            break
-        for key, each in zip(wanted, words, strict=True):
-            document["branches"][key] = each
-        tried = tomlkit.dumps(document)
-        far = apart(tried, places)
-        if far < nearest or best is text:
-            best, nearest = tried, far
-    return best
-
-
-def ways(groups: tuple[Group, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Under each name that may state a branch the words that it may say."""
-    for group in groups:
-        for name in choosing((group,))[:1]:
-            dyad = group.dyad if isinstance(group, Stretched) else group
-            if isinstance(dyad, Dyad) and dyad.type == "RRR":
-                yield name, tuple(f"{side} of {line_of(dyad)}" for side in ("left", "right"))
-            elif isinstance(dyad, Dyad) and name == block_of(dyad):
-                yield name, ("forward", "backward")
-            else:
-                yield name, ("closure 1",)
-
-
-def line_of(dyad: Dyad) -> str:
-    """The line between the two known pins of a dyad."""
-    ends = (pair.place for pair in dyad.outer if isinstance(pair, Pin))
-    return "-".join(ends)
-
-
-def fits(groups: tuple[Group, ...], name: str, document: tomlkit.TOMLDocument) -> bool:
-    """Whether a stated side still names the two known pins of its dyad."""
-    words = str(table_of(document, "branches").get(name, ""))
-    for group in groups:
-        dyad = group.dyad if isinstance(group, Stretched) else group
-        if isinstance(dyad, Dyad) and dyad.type == "RRR" and name in choosing((group,)):
-            return {*line_of(dyad).split("-")} == {*words.rpartition(" ")[2].split("-")}
-    return True
-
-
-def apart(text: str, places: Places) -> float:
-    """How far the points of a mechanism lie from where they were drawn, in all."""
-    try:
-        found = solved(Mechanism(read_text(text, "scene", None, {})))
-    except GraphkinError:
-        return float("inf")
-    return sum(abs(at - places[name]) for name, at in found.items() if name in places)

@@ -27,7 +27,7 @@ def new_application(folder: Path) -> Any:
 
 def file(folder: Path, name: str) -> Any:
     """A file of the page, or one of the sheet's fonts."""
-    path = (FONTS if name in {f"{font}.woff2" for font in FILES.values()} else folder) / name
+    path = (Path(FONTS) if name in {f"{font}.woff2" for font in FILES.values()} else folder) / name
     if not path.is_file():
         return answer(404, "text/plain", b"no such file\n")
     return answer(200, KINDS[path.suffix], path.read_bytes())

@@ -137,7 +137,7 @@ class Session:
         lab = {"rules": "yes"} if scene_files.folder(name) else {}
         if name in scene_files.names() and not Path(name).exists():
             return {"lab": name, **lab}
-        return {"scene": self.folder.name_of(scene_files.find(name)), **lab}
+        return {"scene": self.folder.name_of(Path(scene_files.find(name))), **lab}
 
     def open(self, name: str, kind: str) -> Opened:
         """The text of a scene here, or like it under another name; of a lab or another scene that

@@ -6,10 +6,8 @@ import re
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from math import floor, log10
-from pathlib import Path
 from typing import Any
 
-HERE = Path(__file__).resolve().parent
 LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -27,9 +25,10 @@ class Words:
     def sentences(self) -> Mapping[str, str]:
         """Every sentence by its key, read from its file when the first one is said."""
         import tomllib
+        from pathlib import Path
 
-        tree = tomllib.loads((HERE / f"{self.language}.toml").read_text(encoding="utf-8"))
-        return dict(flattened(tree))
+        text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
+        return dict(flattened(tomllib.loads(text)))
 
     def __call__(self, key: str, **fields: object) -> str:
         """The sentence under a key, with its fields filled in. Raises KeyError when missing."""

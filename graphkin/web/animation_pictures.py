@@ -15,8 +15,9 @@ from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import LineMark, Mark, Polyline, Text
-from graphkin.drawing.richtext import escape, extent
+from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import extent_of, preferred
+from graphkin.drawing.symbol_markup import escape
 from graphkin.motion.driving import TURN
 from graphkin.text import Words
 from graphkin.web.fixed_parts import standing

@@ -8,9 +8,8 @@ from fractions import Fraction
 from msgspec import Struct
 
 from graphkin.construction.core.naming import angle_symbol
-from graphkin.construction.core.parameter_words import quantities, unit_of
+from graphkin.construction.core.parameter_words import parameter_symbol, quantities, unit_of
 from graphkin.construction.links.counted_turn import counted_link
-from graphkin.drawing.richtext import escape
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
 from graphkin.motion.sweep import sweep_of
@@ -58,7 +57,7 @@ def of_parameters(scene: Scene) -> Iterator[GivenFigure]:
             low, high = (float(end.number({})) for end in (each.minimum, each.maximum))
             start = float(Fraction(str(scene.values[name])))
             step = (high - low) / 100 if each.step is None else float(each.step.number({}))
-            symbol = f"*{escape(name)}*"
+            symbol = parameter_symbol(name)
             if low <= start <= high and low < high:
                 yield GivenFigure(
                     f"figure {name}", symbol, start, low, high, step, unit_of(scene, name), name

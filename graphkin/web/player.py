@@ -17,9 +17,9 @@ from graphkin.documents.scaling import natural_seconds, targets_of
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
-from graphkin.drawing.richtext import escape as markup
 from graphkin.drawing.scale import Scales
 from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbol_markup import escape as markup
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words

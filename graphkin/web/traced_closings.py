@@ -13,13 +13,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.batch import made_ready, run_moving
-from graphkin.construction.higher_class.refined_trials import slopes, solved
 from graphkin.construction.tape.emit import LOOP, value
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
-from graphkin.numbers.arithmetic import phase
+from graphkin.numbers.refined_roots import slopes, solved
 
 TRIES = 24
 """Steps along the secant, at most."""
@@ -76,10 +75,8 @@ def names_of(number: int, closer: Any) -> tuple[str, ...]:
 
 def drawn_state(closer: Any, drawn: Sequence[Any]) -> State:
     """The tried values where the scene stands, in radians or metres, and the signs."""
-    unknowns = closer.trying.unknowns
-    pairs = zip(unknowns, drawn[: len(unknowns)], strict=True)
-    tried = (phase(complex(each)) if one.turns else each for one, each in pairs)
-    return (*map(float, tried), *map(float, drawn[len(unknowns) : -1]))
+    count = len(closer.trying.unknowns)
+    return tuple(map(float, (*closer.trying.numbers(drawn), *drawn[count:-1])))
 
 
 def tried(names: Sequence[str], graph: Graph, closer: Any) -> tuple[Any, ...]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from graphkin.accuracy.agreement import agreement, contained
-from graphkin.accuracy.compared_answers import answers_of, reference_of
+from graphkin.accuracy.compared_answers import answers_of, reference_of, sizeable
 from graphkin.accuracy.compared_positions import ground_of, places_around
 from graphkin.accuracy.methods import found_singly
 from graphkin.mechanism import load
@@ -61,3 +62,11 @@ def test_a_double_beside_the_truth_would_be_seen():
     place = next(iter(sure.answers.targets[0]))
     found[0][place] = complex(found[0][place]) + 1e-6
     assert sure.missed(found)[0, 0] == pytest.approx(1e-6, rel=1e-6)
+
+
+@pytest.mark.parametrize("times", [1e-3, 1e3])
+def test_the_scale_of_an_acceleration_that_is_nearly_nought_grows_with_the_mechanism(times):
+    """Lengths, speeds and accelerations of a mechanism so many times as large, at the same ω."""
+    sizes = np.array([[0.2, 3.0, 1e-9], [0.2, 3.0, 40.0]])
+    assert sizeable(times * sizes) == pytest.approx(times * sizeable(sizes), rel=1e-12)
+    assert sizeable(sizes)[0, 2] > 1e-3

@@ -1,14 +1,12 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.effects`` (or ``.motion .chain .variants .printing .screen``) prints one
-part alone.
+``python -m tests.bench.effects`` (or ``.motion .chain .start .variants .printing .screen``) prints
+one part alone.
 """
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import timeit
 from collections.abc import Callable
 from functools import partial
@@ -30,7 +28,7 @@ from graphkin.numbers.arithmetic import batch_kind
 from graphkin.text import words
 from graphkin.writers.pdf import write_pdf
 from graphkin.writers.svg import write_svg
-from tests.bench import chain, effects, motion, printing, screen, variants
+from tests.bench import chain, effects, motion, printing, screen, start, variants
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
@@ -50,17 +48,6 @@ def best(work: Callable[[], object], repeat: int = 7) -> float:
     timer = timeit.Timer(work)
     number, _ = timer.autorange()
     return min(timer.repeat(repeat, number)) / number
-
-
-def fresh(*arguments: str, repeat: int = 7) -> float:
-    """Shortest wall time in seconds of a fresh interpreter with some arguments."""
-    command = [sys.executable, *arguments]
-
-    def once() -> None:
-        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-
-    once()
-    return min(timeit.repeat(once, number=1, repeat=repeat))
 
 
 def scalar() -> list[tuple[str, float, float]]:
@@ -122,17 +109,6 @@ def batch() -> list[tuple[str, float, float]]:
             best(lambda: mechanism.batch(n=n, asked=True)) / VARIANTS,
             plain,
         ),
-    ]
-
-
-def start() -> list[tuple[str, float, float]]:
-    """A cold start, against an interpreter that only imports numpy."""
-    numpy = fresh("-c", "import numpy")
-    return [
-        ("start: python -c pass", fresh("-c", "pass"), numpy),
-        ("start: import numpy", numpy, numpy),
-        ("start: import graphkin", fresh("-c", "import graphkin"), numpy),
-        ("start: graphkin solve pump", fresh("-m", "graphkin", "solve", "pump"), numpy),
     ]
 
 
@@ -217,7 +193,7 @@ def in_words(seconds: float) -> str:
 def table() -> str:
     """All rows as one text."""
     lines = []
-    for rows in (scalar(), batch(), start(), page()):
+    for rows in (scalar(), batch(), page()):
         lines += [
             f"{name:46} {in_words(seconds):>10} {seconds / plain:8.2f} ×"
             for name, seconds, plain in rows
@@ -226,7 +202,7 @@ def table() -> str:
         [
             *lines,
             *("", effects.table(), "", motion.table(), "", chain.table()),
-            *("", variants.table(), "", printing.table(), "", screen.table()),
+            *("", start.table(), "", variants.table(), "", printing.table(), "", screen.table()),
         ]
     )
 

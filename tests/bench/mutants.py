@@ -1,17 +1,21 @@
 """Which small mistakes no test finds: ``python -m tests.bench.mutants 12 --seed 1``.
 
 A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
-Each is tried in a copy by the tests that import its module, by those of its room and by those of
-what is kept of all outputs, until the first that fails; as many at once as ``-j`` says, each in one
-process. ``--only PATH…`` takes the mutants from some modules, ``--from`` goes on in the list. What
-survives is printed with its line; a survivor wants a test, or is equivalent: ``survivors.txt``
-keeps those of the last run with a word each.
+All tests run once in a copy in which every mutant stands beside what is right, which keeps which of
+them come by it, and in what time (``--rooms`` for some rooms of them); then each mutant is tried by
+these, the quickest first, for at most ``--seconds``, until the first that fails
+(``mutant_trials``). What no test comes by, for it stands outside of all functions, is tried in a
+copy of its own by the tests that import its module, those of its room and what is kept of all
+outputs. ``-j`` says how many processes run at once, ``--only PATH…`` takes the mutants from some
+modules, ``--from`` goes on in the list. What survives is printed with its line; a survivor wants a
+test, or is equivalent: ``survivors.txt`` keeps those of the last run with a word each.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
+import json
 import os
 import random
 import re
@@ -19,21 +23,26 @@ import resource
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
-from functools import partial
+from contextlib import suppress
 from importlib.util import cache_from_source
+from itertools import accumulate
+from math import inf
 from pathlib import Path
-from queue import SimpleQueue
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
+
+from tests.bench.mutant_trials import SWITCH
 
 ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = 900
 """Seconds of a processor after which a mutant counts as found: it does not come to an end."""
 PATIENCE = 4 * 3600
 """Seconds after which one that only waits counts as found."""
+ROOMS = sorted({path.parts[-2] for path in (ROOT / "tests").glob("*/test_*.py")} - {"bench"})
+"""The rooms of the tests, by which mutants are tried."""
 NOTHING = 5
 """What pytest ends with where it finds no test."""
 FLAGS = ("strict", "frozen", "slots")
@@ -66,14 +75,6 @@ class Mutant(NamedTuple):
     column: int
     before: str
     after: str
-
-    @property
-    def source(self) -> str:
-        """The module with the mistake."""
-        lines = (ROOT / self.path).read_bytes().splitlines(keepends=True)
-        line, end = lines[self.line - 1], self.column + len(self.before.encode())
-        lines[self.line - 1] = line[: self.column] + self.after.encode() + line[end:]
-        return b"".join(lines).decode()
 
 
 def otherwise(node: ast.AST) -> ast.expr | None:
@@ -151,17 +152,91 @@ def copy_of(folder: Path) -> Path:
     return copy
 
 
-def survives(mutant: Mutant, copies: SimpleQueue[Path]) -> bool:
-    """Whether no test of the mutant's room, and no kept output, changes, in one of some copies."""
-    copy = copies.get()
+def switched(copy: Path, chosen: Sequence[Mutant]) -> None:
+    """Put every mutant that can stand there into its place in a copy, beside what is right."""
+    (copy / "sitecustomize.py").write_text(SWITCH, encoding="utf-8")
+    ends: dict[tuple[Path, int], int] = {}
+    for number, mutant in sorted(enumerate(chosen), key=lambda each: each[1], reverse=True):
+        place, before = (mutant.path, mutant.line), mutant.before
+        module = copy / mutant.path
+        if mutant.column + len(before.encode()) > ends.get(place, sys.maxsize):
+            continue  # one within another
+        both = f"({mutant.after} if __mutant__({number}) else ({before}))"
+        source = written(module.read_bytes(), mutant, both)
+        with suppress(SyntaxError):  # as in a pattern
+            compile(source, str(module), "exec")
+            module.write_bytes(source)
+            ends[place] = mutant.column
+
+
+def written(source: bytes, mutant: Mutant, after: str) -> bytes:
+    """A module with something else in a mutant's place."""
+    lines = source.splitlines(keepends=True)
+    line, end = lines[mutant.line - 1], mutant.column + len(mutant.before.encode())
+    lines[mutant.line - 1] = line[: mutant.column] + after.encode() + line[end:]
+    return b"".join(lines)
+
+
+def reached(copy: Path, rooms: Sequence[str], jobs: int) -> dict[int, list[tuple[float, str]]]:
+    """The tests that come by each mutant, the quickest first; without those that fail anyway."""
+    found: dict[int, list[tuple[float, str]]] = defaultdict(list)
+    files = [copy.parent / f"{room}.reached" for room in rooms]
+    with ThreadPoolExecutor(jobs) as pool:
+        runs = [
+            pool.submit(run, copy, [f"tests/{room}"], REACHED=str(kept))
+            for room, kept in zip(rooms, files, strict=True)
+        ]
+    assert all(each.result() >= 0 for each in runs)
+    for kept in files:
+        times: dict[str, float] = defaultdict(float)
+        for line in lines_of(kept.with_suffix(".times")):
+            test, seconds, outcome = line.rsplit("\t", 2)
+            times[test] += float(seconds) if outcome == "passed" else inf
+        for line in lines_of(kept):
+            number, _, test = line.partition("\t")
+            if times.get(test, inf) < inf:
+                found[int(number)].append((times[test], test))
+    return {number: sorted({*tests}) for number, tests in found.items()}
+
+
+def lines_of(path: Path) -> list[str]:
+    """The lines of a file, none where it is not there."""
+    return path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
+
+
+def tried(
+    copy: Path, tests: Mapping[int, Sequence[tuple[float, str]]], most: float, jobs: int
+) -> set[int]:
+    """Those of some mutants that a test finds which comes by, in at most so many seconds."""
+    trials = []
+    for number, timed in tests.items():
+        sums = accumulate(seconds for seconds, _ in timed)
+        within = [test for whole, (_, test) in zip(sums, timed, strict=True) if whole <= most]
+        trials.append((number, within or [timed[0][1]]))
+    found = set[int]()
+    shares = {copy.parent / f"{k}.tried": trials[k::jobs] for k in range(jobs) if trials[k::jobs]}
+    runs = []
+    with ThreadPoolExecutor(jobs) as pool:
+        for path, some in shares.items():
+            path.write_text(json.dumps(some), encoding="utf-8")
+            files = sorted({test.partition("::")[0] for _, own in some for test in own})
+            runs.append(pool.submit(run, copy, files, TRIED=str(path)))
+    assert not any(each.result() for each in runs), "the tests could not be tried"
+    for path in shares:
+        fates = (line.split("\t", 1) for line in lines_of(path.with_suffix(".fates")))
+        found |= {int(number) for number, fate in fates if fate}
+    return found
+
+
+def survives(copy: Path, mutant: Mutant) -> bool:
+    """Whether no test near a mutant, and no kept output, changes where it alone is written."""
     module = copy / mutant.path
     right = module.read_bytes()
     try:
-        put(module, mutant.source.encode())
-        return not any(fails(copy, tests) for tests in nearest(mutant.path) if tests)
+        put(module, written(right, mutant, mutant.after))
+        return all(run(copy, tests) in (0, NOTHING) for tests in nearest(mutant.path) if tests)
     finally:
         put(module, right)
-        copies.put(copy)
 
 
 def put(module: Path, source: bytes) -> None:
@@ -170,10 +245,11 @@ def put(module: Path, source: bytes) -> None:
     Path(cache_from_source(str(module))).unlink(missing_ok=True)
 
 
-def fails(copy: Path, tests: Sequence[str]) -> bool:
-    """Whether one of some tests fails in a copy."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-n", "0", "-p", "no:cacheprovider"]
-    surroundings = {**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": ""}
+def run(copy: Path, tests: Sequence[str], **told: str) -> int:
+    """Run some tests in a copy until the first that fails, or all for the plugin; its status."""
+    command = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider"]
+    command += ["-p", "tests.bench.mutant_trials"] if told else ["-x"]
+    surroundings = {**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "", **told}
     with subprocess.Popen(
         [*command, *tests],
         cwd=copy,
@@ -181,12 +257,14 @@ def fails(copy: Path, tests: Sequence[str]) -> bool:
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     ) as ran:
+        if told:
+            return ran.wait()
         resource.prlimit(ran.pid, resource.RLIMIT_CPU, (ENDLESS, ENDLESS))
         try:
-            return ran.wait(PATIENCE) not in (0, NOTHING)
+            return ran.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             ran.kill()
-            return True
+            return -1
 
 
 def main(words: Sequence[str] | None = None) -> None:
@@ -197,16 +275,19 @@ def main(words: Sequence[str] | None = None) -> None:
     parser.add_argument("--from", type=int, default=0, metavar="N", dest="first")
     parser.add_argument("-j", type=int, default=os.cpu_count() or 1, metavar="N", dest="jobs")
     parser.add_argument("--only", nargs="+", type=Path, metavar="PATH")
-    told = parser.parse_args(words)
-    paths = told.only or sorted((ROOT / "graphkin").rglob("*.py"))
+    parser.add_argument("--rooms", nargs="+", default=ROOMS, choices=ROOMS, metavar="ROOM")
+    parser.add_argument("--seconds", type=float, default=60.0)
+    given = parser.parse_args(words)
+    paths = given.only or sorted((ROOT / "graphkin").rglob("*.py"))
     every = [mutant for path in paths for mutant in mutants(path.resolve())]
-    chosen = random.Random(told.seed).sample(every, min(told.count, len(every)))[told.first :]
-    with ExitStack() as stack, ThreadPoolExecutor(told.jobs) as pool:
-        copies: SimpleQueue[Path] = SimpleQueue()
-        for _ in range(told.jobs):
-            copies.put(copy_of(Path(stack.enter_context(TemporaryDirectory()))))
-        fates = pool.map(partial(survives, copies=copies), chosen)
-        for mutant, alive in zip(chosen, fates, strict=True):
+    chosen = random.Random(given.seed).sample(every, min(given.count, len(every)))[given.first :]
+    with TemporaryDirectory() as one, TemporaryDirectory() as other:
+        copy, alone = copy_of(Path(one)), copy_of(Path(other))
+        switched(copy, chosen)
+        tests = reached(copy, given.rooms, given.jobs)
+        found = tried(copy, tests, given.seconds, given.jobs)
+        for number, mutant in enumerate(chosen):
+            alive = number not in found and (number in tests or survives(alone, mutant))
             fate = "SURVIVES" if alive else "found"
             place = f"{mutant.path}:{mutant.line}"
             print(f"{fate:8} {place}: {mutant.before} → {mutant.after}", flush=True)

@@ -19,7 +19,6 @@ def pages(language: str) -> dict[str, str]:
     """Each kind of page that grading writes."""
     spoken, rubric = words(language), marker_of("pump", 7).standard.rubric
     forms = {
-        "right": graded({}),
         "slip": mistaken("pump", "rpm_as_rad"),
         "waiting": waiting(),
         "absent": marker_of("pump", 7).mark(graded({}).taker, {}, present=False),

@@ -9,7 +9,7 @@ import pytest
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.server import Served
-from tests.browser.building_hand import LONG, Hand, build_pump, build_slotted_lever, four_bar
+from tests.browser.building_hand import LONG, Hand, build_slotted_lever, four_bar
 from tests.browser.firefox import Firefox, _no_errors, firefox  # noqa: F401
 
 FIELD = """const svg = document.querySelector("#canvas svg"), box = svg.getBoundingClientRect();
@@ -83,10 +83,6 @@ def hand(firefox: Firefox, served: Served) -> Hand:  # noqa: F811
             return found
         found.wait()
     pytest.fail("the field does not open")
-
-
-def test_the_pump_is_built(hand):
-    build_pump(hand)
 
 
 def test_a_slotted_lever_is_built(hand):

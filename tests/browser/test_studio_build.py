@@ -161,7 +161,6 @@ def test_a_figure_is_traced_at_its_scale(hand, tmp_path):
     page.click("#no-picture")
     assert page.locator("#canvas image").count() == 0
     assert "image" not in hand.text
-    assert not barred(page)
 
 
 def test_what_is_impossible_is_told_at_the_pointer(hand):

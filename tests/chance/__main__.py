@@ -11,7 +11,7 @@ from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 
 from tests.chance.checking import case, checked
-from tests.chance.groups import ADDED
+from tests.chance.making import ADDED
 
 
 def judged(seed: int) -> tuple[str, str]:

@@ -117,6 +117,8 @@ def words_of(standing: Standing, group: Group, scene: Scene) -> dict[str, str]:
         return way(block, dot(along, by_link[block] - by_link[carrier]))
     if dyad.type == "RRW":
         wheel = dyad.right.links[0]
+        if wheel not in dyad.links:
+            return {}
         track = next(each for each in standing.straights if each.wheel == wheel)
         return way(wheel, dot(track.along, inner - left))
     return {}

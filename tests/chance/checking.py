@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,11 +14,11 @@ from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Dyad, Higher, Stretched
-from graphkin.text.errors import WitnessError
+from graphkin.text.errors import StructureError, WitnessError
 from tests.chance.branches import DeadChainError, branches_of
 from tests.chance.exact import Motion, motion
-from tests.chance.groups import made
-from tests.chance.records import Standing
+from tests.chance.making import made
+from tests.chance.records import FRAME, Standing
 from tests.chance.written import DIGITS, Shaken, Written
 
 EPS = 2.0**-52
@@ -31,6 +32,11 @@ SHAKES = 3
 """How often all numbers are shaken to see that."""
 TINY = 1e-9
 """What counts as rest, in parts of what the drivers could do."""
+
+ASKED = re.compile(
+    r"wheel of (the frame|link \w+) alone hold link (\w+), write link = \"?(\w+)\"? in rolls of"
+)
+"""How an error proposes to name what keeps a wheel at a track."""
 
 
 @dataclass
@@ -89,14 +95,34 @@ def case(seed: int) -> Case | None:
     standing, kinds = made(seed)
     if not kinds:
         return None
-    written = Written(standing)
     try:
-        text = written.text(branches_of(written))
+        return told(seed, standing, kinds)
     except DeadChainError:
         return None
-    return Case(
-        seed, kinds, standing, written, text, Mechanism(read_text(text, f"made-{seed}", None, {}))
-    )
+
+
+def told(seed: int, standing: Standing, kinds: tuple[str, ...]) -> Case:
+    """A mechanism as its scene tells it.
+
+    Where the scene leaves open what keeps a wheel at a track, it names that as the error proposes.
+    """
+    for left in range(len(standing.straights), -1, -1):
+        written = Written(standing)
+        try:
+            text = written.text(branches_of(written))
+            mechanism = Mechanism(read_text(text, f"made-{seed}", None, {}))
+            assert mechanism.program
+            break
+        except StructureError as error:
+            asked = ASKED.search(str(error))
+            if asked is None or not left:
+                raise
+            wheel, on, keeper = asked.groups()
+            wheel = FRAME if wheel == "the frame" else wheel.removeprefix("link ")
+            for each in standing.straights:
+                if (each.wheel, each.on) == (wheel, on):
+                    each.keeper = keeper
+    return Case(seed, kinds, standing, written, text, mechanism)
 
 
 @dataclass

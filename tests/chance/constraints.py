@@ -11,7 +11,7 @@ from typing import Any, Protocol
 
 import mpmath
 
-from tests.chance.lifts import lifted
+from tests.chance.lifts import lifted, raised
 from tests.chance.records import FRAME, CamLaw, Drive, Gear, Slide, Standing, Straight
 
 Pose = tuple[Any, Any, Any]
@@ -38,8 +38,8 @@ class Geometry(Protocol):
     def gear(self, gear: Gear) -> tuple[tuple[Any, Any], dict[str, Any]]:
         """Radii of two wheels, and for each body the angle that its turning is counted from."""
 
-    def cam(self, cam: CamLaw) -> tuple[Any, Any, Any, list[tuple[Any, Any, str]]]:
-        """Radii of the base circle and of the roller, start angle (radians), pieces."""
+    def cam(self, cam: CamLaw) -> tuple[Any, Any, Any, list[tuple[Any, Any, str]], Any]:
+        """Radii of the base circle and of the roller, start (radians, metres), pieces, face."""
 
     def drive(self, drive: Drive, time: Any) -> Any:
         """The given position at a time, as the angle of the body's x axis where it turns."""
@@ -92,7 +92,7 @@ def equations(standing: Standing) -> list[Equation]:
     for gear in (each for each in standing.gears if not each.idle):
         found.append(({gear.wheel, gear.on, gear.arm}, meshing(gear)))
     for cam in standing.cams:
-        found.append(({cam.follower, cam.on}, lifting(standing, cam)))
+        found.append(({cam.follower, cam.on, cam.carrier}, lifting(standing, cam)))
     for drive in standing.drives:
         found.append(({drive.body, drive.against}, driven(standing, drive)))
     return found
@@ -163,20 +163,80 @@ def meshing(gear: Gear) -> Callable[[Moved, Any], list[Any]]:
 
 
 def lifting(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], list[Any]]:
-    """A follower stands as far along its guide as the law says over the base circle."""
-    slide = standing.slides[cam.follower]
+    """A follower stands as its law says, beyond where it rests on the base circle or on the level.
+
+    All as the body sees it that carries it and the cam.
+    """
+    resting = swung(standing, cam) if cam.lever else raised_by(standing, cam)
 
     def off(moved: Moved, time: Any) -> list[Any]:
-        base, roller, start, pieces = moved.geometry.cam(cam)
-        through, along, offset = moved.geometry.guide(slide)
-        pivot = (moved.point(FRAME, cam.pivot) - moved.at(FRAME, through)) * along.conjugate()
-        lift = lifted(pieces, cam.sense * (moved.poses[cam.on][2] - start))
-        high = base
-        if cam.tip != "flat":
-            high = mpmath.sqrt((base + roller) ** 2 - (offset - pivot.imag) ** 2)
-        return [moved.slid(standing, slide).real - pivot.real - high - lift]
+        _, _, start, pieces, _ = moved.geometry.cam(cam)
+        if cam.slides:
+            plate = standing.slides[cam.on]
+            lift = raised(pieces, cam.sense * (moved.slid(standing, plate).real - start))
+        else:
+            turned = moved.poses[cam.on][2] - moved.poses[cam.carrier][2]
+            lift = lifted(pieces, cam.sense * (turned - start))
+        return [resting(moved, lift)]
 
     return off
+
+
+def raised_by(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], Any]:
+    """How far a sliding follower stands beyond its place on the base circle and its lift."""
+    slide = standing.slides[cam.follower]
+
+    def off(moved: Moved, lift: Any) -> Any:
+        base, roller, *_ = moved.geometry.cam(cam)
+        through, along, offset = moved.geometry.guide(slide)
+        at = moved.slid(standing, slide).real - lift
+        if cam.slides:
+            start, way, aside = moved.geometry.guide(standing.slides[cam.on])
+            centre = through + along * mpmath.mpc(at, offset)
+            above = ((centre - start) * way.conjugate()).imag - aside
+            side = 1 if (along * way.conjugate()).imag > 0 else -1
+            return above - side * (base + roller)
+        own = moved.units[cam.carrier] * along
+        pivot = (moved.point(cam.on, cam.pivot) - moved.at(cam.carrier, through)) * own.conjugate()
+        if cam.tip == "flat":
+            return at - pivot.real - base
+        return at - pivot.real - mpmath.sqrt((base + roller) ** 2 - (offset - pivot.imag) ** 2)
+
+    return off
+
+
+def swung(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], Any]:
+    """How far the bar of a lever is off its place on the base circle, swung by its lift."""
+    assert cam.lever is not None
+    lever = cam.lever
+
+    def off(moved: Moved, lift: Any) -> Any:
+        base, roller, _, _, face = moved.geometry.cam(cam)
+        pin = moved.point(cam.carrier, lever.pin)
+        bar = moved.point(cam.follower, lever.tip) - moved.point(cam.follower, lever.pin)
+        arm, prime = abs(bar), base + roller
+        if cam.slides:
+            start, way, aside = moved.geometry.guide(standing.slides[cam.on])
+            along = moved.units[cam.carrier] * way
+            above = ((pin - moved.at(cam.carrier, start)) * along.conjugate()).imag - aside
+            towards = -1j * along if above > 0 else 1j * along
+            resting = mpmath.acos((abs(above) - prime) / arm)
+        else:
+            gap = moved.point(cam.on, cam.pivot) - pin
+            apart, towards = abs(gap), gap / abs(gap)
+            if cam.tip == "flat":
+                resting = mpmath.asin((base + face) / apart)
+            else:
+                resting = mpmath.acos((apart**2 + arm**2 - prime**2) / (2 * apart * arm))
+        wanted = towards * unit(-lever.side * (resting + mpmath.radians(lift)))
+        return (bar / arm * wanted.conjugate()).imag
+
+    return off
+
+
+def unit(angle: Any) -> Any:
+    """A unit vector at an angle."""
+    return mpmath.mpc(*mpmath.cos_sin(angle))
 
 
 def driven(standing: Standing, drive: Drive) -> Callable[[Moved, Any], list[Any]]:

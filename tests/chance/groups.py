@@ -1,14 +1,12 @@
-"""Every kind of group that can be hung on what stands: drivers, dyads, higher groups, wheels."""
+"""Groups that can be hung on what stands: drivers, dyads, higher groups, wheels."""
 
 from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from random import Random
 
-from tests.chance.lifts import MOTIONS, lifted
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, ROUND, CamLaw, Gear, Standing, Straight
+from tests.chance.records import FRAME, ROUND, Gear, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 
@@ -312,10 +310,19 @@ def parallel_cranks(m: Maker) -> None:
 # --- wheels --------------------------------------------------------------------------------------
 
 
-def straight(m: Maker, wheel: str, centre: str, on: str, along: complex, radius: float) -> Straight:
+def straight(
+    m: Maker,
+    wheel: str,
+    centre: str,
+    on: str,
+    along: complex,
+    radius: float,
+    side: int | None = None,
+) -> Straight:
     """A wheel that stands on a straight track of a body, turned as it has rolled."""
     body = m.standing.bodies[wheel]
-    side, way = m.sign(), m.length() * m.sign()
+    side = m.sign() if side is None else side
+    way = m.length() * m.sign()
     through = body.points[centre] - along * (way + 1j * side * radius)
     zero = m.angle(wheel) - m.angle(on) + side * way / radius
     start = math.degrees(zero)
@@ -599,7 +606,12 @@ def plank(m: Maker) -> None:
     lower = place - along * (m.length() + 1j * side * radius)
     upper = place + along * (m.length() + 1j * side * radius)
     name = m.body({m.name(): upper + m.vector()}, along)
-    lean = phase(along * m.standing.bodies[on].axis.conjugate())
+    turned = m.angle(on)
+    if m.shifts(on):
+        own = m.standing.bodies[name].angle
+    else:
+        lean = phase(along * m.standing.bodies[on].axis.conjugate())
+        own = turned + (lean if lean > ROUND - math.pi else lean + math.tau)
     way = 0.0
     for number in range(2):
         spot = place + along * way
@@ -608,8 +620,7 @@ def plank(m: Maker) -> None:
         m.standing.bodies[wheel].wheels.append((centre, radius))
         for body, through, facing in ((on, lower, side), (name, upper, -side)):
             gone = ((spot - through) * along.conjugate()).real
-            zero = m.angle(wheel) - m.angle(on) + facing * gone / radius
-            zero -= 0.0 if body == on else lean if lean > ROUND - math.pi else lean + math.tau
+            zero = m.angle(wheel) - (turned if body == on else own) + facing * gone / radius
             m.standing.straights.append(
                 Straight(wheel, body, centre, radius, through, along, facing, math.degrees(zero))
             )
@@ -643,120 +654,3 @@ def kept_bar(m: Maker) -> None:
     known = m.any_body(but=[drum, track])
     foot = end[1] + m.vector()
     bar(m, (m.point(known, foot), foot), end)
-
-
-# --- cams ----------------------------------------------------------------------------------------
-
-
-def cam(m: Maker) -> None:
-    """A follower on a guide of the frame, lifted by a cam on any body that is pinned there."""
-    fixed = m.standing.bodies[FRAME].points
-    shafts = {
-        name: pins
-        for name in m.bodies(but=[FRAME])
-        if len(pins := [p for p in m.standing.bodies[name].points if p in fixed]) == 1
-        and name not in m.standing.slides
-    }
-    if not shafts:
-        pivot, place = m.anchor(FRAME)
-        on = bar(m, (pivot, place), (m.name(), place + m.vector()))
-        m.turn(on, FRAME)
-        shafts[on] = [pivot]
-    on = m.rng.choice(list(shafts))
-    pivot = shafts[on][0]
-    ends = [*sorted(m.rng.sample(range(50, 311, 20), 3)), 360]
-    base, rise = m.length(), m.rng.uniform(0.1, 0.6)
-    rises = [rise, 0.0, -rise, 0.0] if m.coin() else [rise, -rise / 2, rise / 4, -rise * 0.75]
-    if sum(rises) != 0:
-        raise LooseError
-    pieces = [(e, base * r, m.rng.choice(list(MOTIONS))) for e, r in zip(ends, rises, strict=True)]
-    tip = m.rng.choice(("roller", "knife", "flat"))
-    roller = base * m.rng.uniform(0.1, 0.4) if tip == "roller" else 0.0
-    law = CamLaw("", on, pivot, tip, base, roller, pieces, m.rng.randint(-180, 180), m.sign())
-    angle = law.sense * (m.standing.bodies[on].angle - math.radians(law.start))
-    at = math.degrees(angle) % 360
-    if min(abs(at - each) for each in (0, *ends)) < 1:
-        raise LooseError
-    along, aside = m.direction(), base * m.rng.uniform(-0.6, 0.6)
-    high = base if tip == "flat" else math.sqrt((base + roller) ** 2 - aside**2)
-    high += float(lifted(pieces, angle))
-    name = m.body({m.name(): fixed[pivot] + along * complex(high, aside)}, along)
-    m.guide(name, FRAME, along)
-    law.follower = name
-    m.standing.cams.append(law)
-
-
-GROUPS = {
-    "crank": crank,
-    "driven slide": driven_slide,
-    "RRR": rrr,
-    "RRP": rrp,
-    "RPR": rpr,
-    "PRP": prp,
-    "RPP": rpp,
-    "cylinder": cylinder,
-    "three legs": three_legs,
-    "two plates": two_plates,
-    "loop of four": loop_of_four,
-    "inner turn": inner_turn,
-    "inner slide": inner_slide,
-    "parallel cranks": parallel_cranks,
-    "rolled": rolled,
-    "RRW": rrw,
-    "rim pin": rim_pin,
-    "gear": gear,
-    "rack": rack,
-    "pinion": pinion,
-    "roller": roller,
-    "planet": planet,
-    "kept bar": kept_bar,
-    "cam": cam,
-    "belt": belted,
-    "series": series,
-    "twins": twins,
-    "plank": plank,
-    "coupled plates": coupled_plates,
-    "ring of plates": ring_of_plates,
-}
-STARTS = ("crank", "crank", "driven slide", "rolled", "parallel cranks", "gear")
-TRIES = 60
-ADDED = {
-    "kept bar": (13, 5),
-    "cam": (11, 7),
-    "belt": (9, 7),
-    "series": (13, 9),
-    "twins": (17, 3),
-    "plank": (17, 11),
-    "coupled plates": (23, 4),
-    "ring of plates": (23, 18),
-}
-"""Groups at the end of every so many seeds, those that leave such a rest.
-
-Thus a new kind of group changes no other seed: tests name seeds for what is special in them.
-"""
-
-
-def add(m: Maker, kind: str) -> bool:
-    """Add a group of a kind; False where none was found that holds together."""
-    for _ in range(TRIES):
-        try:
-            with m.group():
-                GROUPS[kind](m)
-        except (LooseError, IndexError):
-            continue
-        return True
-    return False
-
-
-def made(seed: int) -> tuple[Standing, tuple[str, ...]]:
-    """A mechanism for a seed, and the kinds of its groups in the order made."""
-    rng = Random(seed)
-    spread = rng.choice((1.0, 1.0, 2.0, 3.0))
-    m = Maker(rng, spread, 10 ** rng.uniform(-3, 3))
-    kinds = [rng.choice(STARTS)]
-    names = [name for name in GROUPS if name not in ADDED]
-    last = names[seed % len(names)]
-    kinds += [rng.choice(names[:8]) for _ in range(rng.randint(0, 2))]
-    kinds += [last, *(name for name, (each, rest) in ADDED.items() if seed % each == rest)]
-    done = tuple(kind for kind in kinds if add(m, kind))
-    return m.standing, done

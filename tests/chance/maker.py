@@ -75,8 +75,9 @@ class Maker:
     # --- points and bodies -----------------------------------------------------------------------
 
     def bodies(self, but: Collection[str] = ()) -> list[str]:
-        """What stands, less some."""
-        return [name for name in self.standing.bodies if name not in but]
+        """What stands and is written, less some."""
+        bodies = self.standing.bodies
+        return [name for name in bodies if name not in but and not bodies[name].unwritten]
 
     def any_body(self, but: Collection[str] = ()) -> str:
         """The frame at times, else a moving body."""
@@ -140,11 +141,21 @@ class Maker:
             self.point(name, first + self.vector())
         return name
 
+    def unwritten(self, points: dict[str, complex], length: float) -> str:
+        """A link between two points that the program puts in where it is asked for it by name."""
+        name = f"h{len(self.standing.bodies)}"
+        self.standing.bodies[name] = Body(name, points, length=length)
+        return name
+
     # --- guides ----------------------------------------------------------------------------------
 
     def may_be_block(self, body: str) -> bool:
-        """Whether a body that stands may become a block of an unknown guide."""
-        return body != FRAME and body not in self.standing.slides
+        """Whether a body that stands may become a block of an unknown guide.
+
+        The follower of a cam that has a guide slides there, so that a lever may not.
+        """
+        levers = {cam.follower for cam in self.standing.cams if cam.lever}
+        return body != FRAME and body not in self.standing.slides and body not in levers
 
     def guide(self, block: str, on: str, along: complex, through: str | None = None) -> None:
         """A slide between two bodies, the block's x axis along it."""
@@ -242,6 +253,41 @@ class Maker:
                     waiting.append(each)
         return None
 
+    def shifts(self, body: str) -> bool:
+        """Whether slides alone join a body to the frame, so that it never turns."""
+        found, waiting = {body}, [body]
+        slides = [{slide.block, slide.on} for slide in self.standing.slides.values()]
+        while waiting:
+            here = waiting.pop()
+            more = {each for pair in slides if here in pair for each in pair} - found
+            found |= more
+            waiting += more
+        return FRAME in found
+
+    def counts_alike(self, body: str, along: complex) -> bool:
+        """Whether a block along a guide of a body, and all that slides there, count one way.
+
+        Where guides add up to more than half a turn the program counts a rack with the link along
+        which it slides, and the loops with all that turns as one.
+        """
+        if self.shifts(body):
+            return True
+        bodies, found = self.standing.bodies, {body: self.angle(body)}
+        lean = phase(along * bodies[body].axis.conjugate())
+        waiting = [body]
+        while waiting:
+            here = waiting.pop()
+            for slide in self.standing.slides.values():
+                ends = [slide.block, slide.on]
+                if here in ends:
+                    other = ends[1 - ends.index(here)]
+                    if other not in found:
+                        way = phase(bodies[other].axis * bodies[here].axis.conjugate())
+                        found[other] = found[here] + way
+                        waiting.append(other)
+        alike = all(abs(turned - self.angle(each)) < 1 for each, turned in found.items())
+        return alike and abs(found[body] + lean - phase(along)) < 1
+
     def slide_coordinate(self, block: str) -> float:
         """Where a block stands on its guide."""
         slide = self.standing.slides[block]
@@ -333,8 +379,12 @@ class AsPlaced:
         return gear.radii, dict.fromkeys((gear.wheel, gear.on, gear.arm), 0.0)
 
     def cam(self, cam):
-        """Sizes; how far it lifts makes no odds here."""
-        return cam.base, cam.roller, 0.0, cam.pieces
+        """Sizes, the law and where it begins; own axes turn from here."""
+        bodies = self.standing.bodies
+        turned = 0.0 if cam.slides else bodies[cam.on].angle - bodies[cam.carrier].angle
+        start = cam.start if cam.slides else math.radians(cam.start)
+        face = cam.lever.face if cam.lever else 0.0
+        return cam.base, cam.roller, start - turned, cam.pieces, face
 
     def drive(self, drive: Drive, time: float) -> float:
         """Turning drivers stand at nought here."""

@@ -45,13 +45,16 @@ class Straight:
     start: float | None
     kept: bool = False
     """Whether other bodies keep the wheel at its distance from the track."""
+    keeper: str = ""
+    """The name that is asked for what keeps the wheel there, where the program must be told."""
 
 
 @dataclass
 class Gear:
     """A wheel on another whose centres an arm keeps apart; rings have a negative radius.
 
-    So has the wheel from which an open belt comes; a crossed one turns as wheels that touch.
+    So has the wheel from which an open belt comes; a crossed one turns as wheels that touch. The
+    arm may be one that the program puts in. ``runs`` says between which wheels a belt runs.
 
     ``start`` holds the angles (degrees) from which each turning is counted, and ``turned`` how far
     (radians) each body has turned since.
@@ -67,14 +70,50 @@ class Gear:
     turned: dict[str, float] = field(default_factory=dict)
     idle: bool = False
     """Whether other contacts make the wheels turn so already."""
+    runs: tuple[int, int] | None = None
+
+
+@dataclass
+class Touch:
+    """Two profiles that touch: own and other body, their centres of curvature and radii.
+
+    ``link`` stands for them, a bar between the centres; ``inside`` where its own lies in a hollow.
+    """
+
+    link: str
+    own: str
+    on: str
+    centres: tuple[str, str]
+    radii: tuple[float, float]
+    inside: bool
+
+    @property
+    def apart(self) -> float:
+        """How far the centres stand apart."""
+        own, other = self.radii
+        return other - own if self.inside else own + other
+
+
+@dataclass
+class Lever:
+    """A follower that swings about a pin of the carrier; ``side`` +1 where its bar is to the left.
+
+    ``face`` is how much nearer to the cam than the bar its flat face lies.
+    """
+
+    pin: str
+    tip: str
+    side: int
+    face: float = 0.0
 
 
 @dataclass
 class CamLaw:
-    """A follower on a guide of the frame that a cam lifts: its tip, its sizes, its law.
+    """A follower that a cam lifts, both on a body ``carrier``: its tip, its sizes, its law.
 
-    ``pieces`` are the angle (degrees) at which each ends, its rise and its motion; the law counts
-    from the cam's angle ``start`` (degrees), ``sense`` +1 counter-clockwise.
+    ``pieces`` are the angle (degrees) at which each ends, its rise (m, of a lever in degrees) and
+    its motion; of a table the lifts there with no motion. The law counts from the cam's angle
+    ``start`` (degrees), ``sense`` +1 counter-clockwise. A cam that ``slides`` has lengths instead.
     """
 
     follower: str
@@ -83,14 +122,22 @@ class CamLaw:
     tip: str
     base: float
     roller: float
-    pieces: list[tuple[int, float, str]]
-    start: int
+    pieces: list[tuple[float, float, str]]
+    start: float
     sense: int
+    carrier: str = FRAME
+    lever: Lever | None = None
+    slides: bool = False
+    second: tuple[str, float] | None = None
+    """A second roller on a conjugate cam: its point and its radius."""
 
 
 @dataclass
 class Drive:
-    """A given motion: position (radians or metres), speed and acceleration."""
+    """A given motion: position (radians or metres), speed and acceleration.
+
+    With a ``law`` it is position + swing·sin(rate·(time - moment)), angles in degrees.
+    """
 
     kind: str
     body: str
@@ -99,6 +146,8 @@ class Drive:
     speed: float
     acceleration: float = 0.0
     of: tuple[str, str] | None = None
+    law: tuple[float, float] | None = None
+    """Swing (degrees or metres) and rate (degrees in the second)."""
 
 
 @dataclass
@@ -114,6 +163,13 @@ class Body:
     wheels: list[tuple[str, float]] = field(default_factory=list)
     ways: dict[str, str] = field(default_factory=dict)
     """How each point beyond the second is written: triangle, angle or polar."""
+    length: float | None = None
+    """How far its two points stand apart, of a link that the program puts in itself."""
+
+    @property
+    def unwritten(self) -> bool:
+        """Whether the program puts it in itself."""
+        return self.length is not None
 
     @property
     def axis(self) -> complex:
@@ -146,7 +202,10 @@ class Standing:
     straights: list[Straight] = field(default_factory=list)
     gears: list[Gear] = field(default_factory=list)
     cams: list[CamLaw] = field(default_factory=list)
+    touches: list[Touch] = field(default_factory=list)
     drives: list[Drive] = field(default_factory=list)
+    moment: float = 0.0
+    """The time (s) at which laws of time are drawn."""
     idle: dict[str, tuple[str, str]] = field(default_factory=dict)
     """Idle bars: what they are pinned to, and the point that they only point to."""
 

@@ -9,7 +9,18 @@ from typing import Any
 
 import mpmath
 
-from tests.chance.records import FRAME, Body, CamLaw, Drive, Gear, Slide, Standing, Straight
+from tests.chance.constraints import unit
+from tests.chance.records import (
+    FRAME,
+    Body,
+    CamLaw,
+    Drive,
+    Gear,
+    Slide,
+    Standing,
+    Straight,
+    Touch,
+)
 from tests.mechanisms import HEAD, angled, number, pair, sided
 
 DIGITS = 50
@@ -26,14 +37,20 @@ class Written:
         self.exact: dict[str, dict[str, Any]] = {}
         self.numbers: dict[int, tuple[Any, ...]] = {}
         with mpmath.workdps(DIGITS):
-            self.lines = [line for body in standing.bodies.values() for line in self.body(body)]
+            bodies = [body for body in standing.bodies.values() if not body.unwritten]
+            for touch in standing.touches:
+                self.touched(touch)
+            self.lines = [line for body in bodies for line in self.body(body)]
+            for gear in standing.gears:
+                self.kept_apart(gear)
             for drive in standing.drives:
                 self.lines += self.driver(drive)
 
     def text(self, branches: dict[str, str]) -> str:
         """The whole scene."""
         said = [f'{name} = "{words}"' for name, words in branches.items()]
-        return HEAD + "\n".join([*self.lines, "[branches]", *said, ""])
+        time = [f"time = {self.standing.moment!r}"] if self.standing.moment else []
+        return HEAD + "\n".join([*time, *self.lines, "[branches]", *said, ""])
 
     # --- writing ---------------------------------------------------------------------------------
 
@@ -58,22 +75,54 @@ class Written:
             lines.append(f"rolls = [{', '.join(tracks)}]")
         if belts := [self.meshed(gear) for gear in gears if gear.belt]:
             lines.append(f"belt = [{', '.join(belts)}]")
+        lines += [self.touched(each) for each in self.standing.touches if each.own == body.name]
         for cam in self.standing.cams:
             lines += self.lifted(cam) if cam.follower == body.name else []
         return lines
 
+    def touched(self, touch: Touch) -> str:
+        """Two profiles that touch, and the bar that stands for them."""
+        own, other = (mpmath.mpf(repr(each)) for each in touch.radii)
+        apart = other - own if touch.inside else own + other
+        self.exact[touch.link] = {
+            touch.centres[0]: mpmath.mpc(0),
+            touch.centres[1]: mpmath.mpc(apart),
+        }
+        inside = ", inside = true" if touch.inside else ""
+        ends = f'centres = "{"-".join(touch.centres)}", radii = [{own_words(touch.radii)}]'
+        return f'touches = {{ on = {touch.on}, {ends}{inside}, link = "{touch.link}" }}'
+
+    def kept_apart(self, gear: Gear) -> None:
+        """The bar between the centres of two wheels that no other link keeps, from the track's."""
+        if gear.arm in self.standing.bodies and self.standing.bodies[gear.arm].unwritten:
+            own, other = (mpmath.mpf(repr(each)) for each in gear.radii)
+            first, last = reversed(gear.centres)
+            self.exact[gear.arm] = {first: mpmath.mpc(0), last: mpmath.mpc(abs(own + other))}
+
     def lifted(self, cam: CamLaw) -> list[str]:
         """A cam, of the follower that it lifts."""
         sizes = (mpmath.mpf(repr(each)) for each in (cam.base, cam.roller))
-        pieces = [(end, mpmath.mpf(repr(rise)), how) for end, rise, how in cam.pieces]
-        self.numbers[id(cam)] = *sizes, degrees(cam.start), pieces
+        pieces = [(mpmath.mpf(repr(e)), mpmath.mpf(repr(r)), how) for e, r, how in cam.pieces]
+        face = mpmath.mpf(repr(cam.lever.face)) if cam.lever else mpmath.mpf(0)
+        start = mpmath.mpf(repr(cam.start)) if cam.slides else degrees(cam.start)
+        self.numbers[id(cam)] = *sizes, start, pieces, face
         law = ", ".join(
-            f'{{ to = {end}, rise = {rise!r}, motion = "{how}" }}' for end, rise, how in cam.pieces
+            f'{{ to = {end!r}, rise = {rise!r}, motion = "{how}" }}'
+            if how
+            else f"[{end!r}, {rise!r}]"
+            for end, rise, how in cam.pieces
         )
         roller = [f"roller = {cam.roller!r}"] if cam.tip == "roller" else []
-        clockwise = ["clockwise = true"] if cam.sense < 0 else []
+        sense = "backward" if cam.slides else "clockwise"
+        turned = [f"{sense} = true"] if cam.sense < 0 else []
         head = [f"[links.{cam.follower}.cam]", f"on = {cam.on}", f'tip = "{cam.tip}"']
-        head += [f"base = {cam.base!r}", *roller, f"start = {cam.start}", *clockwise]
+        head += [f"base = {cam.base!r}", *roller, f"start = {cam.start}", *turned]
+        if cam.lever:
+            head.append(f'side = "{"left" if cam.lever.side > 0 else "right"}"')
+        if cam.lever and cam.lever.face:
+            head.append(f"face = {cam.lever.face!r}")
+        if cam.second:
+            head.append(f'conjugate = {{ at = "{cam.second[0]}", roller = {cam.second[1]!r} }}')
         return [*head, f"law = [{law}]"]
 
     def shape(self, body: Body) -> list[str]:
@@ -139,12 +188,14 @@ class Written:
         zero = straight.start or 0.0
         self.numbers[id(straight)] = start, along, radius_of(straight.radius), degrees(zero)
         side = ', side = "right"' if straight.side < 0 else ""
-        said = (
-            ""
-            if straight.start is None
-            else f", start = {{ {straight.wheel} = {number(straight.start)} }}"
-        )
-        return f"{{ on = {straight.on}, through = {through}, angle = {angle}{side}{said} }}"
+        counted = straight.wheel, zero
+        if straight.wheel == FRAME:
+            counted = straight.on, -zero
+        said = f", start = {{ {counted[0]} = {number(counted[1])} }}"
+        said = "" if straight.start is None else said
+        keeper = f', link = "{straight.keeper}"' if straight.keeper else ""
+        line = f"through = {through}, angle = {angle}{side}{said}{keeper}"
+        return f"{{ on = {straight.on}, {line} }}"
 
     def meshed(self, gear: Gear) -> str:
         """A wheel on another."""
@@ -156,7 +207,10 @@ class Written:
         said = ", ".join(f"{name} = {number(angle)}" for name, angle in gear.start.items())
         start = f", start = {{ {said} }}" if said else ""
         crossed = ", crossed = true" if gear.belt == "crossed" else ""
-        return f"{{ on = {gear.on}{crossed}{start} }}"
+        runs = f", wheels = [{gear.runs[0]}, {gear.runs[1]}]" if gear.runs else ""
+        arm = self.standing.bodies.get(gear.arm)
+        keeper = f', link = "{gear.arm}"' if arm is not None and arm.unwritten else ""
+        return f"{{ on = {gear.on}{crossed}{runs}{start}{keeper} }}"
 
     def driver(self, drive: Drive) -> list[str]:
         """A driver."""
@@ -168,13 +222,23 @@ class Written:
                 p, q = (self.exact[drive.body][point] for point in drive.of)
                 where -= mpmath.arg(q - p)
         given = drive.speed, drive.acceleration
-        self.numbers[id(drive)] = where, *(mpmath.mpf(repr(each)) for each in given)
-        lines = ["[[drivers]]", f"{drive.kind} = {drive.body}"]
+        turned = drive.kind == "turn"
+        name = drive.body if drive.body.isdigit() else f'"{drive.body}"'
+        lines = ["[[drivers]]", f"{drive.kind} = {name}"]
         lines += [] if drive.against == FRAME else [f"against = {drive.against}"]
         lines += [f'of = "{"-".join(drive.of)}"'] if drive.of else []
-        key = "angle" if drive.kind == "turn" else "position"
-        lines += [f"{key} = {number(position)}", f"speed = {drive.speed!r}"]
-        return [*lines, f"acceleration = {drive.acceleration!r}"]
+        key = "angle" if turned else "position"
+        if drive.law is None:
+            self.numbers[id(drive)] = where, *(mpmath.mpf(repr(each)) for each in given)
+            lines += [f"{key} = {number(position)}", f"speed = {drive.speed!r}"]
+            return [*lines, f"acceleration = {drive.acceleration!r}"]
+        swing, rate = (mpmath.mpf(repr(each)) for each in drive.law)
+        self.numbers[id(drive)] = where, mpmath.radians(swing) if turned else swing, rate
+        late = f"(t - {self.standing.moment!r})"
+        return [
+            *lines,
+            f'{key} = "{number(position)} + {drive.law[0]!r}*sin({drive.law[1]!r}*{late})"',
+        ]
 
 
 class Exact:
@@ -223,8 +287,15 @@ class Exact:
 
     def drive(self, drive: Drive, time: Any) -> Any:
         """The given position at a time."""
-        where, speed, rate = self.written.numbers[id(drive)]
-        return where + speed * time + rate * time * time / 2
+        return moved_by(drive, self.written.numbers[id(drive)], time)
+
+
+def moved_by(drive: Drive, given: tuple[Any, ...], time: Any) -> Any:
+    """Where a driver stands: by a speed and an acceleration, or by a sine of the time."""
+    where, first, second = given
+    if drive.law is None:
+        return where + first * time + second * time * time / 2
+    return where + first * mpmath.sin(mpmath.radians(second * time))
 
 
 class Shaken(Exact):
@@ -270,12 +341,13 @@ class Shaken(Exact):
 
     def cam(self, cam: CamLaw) -> tuple[Any, ...]:
         """A cam a little larger, its law a little later and higher."""
-        base, roller, start, pieces = super().cam(cam)
+        base, roller, start, pieces, face = super().cam(cam)
         more = 1 + self.share(cam.follower, "cam")
         risen = [
             (end, rise * (1 + self.share(cam.follower, "lift")), how) for end, rise, how in pieces
         ]
-        return base * more, roller * more, start + self.share(cam.follower, "start"), risen
+        late = self.share(cam.follower, "start") * (self.size if cam.slides else 1)
+        return base * more, roller * more, start + late, risen, face * more
 
     def drive(self, drive: Drive, time: Any) -> Any:
         """A driver that is ahead or behind, and faster or slower."""
@@ -284,12 +356,12 @@ class Shaken(Exact):
         where += self.share(drive.body, "where") * ahead
         speed *= 1 + self.share(drive.body, "speed")
         rate *= 1 + self.share(drive.body, "rate")
-        return where + speed * time + rate * time * time / 2
+        return moved_by(drive, (where, speed, rate), time)
 
 
-def unit(angle: Any) -> Any:
-    """A unit vector at an angle."""
-    return mpmath.mpc(*mpmath.cos_sin(angle))
+def own_words(numbers: tuple[float, ...]) -> str:
+    """Some numbers as a scene has them in a list."""
+    return ", ".join(map(repr, numbers))
 
 
 def degrees(angle: float) -> Any:

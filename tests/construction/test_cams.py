@@ -765,7 +765,7 @@ def test_an_arm_sees_the_cam_move_as_its_law_says(name):
       {{ to = 310, rise = -{rise}, motion = "3-4-5" }}, {{ to = 360 }}]\n"""
     text = text[:begin] + law + text[end:]
     for angle in range(5, 360, 20):
-        mechanism = Mechanism(read_text(text, "cam", None, {"angle": angle}))
+        mechanism = Mechanism(read_text(text, "cam", None, {"angle" if fixed else "alpha": angle}))
         solution = mechanism.solve()
         assert mechanism.witness(solution).agrees
         arm = solution.links["1"]
@@ -826,11 +826,13 @@ def test_one_mistake_of_such_a_cam_is_one_error(name, old, new, place, found):
 def test_a_table_of_a_plate_and_a_plate_at_rest_are_refused_by_name():
     text = (SCENES / "cam-plate.toml").read_text(encoding="utf-8")
     table = turned_tables(text, "[[0, 0], [60, 5], [120, 18], [180, 0]]")
-    with pytest.raises(SceneError, match="a table of a plate that slides"):
+    with pytest.raises(SceneError, match=r"^links.2.cam.law: a table of a plate that slides"):
         read_text(table, "cam")
     rest = text.replace("on = 1\ntip", "on = 0\ntip").replace("[links.2]\n", "[links.2]\n")
     rest = rest.replace("slides = { on = 0, through = [60, 0]", 'slides = { on = 1, through = "A"')
-    with pytest.raises(SceneError, match="a plate at rest along which link 1 slides"):
+    with pytest.raises(
+        SceneError, match=r"links.2.cam.on: a plate at rest along which link 1 slides"
+    ):
         read_text(rest, "cam")
 
 

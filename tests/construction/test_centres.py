@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from msgspec.structs import replace
 
-from graphkin.construction.centres.relative_centre import LineOfCentres
+from graphkin.construction.centres.relative_centre import LineOfCentres, RelativeCentre
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.solution import Solution
 from graphkin.documents.centre_tables import place_of
@@ -229,6 +229,28 @@ def test_all_centres_of_the_pump_are_found_by_two_lines_or_at_once():
     assert (keys["pin-centre"], keys["guide-centre"]) == (6, 1)
     assert keys["relative-centre"] == keys["kennedy-meet"] == 8
     assert keys["kennedy-line"] == 16
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_a_line_of_centres_leads_through_the_point_of_a_centre_that_does_not_stand_aside(name):
+    """Off the sheet, an arrow along that line shows it; one aside gets a ray of its own."""
+    scene = shipped(name, 7).scene
+    pairs = tuple("-".join(pair) for pair in combinations(("0", *scene.links), 2))
+    mechanism = Mechanism(replace(scene, ask=replace(scene.ask, pairs=pairs)))
+    trace = mechanism.trace([("centre", pair) for pair in pairs], by_hand=True)
+    aside = set()
+    for number, value in trace.values.items():
+        kind = mechanism.program.steps[number].of
+        if not isinstance(kind, RelativeCentre) or kind.crossing is None:
+            continue
+        lines = [trace.values[way.line] for way in kind.ways]
+        through = [
+            abs(cross(line.along, value.start - line.point)) < 1e-9 * abs(line.along)
+            for line in lines
+        ]
+        assert kind.aside or any(through)
+        aside.add(kind.aside)
+    assert aside == ({False} if name == "pump" else {False, True})
 
 
 def test_where_the_circle_diagram_stops_the_velocity_plan_gives_a_centre():

@@ -673,3 +673,41 @@ def test_a_ring_on_a_straight_track_is_refused_by_name():
     assert only != HOOP
     with pytest.raises(SceneError, match="the ring of link 1 on a straight track; expected a rim"):
         made(only)
+
+
+def test_what_keeps_a_wheel_in_a_ring_may_be_driven_against_a_track():
+    """Willis: the wheel in the ring has ω_arm·(1 - 150/50); the rack turns its pinion by v/r."""
+    text = """
+graphkin = 1
+title = "ring, rack"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+C = [100, -280]
+wheel = { centre = "O", radius = 150, inside = true }
+[links.1]
+P-Q = 40
+wheel = { centre = "P", radius = 50 }
+rolls = { on = 0, link = "arm" }
+[links.2]
+S = [0, 0]
+slides = { on = 0, through = [0, -300], angle = 0 }
+[links.3]
+C-D = 10
+wheel = { centre = "C", radius = 20 }
+rolls = { on = 2, through = "S", angle = 0 }
+[[drivers]]
+slide = 2
+position = 50
+speed = 10
+[[drivers]]
+turn = "arm"
+against = 2
+angle = 30
+speed = 4
+"""
+    found = Mechanism(read_text(text, "ring"))
+    solution = found.solve()
+    assert found.witness(solution).agrees
+    assert solution.links["1"].omega == pytest.approx(4 * (1 - 150 / 50))
+    assert solution.links["3"].omega == pytest.approx(10 / 20)

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from graphkin.accuracy.certified import Certifier
-from graphkin.construction.higher_class import settling
+from graphkin.construction.higher_class import closure_solver
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
@@ -179,7 +179,7 @@ def pair_of(merge: Merge, angle: Any) -> list[Any]:
 
 @pytest.mark.parametrize("merge", MERGES, ids=lambda merge: merge.scene)
 def test_what_balls_do_not_decide_is_refused(merge, monkeypatch):
-    monkeypatch.setattr(settling, "BITS", (64,))
+    monkeypatch.setattr(closure_solver, "BITS", (64,))
     number = len(merge.trials(merge.at - MP.mpf("1e-6")))
     with pytest.raises(ClosureError, match=r"closures \d and \d of links .* merge here"):
         merge.mechanism(merge.at, number).trace([("position", "A")])

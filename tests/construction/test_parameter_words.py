@@ -22,7 +22,7 @@ SCENES = Path(__file__).parents[2] / "examples" / "scenes"
         ("eight-link-2", ["*l* = 18 mm", "*v* = 360 mm/s", "*k* = 6"]),
         ("roller", ["*r* = 90 mm", "*v* = 400 mm/s", "*a* = 1000 mm/s²"]),
         ("crank-rocker", ["*n* = 4", "*L* = 90 mm"]),
-        ("crank-fixed-slot", ["*angle* = 50°", "*beta* = 25°", "*a* = 80 mm", "*e* = 200 mm"]),
+        ("crank-fixed-slot", ["*angle* = 50°", "*β* = 25°", "*a* = 80 mm", "*e* = 200 mm"]),
         ("excavator-relative", ["*t* = 0.5 s"]),
     ],
 )
@@ -43,5 +43,5 @@ def test_a_parameter_that_no_expression_takes_is_not_named():
 def test_a_parameter_put_into_an_expression_is_named_once_with_its_unit():
     """s = l·cos(alpha): both are needed, and the rod shows one of them."""
     scene = load(SCENES / "centrodes-cardan.toml").scene
-    assert other_parameters(scene, words("en")) == [("alpha", "*alpha*", "45°")]
+    assert other_parameters(scene, words("en")) == [("alpha", "*α*", "45°")]
     assert "*B**A* = *l* = 100 mm" in given(drawing_of("centrodes-cardan", None, "velocity"))

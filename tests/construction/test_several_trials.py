@@ -15,12 +15,11 @@ from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import closer_of
-from graphkin.construction.higher_class.refined_trials import determinant, refined, solved
-from graphkin.construction.higher_class.refining import in_doubles
+from graphkin.construction.higher_class.refining import refined
 from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.kinds import ball_kind, decimal_kind
+from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
 from tests.construction.rods import rods_of
@@ -85,7 +84,7 @@ def test_a_trial_lies_within_a_trial(name):
     assert isinstance(group, Higher)
     outer, inner = group.nested
     assert {*inner.links} < {*outer.links}
-    assert outer.trial.link not in inner.links
+    assert outer.tried.link not in inner.links
     assert group.order == (4, 4)
     assert len({*group.links}) == len(group.links) == 8
     twice = [*constructions(mechanism(name).program, TwoTrials)]
@@ -257,10 +256,3 @@ def test_a_closure_that_is_none_is_not_proved():
         away = (closed[0] * cmath.rect(1, 2.0), closed[1] * cmath.rect(1, 2.5), *closed[2:])
         with pytest.raises(ValueError, match=r"ball|drawn"):
             refined(trying, longer, away, kind)
-
-
-def test_cramers_rule():
-    rows, right = [[2, 1, 0], [1, 3, 1], [0, 1, 4]], [1, 2, 3]
-    assert determinant(rows) == 18
-    found = solved(rows, right)
-    assert np.allclose(np.array(rows) @ np.array(found), right)

@@ -83,6 +83,14 @@ def test_an_effect_is_in_where_it_has_steps_and_out_where_it_has_none(name):
         assert row.reason
 
 
+@pytest.mark.parametrize("name", ["pump", "centrodes-cardan", "inflection-cardan"])
+def test_centrodes_alone_follow_the_centres_that_are_asked_anyway(name):
+    mechanism = shipped(name)
+    follow = "the centres that are asked anyway, followed over the motion"
+    told = {row.name for row in effects(mechanism) if row.reason == follow}
+    assert told == ({Effect.CENTRODE.value} if mechanism.scene.ask.centrodes else set())
+
+
 @EVERY
 def test_no_more_is_run_than_what_is_asked_needs(name, monkeypatch):
     mechanism = shipped(name)

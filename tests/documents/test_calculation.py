@@ -7,7 +7,10 @@ from math import pi
 
 import pytest
 
+from graphkin.construction.core.solution import Verdict
 from graphkin.construction.rate_relations import of_gears
+from graphkin.documents.calculation import calculation
+from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN
@@ -20,7 +23,7 @@ from tests.documents.sheet_tools import (
     relation_lines,
     texts,
 )
-from tests.mechanisms import SHIPPED
+from tests.mechanisms import SHIPPED, mechanism_of
 
 WHICH = [(lab, n, language) for lab in SHIPPED for n in (7, 30) for language in ("en", "ro")]
 WHICH += [(name, None, "en") for name in (*OTHERS, *CHOSEN)]
@@ -82,6 +85,63 @@ def test_the_figures_of_every_relation_give_its_result_to_the_last_digit(which):
         if abs(value_of(figures) - printed) > 1.000001 * unit:
             wrong.append(f"({number}) {figures} = {value_of(figures):.7g}, not {result}")
     assert not wrong or name in ROUGH, "\n".join(wrong)
+
+
+ELBOWS = """
+[frame]
+A = [0, 0]
+B = [0.4, 0]
+C = [0.2, 0.35]
+[links.1]
+A-M = 0.12
+[links.2]
+M-D = 0.11
+[links.3]
+B-N = 0.12
+[links.4]
+N-E = 0.11
+[links.5]
+C-P = 0.12
+[links.6]
+P-F = 0.11
+[links.7]
+D-E = 0.12
+D-F = 0.11
+E-F = 0.10
+F = "left of D-E"
+[[drivers]]
+turn = 2
+against = 1
+angle = 77
+speed = 1.5
+[[drivers]]
+turn = 4
+against = 3
+angle = 85
+speed = -1
+[[drivers]]
+turn = 6
+against = 5
+angle = 69
+speed = 0.5
+[branches]
+1 = "closure 1"
+[ask]
+velocity = ["D"]
+acceleration = ["D"]
+"""
+
+
+def test_what_two_trial_plans_miss_of_a_driver_between_moving_links_is_reckoned_in_figures():
+    """A plate on three legs, the elbow of each driven (3-RRR): ω or ε found, less what is given."""
+    mechanism, verdict = mechanism_of(ELBOWS), Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    pages = calculation(drawings_of(mechanism, verdict, words("en")), "key")
+    found = equations(pages)
+    gaps = [each for each in found if re.search(r"[\d)] − ", each[1]) and each[2].endswith("rad/s")]
+    assert gaps, found
+    for _, figures, result in found:
+        printed, unit = last_digit(result)
+        assert value_of(figures) == pytest.approx(printed, abs=1.000001 * unit)
 
 
 def test_the_task_has_the_same_relations_in_the_same_order_without_results(pages):

@@ -8,6 +8,7 @@ import pytest
 from graphkin.construction.result_tables import turning_rows, vector_rows
 from graphkin.documents.continuation import rest
 from graphkin.documents.data_heading import data
+from graphkin.documents.listing import on_sheets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import Moved
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
@@ -144,3 +145,36 @@ def test_tables_and_data_that_fill_more_than_a_sheet_go_on_over_several(view, la
         kept = "".join("".join(plain(m.markup).split()) for m in texts if m.name == "data")
         for datum in data(drawing):
             assert "".join(plain(datum.value or datum.words).split()) in kept
+
+
+def test_links_that_have_no_room_on_a_task_go_on_to_its_next_sheet():
+    text = scene(40) + '[ask]\nvelocity = ["B40"]\n'
+    mechanism = Mechanism(read_text(text, "large"))
+    (task, _) = hand_out(mechanism, "task", "en")
+    first, more = said(task.pages[:1]), said(task.pages[1:])
+    assert "Links:onthecontinuationsheet" in first
+    for link in ("crank=O0B0", "rod40=B39B40", "rocker40=O39B40"):
+        assert link in more and link not in first
+    for page in task.pages:
+        assert not outside(page.marks)
+
+
+def test_a_sentence_longer_than_a_column_is_parted():
+    drawing = drawings_for_all(120)
+    columns = ((30.0, 60.0, 200.0, 100.0), (210.0, 60.0, 400.0, 100.0))
+    longest = max(sentences(drawing), key=lambda each: len(each.markup))
+    told = [mark for marks in on_sheets(drawing, columns, 0) for mark in marks]
+    lines = [mark.markup for mark in told if mark.anchor != "end"]
+    flown = " ".join(lines)
+    assert longest.markup in flown
+    numbers = [mark.markup for mark in told if mark.anchor == "end"]
+    assert numbers == [f"{n}." for n in range(1, len(sentences(drawing)) + 1)]
+    assert max(mark.y for mark in told) <= 100.0
+
+
+def drawings_for_all(dyads: int):
+    """The drawing of the velocities of a chain, of which the last is asked."""
+    text = scene(dyads) + f'[ask]\nvelocity = ["B{dyads}"]\n'
+    mechanism = Mechanism(read_text(text, "large"))
+    verdict = proved(mechanism, mechanism.solve())
+    return drawings_of(mechanism, verdict, words("en"))[0]

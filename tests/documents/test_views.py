@@ -9,11 +9,13 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, hand_out
+from graphkin.documents.step_pages import told
 from graphkin.drawing.areas import AREA, BELOW
 from graphkin.drawing.marks import CircleMark, Text, reach
 from graphkin.drawing.style import NOW, TINTS, style_of
@@ -118,6 +120,20 @@ def test_each_page_says_its_sentence_and_draws_it(name):
             words = " ".join(mark.markup for mark in page.marks if mark.name == "sentence")
             assert words
             assert new_on(page) or of in UNDRAWN, (of, words)
+
+
+def test_however_long_a_sentence_is_nothing_that_is_done_stands_below_the_field():
+    verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    drawing, *_ = drawings_of(load("pump", n=7), verdict, words_of("en"))
+    done, lowest = Sentence(1, "", "join A with B"), 0.0
+    for long in range(1, 2400, 50):
+        marks = [*told(drawing, [*[done] * 20, Sentence(2, "", "mm " * long)], 20)]
+        words = [mark for mark in marks if isinstance(mark, Text)]
+        below = [mark.y for mark in words if mark.name not in ("step", "sentence")]
+        assert max(below, default=0.0) <= BELOW[3]
+        lowest = max(lowest, *(mark.y for mark in words if mark.name == "sentence"))
+        assert below or lowest > BELOW[3] - 10
+    assert lowest > BELOW[3]
 
 
 def is_lettering(mark):

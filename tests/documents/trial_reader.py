@@ -7,10 +7,10 @@ import copy
 import math
 import re
 from collections.abc import Callable
-from typing import Any
 
+from tests.documents.hand import Hand
 from tests.documents.printed_sheet import NAME, NUMBER, canonical, number
-from tests.documents.reader_rules import TURNING, VECTOR, says
+from tests.documents.reader_rules import VECTOR, says
 from tests.documents.ruler_and_compass import DefectError, Line, cross, dot
 
 ANGLES = 720
@@ -19,11 +19,6 @@ READ = 0.1
 """How far, in degrees, a printed angle may lie from the one that closes."""
 TOLD = 0.15
 """How far, in mm, what is measured may lie from what the page tells of it."""
-PLAN = re.compile(
-    rf"(first|second) trial plan, with (?:a round number[^)]*\), )?({TURNING}) = "
-    rf"(0|{NUMBER} rad/s(?:\^\{{2\}})? (counter-)?clockwise): "
-)
-LAST = {"first": "I", "second": "II"}
 TRIED = r"[a-z]′?_\{(?:[^}]*,)?II?\}"
 """The name of a point of a trial plan."""
 
@@ -35,23 +30,8 @@ def of_trial(name: str, trial: str) -> str:
     return f"{match[1]}_{{{match[2]},{trial}}}" if match[2] else f"{match[1]}_{{{trial}}}"
 
 
-class Trials:
-    """What a reader does by trials; the rest of it is ``reader.Reader``."""
-
-    place: dict[str, complex]
-    turn: tuple[str, float] | None
-    ahead: list[str]
-    trial: str
-    blocks: dict[str, str]
-    begun: list[str]
-    before: dict[str, complex]
-    gaps: tuple[complex, complex] | None
-    tails: dict[str, complex]
-    met: dict[str, complex]
-    at: Any
-    put: Any
-    length: Any
-    direction: Any
+class Trials(Hand):
+    """What a reader does by trials."""
 
     # a link that is moved in steps
 
@@ -67,7 +47,7 @@ class Trials:
         "and mark the locus of ⟨q2⟩; where it cuts guide ⟨g2:number⟩ they close: closure ⟨n:number⟩"
     )
     def take_off(self, q: str, g: str, k: str, n: str, **_: str) -> None:
-        def off(hand: Any) -> float:
+        def off(hand: Trials) -> float:
             line = hand.guide(g)
             return cross(line.along, hand.at(q) - line.point)
 
@@ -88,7 +68,7 @@ class Trials:
     def leave_free(self, s: str, k: str, n: str) -> None:
         block, on = re.findall(r"\w+", s[3:-1])
 
-        def off(hand: Any) -> float:
+        def off(hand: Trials) -> float:
             point, start = hand.moving_guide(block, on)
             told = re.match(rf"({NUMBER}) (mm|cm|m)", hand.given(s))
             assert told
@@ -100,13 +80,13 @@ class Trials:
 
     def moving_guide(self, block: str, on: str) -> tuple[str, str]:
         """The point of a block, and that of the link on which it slides, through which it does."""
-        for item in self.items:  # type: ignore[attr-defined]
+        for item in self.items:
             told = rf"({NAME}) slides along the line of link {on} through ({NAME}) "
             if match := re.match(told, item):
                 return match[1], match[2]
         raise DefectError(f"no guide of link {block} on link {on} is given")
 
-    def close(self, k: str, n: str, off: Callable[[Any], float]) -> None:
+    def close(self, k: str, n: str, off: Callable[[Trials], float]) -> None:
         """Finds the angle at which the link is drawn in the sentences that follow."""
 
         def gap(angle: float) -> float:
@@ -116,7 +96,7 @@ class Trials:
                 try:
                     return off(hand)
                 except DefectError:
-                    hand.follow(sentence)  # type: ignore[attr-defined]
+                    hand.follow(sentence)
             return off(hand)
 
         text = " ".join(self.ahead)
@@ -124,9 +104,7 @@ class Trials:
         if found:
             near, most = math.radians(number(found[1])), math.radians(READ)
             self.turn = (k, root(gap, near - most, near + most))
-        elif re.search("the place that was found", text):
-            self.place_found = off
-        else:
+        elif "the place that was found" not in text:
             self.turn = (k, self.counted(gap, int(n)))
 
     def counted(self, gap: Callable[[float], float], n: int) -> float:
@@ -150,23 +128,23 @@ class Trials:
         "found: ⟨name⟩"
     )
     def place_that_was_found(self, far: str, way: str, p: str, name: str) -> None:
-        ray = self.ray  # type: ignore[attr-defined]
+        ray = self.ray
         if ray is None:
             raise DefectError("no path is drawn")
         foot = ray.point + ray.along * dot(ray.along, self.at(p) - ray.point)
         along = ray.along if (ray.along.real > 0) == (way == "to the right") else -ray.along
         self.put(name, foot + along * number(far))
-        for item in self.items:  # type: ignore[attr-defined]
+        for item in self.items:
             if wheel := re.match(rf"wheel (\d+): centre {re.escape(name)},", item):
-                _, radius = self.wheel_about(name)  # type: ignore[attr-defined]
-                self.rolled[wheel[1]] = number(far) / radius  # type: ignore[attr-defined]
+                _, radius = self.wheel_about(name)
+                self.rolled[wheel[1]] = number(far) / radius
 
     @says("through ⟨p⟩ draw guide ⟨k:number⟩ at (?P<angle>⟨n:number⟩°) to the x axis, as was found")
     def guide_found(self, p: str, k: str, n: str, **_: str) -> None:
         along = cmath.rect(1, self.turned(math.radians(number(n))))
-        self.lies[k] = along  # type: ignore[attr-defined]
+        self.lies[k] = along
         self.ray = Line(self.at(p), along)
-        self.loci.append(self.ray)  # type: ignore[attr-defined]
+        self.loci.append(self.ray)
 
     def turned(self, told: float) -> float:
         """The angle that closes, where the page tells it to a tenth of a degree; else as told."""
@@ -177,28 +155,6 @@ class Trials:
 
     # plans with a rate that is tried
 
-    def tried(self, sentence: str) -> str:
-        """What a sentence says in its trial plan, whose rate is known from then on."""
-        self.trial, self.begun = "", []
-        match = PLAN.match(sentence)
-        if not match:
-            return sentence
-        self.trial = LAST[match[1]]
-        if self.trial == "I":
-            self.blocks = {}
-        self.senses[match[2]] = 1 if match[4] else -1  # type: ignore[attr-defined]
-        return sentence[match.end() :]
-
-    def noted(self, clause: str, before: set[str]) -> None:
-        """Keeps what was said in a first trial plan, by the points that came of it."""
-        if self.trial != "I":
-            return
-        self.begun.append(clause)
-        if new := self.place.keys() - before:
-            for name in new:
-                self.blocks[name] = "; ".join(self.begun)
-            self.begun = []
-
     @says(rf"in the same way (?P<names>{TRIED}(?:, {TRIED})*)")
     def same_way(self, names: str) -> None:
         """As in the first trial plan."""
@@ -207,7 +163,7 @@ class Trials:
             if first not in self.blocks:
                 raise DefectError(f"the first trial plan has no {first}")
             text = re.sub(r"([{,])I\}", r"\1II}", self.blocks[first])
-            self.read(text)  # type: ignore[attr-defined]
+            self.read(text)
             self.at(name)
 
     @says(rf"(?P<names>{TRIED}(?:, {TRIED})*) fall on ⟨s⟩")
@@ -217,7 +173,7 @@ class Trials:
 
     @says("⟨name⟩ is its end")
     def is_end(self, name: str) -> None:
-        self.put(name, self.its_end())  # type: ignore[attr-defined]
+        self.put(name, self.its_end())
 
     @says(
         "from ⟨s⟩ lay off ⟨a:vector⟩ as before, from its end ⟨t:vector⟩ ⊥ ⟨p⟩⟨q⟩, ⟨drawn:number⟩ "
@@ -229,12 +185,12 @@ class Trials:
         if a not in self.before:
             raise DefectError(f"{a} was not laid off before")
         bar = self.at(q) - self.at(p)
-        way = bar / abs(bar) * 1j * self.sense(w)  # type: ignore[attr-defined]
+        way = bar / abs(bar) * 1j * self.sense(w)
         self.put(name, self.at(s) + self.before[a] + way * number(drawn))
 
     @says("the line ⟨x⟩⟨y⟩ of the trials")
     def line_of_trials(self, x: str, y: str) -> None:
-        self.loci.append(Line.of(self.at(x), self.at(y) - self.at(x)))  # type: ignore[attr-defined]
+        self.loci.append(Line.of(self.at(x), self.at(y) - self.at(x)))
 
     @says(
         "divide the line of the two trials of each (?:other point in the same ratio|point in the "
@@ -306,7 +262,7 @@ class Trials:
                 raise DefectError(f"no rule reads: {match[5]}")
             p, q = (match[2], match[3]) if end[3] == match[3] else (match[3], match[2])
             way = self.at(q) - self.at(p)
-            size = self.lengths[end[1]]  # type: ignore[attr-defined]
+            size = self.lengths[end[1]]
             through = self.at(end[2]) + way / abs(way) * size
         return complex(cross(along / abs(along), self.at(point) - through))
 
@@ -320,7 +276,7 @@ class Trials:
         self, k: str, x: str, y: str, x2: str, y2: str, a: str, m: str, n: str, given: str, **_: str
     ) -> None:
         item = self.told_of_guide(k)
-        line = self.positive(self.guide(k), item)  # type: ignore[attr-defined]
+        line = self.positive(self.guide(k), item)
         if x:
             ways = [self.at(end) - self.at(start) for start, end in ((x, y), (x2, y2))]
         else:
@@ -334,8 +290,8 @@ class Trials:
 
     def told_of_guide(self, k: str) -> str:
         """What the data say of the guide of a block."""
-        point = self.sliding_point(k)  # type: ignore[attr-defined]
-        return str(self.told_of(rf"(?:pin )?{re.escape(point)} slides"))  # type: ignore[attr-defined]
+        point = self.sliding_point(k)
+        return str(self.told_of(rf"(?:pin )?{re.escape(point)} slides"))
 
 
 def root(gap: Callable[[float], float], low: float, high: float) -> float:

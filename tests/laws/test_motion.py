@@ -6,6 +6,8 @@ the construction says of it at the middle is held against how it has moved.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -63,7 +65,7 @@ def test_velocities_and_accelerations_are_the_rates_of_positions_and_velocities(
 @pytest.mark.parametrize("name", SHIPPED)
 def test_the_same_of_the_pump_while_its_crank_turns(name, n):
     scene = shipped(name, n).scene
-    source = scene.source.read_text(encoding="utf-8")
+    source = Path(scene.source).read_text(encoding="utf-8")
     source = source.replace("[parameters]", "[parameters]\nh = 0")
     source = source.replace('angle = "30 + 2*n"', 'angle = "30 + 2*n + 6*(300 + 10*n)*h"')
     from graphkin.scene.read_scene import read_text

@@ -14,6 +14,7 @@ from graphkin.loops.full_turns import counted_freely
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
+from tests.examples.scenes import FOLDER as SCENES
 from tests.scene_files import FOLDER, scene_text
 
 TRAINS = (
@@ -51,7 +52,7 @@ def test_a_group_closes_alike_whichever_of_its_wheels_is_written_first():
     frame, one, two, rest = re.split(r"(?=\[links\.[123]\])", text)
     swapped = "".join([frame, two, one, rest])
     for each in (text, swapped):
-        assert Mechanism(read_text(each, "made")).groups[1].trial.link == "2"
+        assert Mechanism(read_text(each, "made")).groups[1].tried.link == "2"
     with pytest.raises(ClosureError, match="close in 6 ways"):
         Mechanism(read_text(swapped.replace("closure 1", "closure 99"), "made")).solve()
 
@@ -101,3 +102,19 @@ def test_an_angle_that_no_linear_equation_ties_is_counted_by_itself():
     assert found == pytest.approx(values + turns * [1, 0, 0])
     kept = counted_freely(loops, values + turns, np.array([True, False, True]))
     assert (kept == values + turns).all()
+
+
+def test_a_track_that_a_driver_slides_counts_its_own_turns():
+    """It lies on a planet that has rolled 0.4 of a turn and more; a ring is driven against it."""
+    found = load(FOLDER / "loops/driven-against-a-slid-track.toml")
+    assert found.witness(found.solve()).agrees
+
+
+def test_nothing_closes_beside_a_driver_that_has_no_part_in_it():
+    """A crank by itself is written before the driver of the bar on a drum: a fault it was."""
+    text = (SCENES / "bar-on-drum-rod.toml").read_text(encoding="utf-8")
+    text = text.replace("G = [0, 300]", "G = [0, 3000]\nN = [500, 0]")
+    crank = "[links.5]\nN-M5 = 40\n[[drivers]]\nturn = 5\nangle = 20\nspeed = 3\n[[drivers]]"
+    found = Mechanism(read_text(text.replace("[[drivers]]", crank, 1), "far"))
+    with pytest.raises(ClosureError, match="links 6, 1, 2 do not close"):
+        found.solve()

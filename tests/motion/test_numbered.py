@@ -6,9 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.cli.report.piece_words import pieces_words
 from graphkin.mechanism import load
+from graphkin.motion.closures_followed import FollowedClosures
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers
 from graphkin.scene.model import Closure
@@ -74,3 +76,27 @@ def test_pieces_of_one_number_are_told_as_one_and_what_lies_between_has_no_rows(
         "φ from 270.000° to 270.500°: no rows, two closures lie too close together",
     ]
     assert {90.0, 270.0} == set(found.left_out)
+
+
+def test_followed_closures_of_several_trials_are_those_that_a_search_finds():
+    """Newton's method from the neighbours comes to the same places as the search all round."""
+    mechanism = load("examples/scenes/plates-coupled.toml")
+    (piece,) = cycle(mechanism, low=0, high=30, steps=3).pieces
+    course, at = piece.course, np.array([1.7, 11.3, 28.9])
+    assert course.closures is not None
+    targets = [target for target in course.program.targets if target[0] == "velocity"]
+    sought = replace(course, closures=None).columns(at, targets)
+    for target, found in course.columns(at, targets).items():
+        assert found == pytest.approx(sought[target], abs=1e-12), target
+
+
+def test_between_closures_that_are_not_alike_all_are_sought():
+    mechanism = load("examples/scenes/plates-coupled.toml")
+    (piece,) = cycle(mechanism, low=0, high=9, steps=3).pieces
+    course = piece.course
+    ways, size = course.closures, len(course.closures.at)
+    turned = FollowedClosures(ways.at, ways.rows * np.where(np.arange(size) % 2, 1, -1)[:, None])
+    at, targets = np.array([4.5]), [("position", "P3")]
+    wrong = replace(course, closures=turned).columns(at, targets)
+    right = course.columns(at, targets)
+    assert wrong[targets[0]] == pytest.approx(right[targets[0]], abs=1e-12)

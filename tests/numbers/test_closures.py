@@ -9,9 +9,9 @@ import pytest
 
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
-from graphkin.construction.higher_class.refining import proved
 from graphkin.numbers.arithmetic import is_ball, phase, turn_by
 from graphkin.numbers.kinds import ball_kind, decimal_kind
+from graphkin.numbers.refined_roots import proved
 from tests.numbers import number_kinds as nk
 from tests.numbers.test_every_group import NAMES, of_higher_class, work
 
@@ -106,19 +106,12 @@ def test_the_ball_of_a_closure_holds_what_bisection_finds(name, bits):
 # --- the proof -----------------------------------------------------------------------------------
 
 
-class Locus:
-    """A chain of which only the misfit matters here: any function of the trial value."""
-
-    def __init__(self, misfit):
-        self.misfit = misfit
-
-
-def proof(misfit, near, turns=True):
+def proof(misfit, near, step=1):
     """The ball that the proof gives, in 200 bits."""
     from flint import arb
 
     with ball_kind(200).working():
-        return proved(Locus(misfit), arb(near), turns)
+        return proved(misfit, arb(near), step)
 
 
 def test_a_change_of_sign_is_proved_and_the_root_is_in_the_ball():

@@ -27,6 +27,18 @@ def test_two_roots_close_together_are_both_found(gap):
     assert place == pytest.approx([middle - gap / 2, middle + gap / 2], abs=1e-9)
 
 
+@pytest.mark.parametrize("gap", [1e-7, 1e-4])
+@pytest.mark.parametrize("power", [-60, 60])
+def test_a_function_so_many_times_as_large_has_the_same_roots_to_the_last_bit(power, gap):
+    """By a power of two, which rounds nothing."""
+
+    def dip(x):
+        return np.cos(gap) - np.cos(x - 3.14)
+
+    assert found(dip).size == 4
+    assert found(lambda x: 2.0**power * dip(x)).tolist() == found(dip).tolist()
+
+
 def test_two_roots_are_two_where_rounding_moves_the_sides_of_a_dip():
     """A place that rounding alone puts below nought beside one root does not part the two."""
     grain = 2.0**-40
@@ -69,3 +81,14 @@ def test_an_interval_without_a_root_gives_none():
         lambda _, x: np.where(x < 0.3, -1.0, 2.0), np.array([0]), np.array([0.0]), np.array([1.0])
     )
     assert np.isnan(place).all()
+
+
+def test_a_root_just_before_a_jump_is_found_to_all_digits():
+    """As where a bar lies half a turn from where it counts: a wheel jumps by its rim's length."""
+    root = 3.14
+    place = found(lambda x: np.where(x < root + 1e-9, 55 * (x - root), 231.0))
+    assert place == pytest.approx([root], abs=4e-15)
+
+
+def test_a_jump_across_nought_is_no_root():
+    assert found(lambda x: np.where(x < 3.14, -1.0, 231.0)).size == 0

@@ -82,6 +82,13 @@ def test_what_is_wrong_with_a_profile_is_said(written, place, found, expected):
     assert expected in problem.expected
 
 
+def test_a_profile_has_a_radius():
+    """O1 and P are both at (0, 0) of the frame; A is beside them."""
+    assert scene_with('A = [0, 0.1]\nprofiles = { about = "O1", through = "A" }').frame.profiles
+    with pytest.raises(SceneError, match=r"^frame.profiles: O1 and P are written at one spot; "):
+        scene_with('profiles = { about = "O1", through = "P" }')
+
+
 def test_all_mistakes_are_told_at_once():
     with pytest.raises(SceneError) as told:
         scene_with(

@@ -154,7 +154,7 @@ def test_a_byte_order_mark_is_passed_over(written: Callable[[bytes], Path], data
     path = written(b"\xef\xbb\xbf" + (data / "pump.toml").read_bytes())
     assert read_scene(path).title == "Pump mechanism"
     assert read_scene(path).name == path.parent.name
-    assert read_scene(path).source == path
+    assert read_scene(path).source == str(path)
 
 
 @pytest.mark.parametrize(

@@ -180,6 +180,16 @@ def test_what_has_no_value_is_a_scene_error(text: str) -> None:
     assert text in caught.value.problems[0].found
 
 
+@pytest.mark.parametrize("text", ["((pi*n)**64)**64", "*".join(["(pi*n)**64"] * 4)])
+def test_a_number_too_large_for_a_double_names_the_parameters(text: str) -> None:
+    """As a power, and as a product of powers that are doubles."""
+    with pytest.raises(SceneError) as caught:
+        expression(text, "cm", "links.1.A-B").number(SEVEN)
+    (problem,) = caught.value.problems
+    assert problem.place == "links.1.A-B"
+    assert problem.found == f'"{text}" gives a number that grows without bound with n = 7'
+
+
 def test_division_by_zero_names_the_parameters() -> None:
     with pytest.raises(SceneError, match=r"drivers\[0\].angle: .*division by zero with n = 7"):
         expression("1/(n - 7)", "deg", "drivers[0].angle").number(SEVEN)

@@ -1,10 +1,13 @@
 """Groups that no construction takes are refused, each by its own limit."""
 
+import math
+
 import pytest
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import StructureError
+from tests.examples.scenes import mechanism
 
 HEAD = """
 graphkin = 1
@@ -85,6 +88,57 @@ def test_a_limit_is_named(text, found):
     with pytest.raises(StructureError) as error:
         Mechanism(read_text(text, "limit")).solve()
     assert [problem.found for problem in error.value.problems] == [found]
+
+
+def test_a_plank_that_tips_on_its_rollers_is_a_limit_of_its_own():
+    """The same plank on a roller of 20 mm and one of 15 mm."""
+    text = PLANK.replace("radius = 20", "radius = 15", 1)
+    with pytest.raises(StructureError, match="on rollers of different sizes tips as they roll"):
+        Mechanism(read_text(text, "limit")).solve()
+
+
+BAR = (
+    HEAD
+    + """
+[frame]
+O = [0, 0]
+C = [200, 40]
+G = [400, 200]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 300
+[links.3]
+C-D = 30
+wheel = { centre = "C", radius = 30 }
+rolls = { on = 2, through = "A", angle = 0, side = "right" }
+[links.4]
+B-E = 120
+[links.5]
+G-E = 150
+[[drivers]]
+turn = 1
+angle = 60
+speed = 6
+[branches]
+E = "left of B-G"
+"""
+)
+"""A crank, a bar that a roller leads, and a rod and a rocker that hang on the end of the bar."""
+
+
+def test_a_track_on_whose_end_a_rod_hangs_asks_for_what_keeps_its_wheel():
+    """Two pins seem to hold the bar; with the name that the error proposes the wheel leads it."""
+    with pytest.raises(StructureError) as error:
+        Mechanism(read_text(BAR, "bar")).solve()
+    asked = "if a pin and the wheel of link 3 alone hold link 2, write link = 6 in rolls of link 3"
+    assert asked in str(error.value)
+    named = BAR.replace('"right"', '"right", link = 6') + '6 = "forward"\n'
+    found = Mechanism(read_text(named, "bar"))
+    hung = found.solve()
+    assert found.witness(hung).agrees
+    alone = mechanism("bar-on-roller").solve()
+    assert hung.links["2"].omega == pytest.approx(alone.links["2"].omega * 6 / (2 * math.pi))
 
 
 def test_the_driver_that_is_proposed_for_a_bicycle_turns_its_pedals():

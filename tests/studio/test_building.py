@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from cmath import rect
+from math import radians
+from tomllib import loads
+
 import pytest
 
 from graphkin.mechanism import Mechanism
@@ -33,6 +38,15 @@ def test_a_dragged_pin_changes_its_lengths_alone():
     assert [line.split(" = ")[0] for line in changed(PUMP, done(PUMP, "move", "B", at=at))] == [
         "O2-B", "A-B", "B-C",
     ]  # fmt: skip
+
+
+def test_a_dragged_pin_turns_no_driver_but_that_of_its_own_link():
+    text = PUMP.replace('angle = "30 + 2*n"', "angle = 44")
+    at = places_of(text)
+    assert "angle = 44\n" in done(text, "move", "B", at=at["B"] + 2)
+    turned = done(text, "move", "A", at=at["O1"] + (at["A"] - at["O1"]) * rect(1, radians(10)))
+    (angle,) = read_text(turned, "own", None, {}).drivers
+    assert float(angle.position.number({})) == pytest.approx(54, abs=0.1)
 
 
 def test_the_other_closure_has_all_bars_as_long_as_the_one_that_is_drawn():
@@ -91,6 +105,14 @@ def test_what_is_deleted_is_nowhere_named_and_the_rest_stands():
     assert set(scene.links) == {"1", "2", "3"}
     assert set(scene.branches) == {"B"}
     assert "D" not in (*scene.ask.velocity, *scene.ask.acceleration)
+
+
+@pytest.mark.parametrize("point", ["A", "B", "C", "D"])
+def test_no_branch_names_a_point_that_is_deleted(point):
+    after = loads(done(PUMP, "delete", point, words="point"))
+    for told in after.get("branches", {}).items():
+        assert point not in re.findall(r"\w+", " ".join(told))
+    assert ("B" in after.get("branches", {})) is (point in "CD")
 
 
 def test_a_pin_on_the_line_of_a_bar_is_written_so():

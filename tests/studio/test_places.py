@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,10 +21,10 @@ from tests.scene.conftest import DATA
 from tests.scene.test_problems import CASES, PLANETS, SAID, SEVERAL
 
 PLANET = (DATA / "planet.toml").read_text(encoding="utf-8")
-PUMP = scene_files.find("pump").read_text(encoding="utf-8")
+PUMP = Path(scene_files.find("pump")).read_text(encoding="utf-8")
 SCENES = [
     *(FOLDER / f"{name}.toml" for name in CHOSEN),
-    *(scene_files.find(name) for name in scene_files.names()),
+    *(Path(scene_files.find(name)) for name in scene_files.names()),
 ]
 HEADED = ("links.2", "links.5", "drivers[0]", "drivers")
 """What is missing there has no line of its own: the heading is marked."""

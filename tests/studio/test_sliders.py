@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -12,7 +13,7 @@ from graphkin.studio.scene_edits import Edit, edits
 from graphkin.studio.sliders import MOST, ParameterSlider, sliders
 from graphkin.text.errors import SceneError
 
-PUMP = scene_files.find("pump").read_text(encoding="utf-8")
+PUMP = Path(scene_files.find("pump")).read_text(encoding="utf-8")
 GIVEN = "n = { value = 7, min = 1, max = 30, step = 1 }"
 
 

@@ -21,12 +21,14 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.cycle import cycle
 from graphkin.motion.pieces import followed
 from graphkin.motion.sweep import sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
 from graphkin.text import words
 from graphkin.web.branch_tracking import halved_between
+from graphkin.web.frames import place_in
 from graphkin.web.moving import Moving, moving, still
 from graphkin.web.page_driver import driven_by, window
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
@@ -256,6 +258,13 @@ def test_a_rocker_goes_as_far_as_coupler_and_follower_reach(a, b, c, d, angle):
     assert isclose(found.reach.high, farthest, abs_tol=1e-6)
     nearest = degrees(acos((a * a + d * d - (b - c) ** 2) / (2 * a * d)))
     assert isclose(found.reach.low, nearest, abs_tol=1e-6)
+
+
+@pytest.mark.parametrize(("angle", "place"), [(20, 20), (-20, -20), (340, -20), (700, -20)])
+def test_a_rocker_that_swings_about_nought_stands_within_its_range(angle, place):
+    """Whole turns more or less are the same place."""
+    found = cycle(mechanism_of(FOUR_BAR.format(a=3, b=2, c=2.5, d=4, angle=angle)))
+    assert place_in(found, *found.ranges[0]) == pytest.approx(place, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", ["stephenson-2-ternary", "stephenson-3-crank"])

@@ -27,12 +27,12 @@ from graphkin.web.facts import results
 from graphkin.web.field_pictures import ink_sheet
 from graphkin.web.highlights import ghosts, rows_found
 from graphkin.web.offline_page import data_block, offline_page, part
-from graphkin.web.page_sentences import MOST
+from graphkin.web.page_sentences import MOST, SentencePart, grouped
 from graphkin.web.protocol import PageProtocol, in_parts, strokes, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from graphkin.writers.svg import number
-from tests.chosen import SCENES
+from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "offset-slider-crank", "slotted-lever")
@@ -142,7 +142,7 @@ def test_the_run_tells_every_step_of_every_sentence_of_every_sheet_once(name):
     assert told.bounds(len(sheets_of(name)) - 1)[1] == len(told.said)
 
 
-@pytest.mark.parametrize("name", [*LABS, "pump-collinear", *SCENES])
+@pytest.mark.parametrize("name", [*LABS, "pump-collinear", *CHOSEN])
 def test_a_step_draws_three_strokes_at_most(name):
     for sheet in sheets_of(name):
         own, _, timed = in_parts(sheet)
@@ -223,6 +223,22 @@ def test_each_mark_appears_with_a_sentence_of_its_own_sheet_or_stands_before(nam
         first, last = told.bounds(place)
         assert all(mark.at == 0 or first <= mark.at <= last for mark in timed)
         assert max(mark.at for mark in timed) > first
+
+
+def test_one_sentence_says_as_many_parts_of_a_point_as_it_may_draw_strokes():
+    parts = [SentencePart(step, step // 7, "") for step in range(9)]
+    assert [len(some) for some in grouped(parts, [1] * 9)] == [MOST, MOST, 1, 2]
+    assert [len(some) for some in grouped(parts, [MOST] * 9)] == [1] * 9
+
+
+@pytest.mark.parametrize("name", [*LABS, "oldham", "gears-ring", "eight-link-1"])
+def test_what_a_step_draws_appears_with_the_sentence_that_draws_it(name):
+    """Also where a sentence is told in parts; what is given is there from the first."""
+    for sheet in sheets_of(name):
+        _, own, timed = in_parts(sheet)
+        marks = [one for one in timed if one.step in own]
+        assert len({one.at for one in marks}) > 4
+        assert all(one.at == max(own[one.step] + 1, 0) for one in marks)
 
 
 def test_b_of_the_pump_is_drawn_from_what_its_sentence_names():

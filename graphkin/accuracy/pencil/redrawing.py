@@ -8,9 +8,9 @@ from typing import Any
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark, marked
-from graphkin.construction.higher_class.closure_solver import ClosureSolver, Trying, closer_of
+from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.numbers.arithmetic import phase
+from graphkin.numbers.common_roots import solutions
 from graphkin.numbers.plane import cross
 
 Errors = Callable[[int, PencilMark], Any]
@@ -101,47 +101,21 @@ def followed(
 
     trying = closer.trying
     count = len(trying.unknowns)
-    first, signs, sine = exact[:count], exact[count:-1], exact[-1]
+    signs, sine = exact[count:-1], exact[-1]
     rows = np.broadcast_to(np.array(signs, dtype=float), (len(shift), len(signs)))
     args = [np.broadcast_to(value, len(shift)) for value in known]
-    pairs = [*zip(trying.unknowns, first, strict=True)]
-    start = np.array([phase(complex(v)) if one.turns else float(v) for one, v in pairs])
-    sizes = np.array([1.0 if one.turns else max(abs(float(v)), 1e-3) for one, v in pairs])
+    start = np.array([*map(float, trying.numbers(exact))])
+    turned = [one.turns for one in trying.unknowns]
+    sizes = np.where(turned, 1.0, np.maximum(abs(start), 1e-3))
     tried, steps = np.tile(start, (len(shift), 1)), SMALL * sizes
     missed = np.column_stack([shift] * count)
     for _ in range(ROUNDS):
         slopes = np.empty((len(shift), count, count))
         for k in range(count):
             away = np.where(np.arange(count) == k, steps, 0.0)
-            low, high = (misfits(trying, args, tried + way * away, rows) for way in (-1, 1))
+            low, high = (trying.misfits(args, tried + way * away, rows) for way in (-1, 1))
             slopes[:, :, k] = (high - low) / (2 * steps[k])
-        left = misfits(trying, args, tried, rows) - missed
+        left = trying.misfits(args, tried, rows) - missed
         with np.errstate(all="ignore"):
-            tried = tried - quotients(slopes, left)
-    turned = [one.turns for one in trying.unknowns]
-    values = (
-        np.exp(1j * each) if turns else each for turns, each in zip(turned, tried.T, strict=True)
-    )
-    return (*values, *signs, sine)
-
-
-def quotients(slopes: Any, left: Any) -> Any:
-    """By how much trial values (N, n) are off, from misfits (N, n) and their slopes (N, n, n); NaN
-    where these have no value."""
-    import numpy as np
-
-    if left.shape[1] == 1:
-        return left / slopes[:, 0]
-    good = np.isfinite(slopes).all(axis=(1, 2)) & np.isfinite(left).all(axis=1)
-    good &= np.linalg.det(np.where(good[:, None, None], slopes, 0.0)) != 0
-    slopes = np.where(good[:, None, None], slopes, np.eye(left.shape[1]))
-    found = np.linalg.solve(slopes, left[..., None])[..., 0]
-    return np.where(good[:, None], found, np.nan)
-
-
-def misfits(trying: Trying, known: Sequence[Any], tried: Any, rows: Any) -> Any:
-    """By how many metres each of the groups tried together does not close: (N, n)."""
-    import numpy as np
-
-    found = trying.found(known, tried, rows)
-    return np.column_stack([found[one.misfit] for one in trying.unknowns])
+            tried = tried - (left / slopes[:, 0] if count == 1 else solutions(slopes, left))
+    return (*trying.placed(tried.T), *signs, sine)

@@ -20,6 +20,8 @@ That it is said to be about right changes nothing.
 """
 BLANKS = ("-", "–", "—", "--", "n/a", "n.a.", "na")
 """What stands for no answer; a single - is a sense in a field of one."""
+OPEN = "?"
+"""What stands for a number that is not decided yet, as those of drawings that are still asked."""
 MISTYPED = re.compile(
     r"^[\s()\[\]^*·/-]*[0-9_']|[.,]|^[oOlI]+(?:[0-9\s]|$)|[A-Za-z](?![23](?![0-9]))[0-9]"
 )
@@ -74,7 +76,9 @@ def read_sense(text: str, stripped: str, quantity: str) -> Answer:
 
 
 def read_number(text: str, stripped: str, unit: str) -> Answer:
-    """A number with a decimal point or comma, and its unit where one is written."""
+    """A number with a decimal point or comma, and its unit where one is written; ? is open."""
+    if stripped == OPEN:
+        return Answer(text, problem="open")
     found = NUMBER.match(stripped) if len(stripped) <= LONGEST else None
     if found is None:
         return Answer(text, problem="number")

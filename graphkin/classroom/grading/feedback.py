@@ -22,7 +22,8 @@ from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import escape, extent, flowed, plain, words_of
+from graphkin.drawing.richtext import extent, flowed, plain, words_of
+from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
 from graphkin.writers.templates import filled
 

@@ -12,7 +12,7 @@ from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Stat
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import TURNING
 from graphkin.drawing.glyphs import advance
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
 from graphkin.text.errors import PageError
 
@@ -39,6 +39,7 @@ PLAIN = {
     Status.BLANK: "feedback.blank",
 }
 UNREAD = {
+    "open": "unread.open",
     "number": "unread.number",
     "unit": "unread.unit",
     "large": "unread.large",
@@ -192,7 +193,9 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         parts = [words("feedback.kept_back")]
     else:
         parts = [far(mark, words)]
-    if mark.status is Status.FOLLOWS:
+    if mark.status is Status.FOLLOWS and not mark.source:
+        parts.append(words("feedback.follows_drawn", share=percent(mark)))
+    elif mark.status is Status.FOLLOWS:
         source = graded.mark(mark.source).item.symbol
         parts.append(words("feedback.follows", source=source, share=percent(mark)))
     elif mark.slip and mark.slip != REVERSED:

@@ -16,14 +16,16 @@ class Answer(Struct, frozen=True):
     """One cell of an answer table: its ``text`` and the number that it states, in the field's unit.
 
     A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
-    sign was written; ``problem`` why a cell cannot be read (number, unit, large, turning, sliding),
-    which is not the same as wrong.
+    sign was written; ``problem`` why a cell cannot be read (open, number, unit, large, turning,
+    sliding), which is not the same as wrong; ``followed`` that it was found on the drawing to
+    follow from the student's own earlier points.
     """
 
     text: str
     value: float | None = None
     signed: bool = False
     problem: str = ""
+    followed: bool = False
 
     @property
     def is_blank(self) -> bool:
@@ -69,8 +71,9 @@ class EarnedMark(Struct, frozen=True):
     """What one field earned, of ``points``, and why.
 
     ``expected`` is the key's value and ``tolerance`` how far an answer may lie from it, in the
-    field's unit; ``source`` is the field from whose own value the answer follows, rightly where it
-    is right but not by the key, or at which its slip was paid for; ``slip`` the name of the mistake
+    field's unit; ``source`` is the field from whose own value the answer follows (none where its
+    drawing tells that), rightly where it is right but not by the key, or at which its slip was paid
+    for; ``slip`` the name of the mistake
     that gives it, ``odds`` how much better that explains it than chance;
     ``torn`` tells of a sense that the sign of its own value contradicts; ``decision`` is the
     lecturer's.

@@ -152,9 +152,11 @@ class Marker:
                 follows = None
         if share and paid_at:
             share = max(share, rubric.follow)
-        if follows is not None and rubric.follow >= share:
+        drawn = mark.answer.followed and rubric.follow > 0
+        if (follows is not None or drawn) and rubric.follow >= share:
             earned = mark.points * Fraction(str(rubric.follow))
-            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=follows.sources[0])
+            source = follows.sources[0] if follows is not None else ""
+            mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=source)
         elif found is not None:
             if mark.points:
                 paid.setdefault(name, field)

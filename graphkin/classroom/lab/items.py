@@ -25,8 +25,7 @@ from graphkin.construction.core.quantities import (
     MotionQuantity,
     names_asked,
 )
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism, point_of
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}

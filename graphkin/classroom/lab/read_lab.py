@@ -32,7 +32,7 @@ from graphkin.scene.quantity import Quantity, expression, shortest
 from graphkin.scene.read_scene import check_version, read_scene
 from graphkin.text.errors import Mend, Problem, SceneError
 
-LAB, SCENE = scene_files.LAB, "scene.toml"
+LAB, SCENE = scene_files.LAB, scene_files.SCENE
 USUAL, LIMITS = Rubric(), Fair()
 OPEN = -1.0
 """No limit is written."""

@@ -10,8 +10,8 @@ from graphkin.classroom.printing.qr_code import SIDE, square
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
-from graphkin.drawing.richtext import escape, extent
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text import Words
 
 LEFT, RIGHT, TOP, BOTTOM = A4_AREA[0] + 4, A4_AREA[2] - 4, A4_AREA[1] + 4, A4_AREA[3] - 4

@@ -16,7 +16,7 @@ from graphkin.drawing.areas import A3_AREA
 from graphkin.drawing.frame import CELLS, fitting, room_in
 from graphkin.drawing.glyphs import known, measures
 from graphkin.drawing.marks import Page, Text
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError
 
 UNKNOWN = "?"

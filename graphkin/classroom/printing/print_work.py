@@ -29,8 +29,8 @@ from graphkin.documents.sheet_documents import (
     proved,
 )
 from graphkin.drawing.marks import Page
-from graphkin.drawing.richtext import escape
 from graphkin.drawing.style import Ink
+from graphkin.drawing.symbol_markup import escape
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import Words

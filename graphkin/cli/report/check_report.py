@@ -212,10 +212,13 @@ def cam_lines(scene: Scene) -> Iterator[str]:
 
 
 def profile_lines(profile: CamProfile, unit: str) -> Iterator[str]:
-    """The pressure angle of one profile, and its least radius of curvature."""
+    """The pressure angle of one profile, and its least radius of curvature.
+
+    A flat follower has none, but where it swings about a pivot beside its face.
+    """
     cam = profile.cam
-    if cam.lever or not profile.is_flat:
-        angle, at = profile.steepest
+    angle, at = profile.steepest
+    if not profile.is_flat or (cam.lever and round(angle, 2)):
         steep = STEEP_LEVER if cam.lever else STEEP
         over = f", above the usual {steep:g}°" if angle > steep else ""
         yield f"  pressure angle at most {angle:.2f}° (at {law_place(cam, at, unit)}){over}"

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import has_no_length, rate_symbol
@@ -25,6 +24,9 @@ from graphkin.construction.velocity.laid_off_by_rate import (
 )
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
 
 
 @action("centripetal")

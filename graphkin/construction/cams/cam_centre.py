@@ -15,10 +15,9 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.core.vocabulary import coordinate as along_guide
 from graphkin.construction.guides.guide_actions import axis_by_guide
-from graphkin.construction.guides.guides import axis, path_of
+from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
 from graphkin.numbers.cam_followers import (
     TipMotion,
@@ -408,8 +407,10 @@ def plate_line(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
 
 
 def plate_coordinate(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
-    """The coordinate of a plate on its guide."""
+    """The coordinate of a plate on its guide, from where the guide of a moving link counts it."""
     line = plate_line(pen, shapes, cam)
+    if cam.carrier != FRAME:
+        line = standing_guide(pen, shapes, pen.first_slide(cam.on))
     with pen.on(Part.POSITION, Plane.NUMBERS):
         return once(pen, ("plate", cam.on), along_guide, line, pen.the("position", cam.pivot))
 

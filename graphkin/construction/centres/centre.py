@@ -15,8 +15,7 @@ from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, meet
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, Ratio, cross
 

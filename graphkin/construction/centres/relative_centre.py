@@ -21,8 +21,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Line, Ratio, crossing_sine
 from graphkin.scene.model import FRAME

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from msgspec import Struct
 
+from graphkin.scene.known_names import keeper_asked
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -24,7 +25,7 @@ from graphkin.structure.groups import (
     Unresolved,
 )
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
+from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding, contacts
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -55,6 +56,11 @@ def under(point: str, link: str) -> str:
 def contact_name(contact: Contact) -> ContactName:
     """Name of the point where a wheel touches what it rolls on: their common centre."""
     return ContactName(contact.letter)
+
+
+def kept_touches(scene: Scene, links: Collection[str]) -> Iterator[ContactName]:
+    """Names of the points where the wheels touch that some links keep on their tracks."""
+    return (contact_name(each) for each in contacts(scene) if each.rolling.keeper in links)
 
 
 def crank_tip(scene: Scene, crank: Crank) -> str | None:
@@ -214,19 +220,16 @@ def led_base(scene: Scene, link: str, pin: str, pair: Joint) -> Base:
 def wheel_base(scene: Scene, link: str, pin: str, contact: Contact) -> Base:
     """The base of a wheel on a track: its pin and its point of contact."""
     if contact.links[0] != link:
-        raise no_track(link)
+        raise no_track(scene, contact)
     return base_of(scene, link, pin, under(contact_name(contact), link))
 
 
-def no_track(link: str) -> StructureError:
-    """The error for a track that a pin and a wheel are to carry: it is not constructed."""
-    return StructureError(
-        Problem(
-            f"links.{link}",
-            "is a straight track that only a wheel and a pin hold",
-            HELD,
-        )
-    )
+def no_track(scene: Scene, contact: Contact) -> StructureError:
+    """The error for a track that a pin and a wheel are to carry, and what keeps the wheel there."""
+    wheel, track = contact.links
+    found = "is a straight track that only a wheel and a pin hold"
+    hint = "" if contact.rolling.keeper else keeper_asked(scene.links, wheel, track)
+    return StructureError(Problem(f"links.{track}", found, HELD, hint))
 
 
 def geared_base(scene: Scene, group: Geared) -> Base:
@@ -258,7 +261,7 @@ def no_construction(group: Group) -> StructureError:
         return StructureError(Problem(place, found, "one driver within a group that is tried"))
     if group.tracks:
         found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
-        return StructureError(Problem(place, found, HELD, LEVEL))
+        return StructureError(Problem(place, found, HELD, group.asked or LEVEL))
     if group.wedged:
         wheels = f"wheel {group.wedged[0]}"
         if len(group.wedged) > 1:

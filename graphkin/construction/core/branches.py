@@ -180,9 +180,22 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     )
 
 
+def leads_later(scene: Scene, group: Higher, name: str) -> bool:
+    """Whether a way is stated of a block of a group that slides on a link which comes after it."""
+    if not isinstance(scene.branches[name], Way):
+        return False
+    before = {*group.links, *(link for pair in group.placing for link in pair.links)}
+    slides = scene.links[name].slides
+    return bool(slides) and before.isdisjoint(slide.on for slide in slides)
+
+
 def closure_of(scene: Scene, group: Higher) -> int:
     """The stated number of a higher group's closure, counted from one."""
-    stated = {name: scene.branches[name] for name in group.links if name in scene.branches}
+    stated = {
+        name: scene.branches[name]
+        for name in group.links
+        if name in scene.branches and not leads_later(scene, group, name)
+    }
     numbers = [branch.number for branch in stated.values() if isinstance(branch, Closure)]
     if numbers and len(stated) == 1:
         return numbers[0]

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from msgspec import Struct
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
@@ -23,6 +22,7 @@ from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
     from graphkin.construction.core.relation import Relation
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct, field
 
@@ -17,11 +17,13 @@ from graphkin.construction.core.quantities import MOTION, PLANES, RATE, SLIDING,
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
 from graphkin.construction.core.vocabulary import join
-from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, Scales, extent_of
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.text import Words
+
+if TYPE_CHECKING:
+    from graphkin.drawing.field import Field
 
 METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
 """The units in which a scene may write lengths."""

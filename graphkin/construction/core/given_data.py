@@ -20,8 +20,7 @@ from graphkin.construction.core.parameter_words import (
     reckoned,
 )
 from graphkin.construction.core.relation import figure
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import (
     FRAME,
     Angled,

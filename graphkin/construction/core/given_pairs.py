@@ -14,8 +14,7 @@ from graphkin.construction.core.pen import letter
 from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
 from graphkin.scene.wheels import contact_letters

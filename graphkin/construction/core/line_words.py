@@ -7,8 +7,7 @@ from math import degrees
 
 from graphkin.construction.core.amounts import in_mm, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, At, GuideOrTrack, Link
 from graphkin.scene.quantity import Quantity, shortest
 

@@ -9,9 +9,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
-from graphkin.drawing.richtext import escape
 from graphkin.drawing.scale import digits
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.text import Words
 

@@ -7,12 +7,19 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from graphkin.construction.core.amounts import written
-from graphkin.drawing.richtext import escape
+from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity, shortest
 from graphkin.text import Words
 from graphkin.text.errors import SceneError
+
+LETTERS = (
+    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi rho sigma tau",
+    "phi psi omega",
+)
+GREEK = dict(zip(" ".join(LETTERS).split(), "αβγδεζηθκλμνξρστφψω", strict=True))
+"""Greek letters by the names that a parameter may have."""
 
 
 def parameters(scene: Scene, words: Words) -> list[str]:
@@ -47,12 +54,17 @@ def parameter(scene: Scene, words: Words, name: str) -> str:
     return " = ".join(as_set(scene, words, name))
 
 
+def parameter_symbol(name: str) -> str:
+    """A parameter's symbol: its name, or the Greek letter that it spells."""
+    return f"*{escape(GREEK.get(name, name))}*"
+
+
 def as_set(scene: Scene, words: Words, name: str) -> tuple[str, str]:
     """A parameter's symbol and what it is set to; t is the moment of laws of time, in seconds."""
     unit = "s" if name == TIME else unit_of(scene, name)
     printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
     space = " " if printed and printed != "°" else ""
-    return f"*{escape(name)}*", words.decimal(shortest(scene.values[name])) + space + printed
+    return parameter_symbol(name), words.decimal(shortest(scene.values[name])) + space + printed
 
 
 def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str = "") -> str:
@@ -62,7 +74,7 @@ def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str 
     """
     name, text = lone(scene, quantity), written(scene, words, quantity).rstrip()
     told = name in put_in(scene) and name != letter
-    return f"*{escape(name)}* = {text}" if told else text
+    return f"{parameter_symbol(name)} = {text}" if told else text
 
 
 def lone(scene: Scene, quantity: Quantity) -> str:

@@ -22,20 +22,29 @@ from graphkin.numbers.plane import (
 
 
 class Action(Struct, frozen=True):
-    """One thing a hand can do: its sentence's key, its value, and the margin of a crossing."""
+    """One thing a hand can do: its sentence's key, its value, and the margin of a crossing.
+
+    What may fail by what it is drawn of has ``reaches``, a smooth function of that, positive where
+    it succeeds.
+    """
 
     key: str
     value: Callable[..., Any]
     margin: Callable[..., Real] | None = None
+    reaches: Callable[..., Real] | None = None
 
     def __call__(self, *args: Any) -> Any:
         """The value of the action on given values."""
         return self.value(*args)
 
 
-def action(key: str, margin: Callable[..., Real] | None = None) -> Callable[..., Action]:
+def action(
+    key: str,
+    margin: Callable[..., Real] | None = None,
+    reaches: Callable[..., Real] | None = None,
+) -> Callable[..., Action]:
     """Make an action of a function, under the key of its sentence."""
-    return lambda value: Action(key, value, margin)
+    return lambda value: Action(key, value, margin, reaches)
 
 
 # --- the mechanism, by compass and ruler ---------------------------------------------------------
@@ -130,7 +139,7 @@ def sum_of(a: Real, b: Real) -> Real:
 
 @action("difference")
 def difference(a: Real, b: Real) -> Real:
-    """The rate of the link against which another turns at a given rate."""
+    """What a number has too much; of rates, that of the link against which another turns."""
     return a - b
 
 

@@ -15,7 +15,7 @@ from graphkin.construction.core.naming import (
     length_scale,
     sense,
 )
-from graphkin.construction.core.parameter_words import is_derived, reckoned
+from graphkin.construction.core.parameter_words import is_derived, parameter_symbol, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import (
     Relation,
@@ -27,8 +27,7 @@ from graphkin.construction.core.relation import (
 )
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.expression import CONSTANT
 from graphkin.scene.model import FRAME, Driver
 from graphkin.scene.quantity import Quantity, shortest
@@ -165,7 +164,7 @@ def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
         name = match[0]
         if name not in known:
             return "π" if name == CONSTANT else name
-        return drawing.words.decimal(shortest(known[name])) if values else f"*{escape(name)}*"
+        return drawing.words.decimal(shortest(known[name])) if values else parameter_symbol(name)
 
     parts = re.split(r"([A-Za-z_]\w*)", text)
     return "".join(

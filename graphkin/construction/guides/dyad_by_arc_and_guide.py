@@ -14,13 +14,23 @@ from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
-from graphkin.numbers.plane import Circle, Line, line_circle_sine, line_meets_circle
+from graphkin.numbers.plane import Circle, Line, cross, line_circle_sine, line_meets_circle
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
-@action("arc-cuts-line", margin=lambda line, circle, way: line_circle_sine(line, circle))
+def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
+    """By how much a circle meets a line."""
+    height = cross(line.along, circle.centre - line.point) / abs(line.along)
+    return circle.radius**2 - height**2
+
+
+@action(
+    "arc-cuts-line",
+    margin=lambda line, circle, way: line_circle_sine(line, circle),
+    reaches=line_reached,
+)
 def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
     """Where an arc cuts a line, farther along it or nearer."""
     return line_meets_circle(line, circle, way)

@@ -12,8 +12,7 @@ from graphkin.construction.core.naming import angle_symbol, drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive
 from graphkin.construction.core.vocabulary import action
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Slide

@@ -16,8 +16,7 @@ from graphkin.construction.guides.guides import height_of, local_line
 from graphkin.construction.links.compass_arc import compass
 from graphkin.construction.links.dyad_by_arcs import arcs_meet
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Pin, Sliding
@@ -40,7 +39,12 @@ def swing_margin(pivot: Point, pin: Point, height: Real, way: int, size: float) 
     return sqrt((bar - height) * (bar + height)) / pick(bar < size, size, bar)
 
 
-@action("swing", margin=swing_margin)
+def swing_reached(pivot: Any, pin: Any, height: Any, *_: Any) -> Any:
+    """By how much a pin stands far enough from a pivot for a guide at a height between them."""
+    return abs(pin - pivot) ** 2 - height**2
+
+
+@action("swing", margin=swing_margin, reaches=swing_reached)
 def swing(pivot: Point, pin: Point, height: Real, way: int, size: float) -> Point:
     """Direction of a guide that turns about a pivot and keeps a pin at a height to its left.
 

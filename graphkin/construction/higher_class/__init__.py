@@ -1,1 +1,1 @@
-"""Groups of class III and higher: trials, closures, and two trial plans."""
+"""Groups of class III and higher: where they close, and the plans that two wrong ones give."""

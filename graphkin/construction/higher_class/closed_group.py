@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
 from graphkin.construction.core.naming import angle_symbol, way_of
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.pairs import Pin, Sliding
@@ -54,7 +53,7 @@ class ClosedGroup(Construction, frozen=True):
     @property
     def found_link(self) -> str:
         """The link that is tried."""
-        return self.group.trial.link
+        return self.group.tried.link
 
     # --- where it is cut -------------------------------------------------------------------------
 
@@ -113,7 +112,7 @@ class ClosedGroup(Construction, frozen=True):
         if role != "closing":
             return ""
         listed = escape(", ".join(seen(drawing, self.closes)))
-        (tried,) = seen(drawing, [self.group.trial.link])
+        (tried,) = seen(drawing, [self.group.tried.link])
         fields = {"k": escape(tried), "n": str(self.number), "list": listed}
         if self.driver is not None:
             fields["what"] = angle_symbol(drawing.scene, self.driver)
@@ -148,7 +147,7 @@ class ClosedGroup(Construction, frozen=True):
                     cut = bar(p, q)
                 case Tie(first=Pin(point=p)):
                     cut = symbol(p)
-            (tried,) = seen(drawing, [one.trial.link])
+            (tried,) = seen(drawing, [one.tried.link])
             drawn = (link for each in one.chain for link in each.links)
             listed = escape(", ".join(seen(drawing, drawn)))
             yield drawing.words("step.close-within", k=escape(tried), list=listed, cut=cut)

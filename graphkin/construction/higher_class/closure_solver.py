@@ -6,20 +6,23 @@ arrays of trial positions, brackets every fit and closes in on it. Its derivativ
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from graphkin.construction.core.program import CLOSE, Step
+from graphkin.construction.core.program import CLOSE, Program, Step
+from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.vocabulary import Action
-from graphkin.construction.higher_class.flat_dyads import fits_beside
 from graphkin.construction.higher_class.trial import MOST, Trial
-from graphkin.construction.higher_class.trial_windows import Windows, narrowed
 from graphkin.numbers.arithmetic import FLOAT, phase
-from graphkin.numbers.kinds import kind_of
+from graphkin.numbers.common_roots import solutions
+from graphkin.numbers.kinds import ball_kind, in_doubles, kind_of
 from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
+from graphkin.numbers.windows import Windows, fits_beside, narrowed
+from graphkin.scene.model import Scene
 
 DOUBLES = ("float", "batch")
 """The kinds in which closures are looked for; in the others they are refined."""
@@ -32,6 +35,10 @@ STEP = 1e-6
 
 HIDDEN = 1e-6
 """Sine of crossing below which what doubles take for one closure may be two, or none."""
+
+
+BITS = (128, 256, 512, 1024)
+"""Bits of the balls that are asked one after the other."""
 
 
 class ClosingError(ValueError):
@@ -94,7 +101,7 @@ class Trying(Trial, frozen=True, dict=True):
             row = closures.sure(number)[0]
             if np.isnan(row[1]):
                 raise closures.merging_at(number) or ClosingError(closures.ways(), number)
-            return self.polished(known, row)
+            return self.polished(row)
         arrays = [np.atleast_1d(value) for value in known]
         size = max((len(array) for array in arrays), default=1)
         arrays = [np.broadcast_to(array, size) for array in arrays]
@@ -111,11 +118,8 @@ class Trying(Trial, frozen=True, dict=True):
 
     def parts(self, table: Any) -> tuple[Any, ...]:
         """Trial values, signs and sines of rows: element, trial values, signs, sine."""
-        import numpy as np
-
-        ends = enumerate(self.unknowns, 1)
-        tried = (np.exp(1j * table[:, k]) if one.turns else table[:, k] for k, one in ends)
-        return (*tried, *table[:, 1 + len(self.unknowns) :].T)
+        count = 1 + len(self.unknowns)
+        return (*self.placed(table[:, 1:count].T), *table[:, count:].T)
 
     def closures_of(self, known: Sequence[Any]) -> Closures:
         """Every closure on known scalars, in the order of their numbers; the last ones are kept.
@@ -132,14 +136,10 @@ class Trying(Trial, frozen=True, dict=True):
             self.kept[asked] = found
         return self.kept[asked]
 
-    def polished(self, known: Sequence[Any], row: Sequence[float]) -> tuple[Any, ...]:
+    def polished(self, row: Sequence[float]) -> tuple[Any, ...]:
         """A closure in floats: trial values, signs and the sine of crossing."""
-        tried, rest = row[1 : 1 + len(self.unknowns)], row[1 + len(self.unknowns) :]
-        values = (
-            complex(FLOAT.radians(float(each))) if one.turns else float(each)
-            for one, each in zip(self.unknowns, tried, strict=True)
-        )
-        return (*values, *map(float, rest))
+        count = 1 + len(self.unknowns)
+        return (*self.placed(map(float, row[1:count])), *map(float, row[count:]))
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go all round, with the signs of a closure: (N,) each."""
@@ -158,15 +158,14 @@ class Trying(Trial, frozen=True, dict=True):
         import numpy as np
 
         size = len(known[0]) if known else 1
-        reach = None if self.first.turns else self.reaches(known, size)
         windows = Windows(np.arange(size), self.shares(known, size))
-        found = zip(*self.fits(known, reach, (), windows), strict=True)
+        found = zip(*self.fits(known, self.scales(known, size), (), windows), strict=True)
         return self.ordered(known, size, *(np.concatenate(column) for column in found))
 
     def fits(
         self,
         known: Sequence[Any],
-        reach: Any,
+        scales: Any,
         signs: tuple[int, ...],
         windows: Windows,
     ) -> Iterator[tuple[Any, Any, Any, Any]]:
@@ -178,8 +177,8 @@ class Trying(Trial, frozen=True, dict=True):
         import numpy as np
 
         def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
-            tried = share if reach is None else self.along(share, reach[owner])
-            return [array[owner] for array in known], tried[:, None], rows
+            tried = self.valued(share[:, None], scales[owner])
+            return [array[owner] for array in known], tried, rows
 
         def alike(owner: Any) -> Any:
             return np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
@@ -189,7 +188,7 @@ class Trying(Trial, frozen=True, dict=True):
             owner, places = windows
 
             def missing(row: Any, at: Any) -> Any:
-                return self.misfits(*trial(owner[row], at, alike(row)))
+                return self.misfits(*trial(owner[row], at, alike(row)))[:, 0]
 
             found = [roots_and_touches(missing, places)]
             for n in range(len(self.crossings)):
@@ -213,13 +212,13 @@ class Trying(Trial, frozen=True, dict=True):
 
             def missed(row: Any, share: Any, sign: Any) -> Any:
                 rows = np.column_stack([alike(row), sign, later[row]])
-                return self.misfits(*trial(owner[row], share, rows))
+                return self.misfits(*trial(owner[row], share, rows))[:, 0]
 
             row, share, sign, touching = fits_beside(missed, at, beside)
             rows = np.column_stack([alike(row), sign, later[row]])
             yield owner[row], trial(owner[row], share, rows)[1], rows, touching
         for sign in (1, -1):
-            yield from self.fits(known, reach, (*signs, sign), windows)
+            yield from self.fits(known, scales, (*signs, sign), windows)
 
     def ordered(
         self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any, touching: Any
@@ -284,12 +283,7 @@ def crossing_sines(misfits: Any, ways: Any) -> Any:
             way[:, k] = 1
             if k + 1 < size:
                 inner = misfits[:, k + 1 :, k + 1 :]
-                good = np.isfinite(inner).all(axis=(1, 2)) & (
-                    abs(np.linalg.det(np.where(np.isfinite(inner), inner, 0))) > 0
-                )
-                inner = np.where(good[:, None, None], inner, np.eye(size - k - 1))
-                led = np.linalg.solve(inner, -misfits[:, k + 1 :, k, None])[..., 0]
-                way[:, k + 1 :] = np.where(good[:, None], led, np.nan)
+                way[:, k + 1 :] = solutions(inner, -misfits[:, k + 1 :, k])
             across = abs((misfits[:, k] * way).sum(axis=1))
             sine = np.minimum(across / abs((ways[:, k] * way).sum(axis=1)), 1.0)
             least = np.minimum(least, np.where(np.isfinite(sine), sine, 0.0))
@@ -300,6 +294,13 @@ def closer_of(step: Step) -> ClosureSolver | None:
     """What closes a group of higher class in a step; None for a step that closes none."""
     value = step.action.value if step.action is not None else None
     return value if isinstance(value, ClosureSolver) else None
+
+
+def closing(step: Step) -> ClosureSolver:
+    """What closes the group of a step that closes one."""
+    closer = closer_of(step)
+    assert closer is not None
+    return closer
 
 
 class ClosureSolver(Struct, frozen=True):
@@ -392,3 +393,75 @@ def sign_table(count: int) -> list[tuple[int, ...]]:
     for _ in range(count):
         rows = [(*row, sign) for row in rows for sign in (1, -1)]
     return rows
+
+
+# --- where rounding leaves open how many closures there are, balls decide ------------------------
+
+
+def run_settled(
+    scene: Scene,
+    program: Program,
+    needed: Sequence[int],
+    *,
+    overrides: Mapping[int, Any] | None = None,
+    begun: Trace | None = None,
+) -> Trace:
+    """As run, in doubles. Raises StepFailed, of MergingError where balls do not decide either."""
+    while True:
+        try:
+            return run(program, needed, scene.values, FLOAT, overrides=overrides, begun=begun)
+        except StepFailed as failed:
+            if not isinstance(failed.__cause__, MergingError):
+                raise
+            if not newly_settled(scene, program, failed):
+                raise
+
+
+def ways(scene: Scene, program: Program, number: int, known: Sequence[Any]) -> int:
+    """In how many ways a step closes its group on known floats; how many of them are sure to come
+    before two that merge, where balls do not decide whether these have."""
+    step = program.steps[number]
+    trying = closing(step).trying
+    closures = trying.closures_of(known)
+    sure = closures.before(0)
+    if closures.merging_at(sure + 1) is None:
+        return sure
+    settle(scene, program, step, tuple(known))
+    found = trying.settled[tuple(known)]
+    return sure if found is None else len(found)
+
+
+def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
+    """Whether balls now tell the closures of a group and were not asked before."""
+    known, settled = failed.args_found, closing(failed.step).trying.settled
+    if known in settled:
+        return False
+    settle(scene, program, failed.step, known)
+    return settled[known] is not None
+
+
+def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -> None:
+    """Let the trial of a step keep what balls tell of its closures on known floats."""
+    from graphkin.construction.higher_class.merging import merged
+
+    trying = closing(step).trying
+    closures, found = trying.closures_of(known), None
+    before = replace(program, targets={("", str(n)): n for n in step.args})
+    needed = before.needed(before.targets)
+    for bits in () if trying.several else BITS:
+        kind = ball_kind(bits)
+        with kind.working():
+            try:
+                values = run(before, needed, scene.values_in(kind), kind).values
+                found = merged(trying, [values[n] for n in step.args], closures, kind)
+                break
+            except (StepFailed, ValueError):
+                continue
+    trying.settled[known] = (
+        None
+        if found is None
+        else [
+            trying.polished((0, in_doubles(one.tried), *one.signs, in_doubles(one.sine)))
+            for one in found
+        ]
+    )

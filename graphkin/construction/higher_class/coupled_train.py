@@ -93,7 +93,7 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
 
 def position(pen: Pen, shapes: LinkShapes, group: CoupledTrain, each: Each) -> None:
     """The tried link at its angle, and one wheel after the other on its pin."""
-    link, (base,) = group.trial.link, bases(pen.scene, group.trial)
+    link, (base,) = group.tried.link, bases(pen.scene, group.tried)
     pen.bases[link] = base
     settle_turn(pen, link, turn_of_tried(pen, shapes, group))
     if base.end is not None:
@@ -128,7 +128,7 @@ def turn_of_tried(pen: Pen, shapes: LinkShapes, group: CoupledTrain) -> int:
     own = group.closing
     with pen.on(Part.POSITION, Plane.NUMBERS):
         nought, one = pen.given("nought"), pen.given("one")
-    turns, rates = {group.trial.link: nought}, {group.trial.link: one}
+    turns, rates = {group.tried.link: nought}, {group.tried.link: one}
     for wheel in group.chain:
         turns[wheel.link] = rolled_to(pen, shapes, wheel.contact, wheel.link, turns)
         rates[wheel.link] = rate_rolled(pen, wheel.contact, wheel.link, rates)
@@ -138,7 +138,7 @@ def turn_of_tried(pen: Pen, shapes: LinkShapes, group: CoupledTrain) -> int:
         rate = pen.draw(difference, rates[own], ends[1])
         turn = pen.draw(closing_turn, missed, rate)
     wheels = tuple(wheel.link for wheel in group.chain)
-    pen.make(SettledTurn(link=group.trial.link, wheels=wheels, turn=turn))
+    pen.make(SettledTurn(link=group.tried.link, wheels=wheels, turn=turn))
     return turn
 
 
@@ -155,7 +155,7 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 
 
 def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
-    """The images of known wheels where those of a train touch them, before any trial.
+    """The images of known wheels where those of a train touch them.
 
     The last of them by the name of the point of the train's own last wheel, which has the same
     velocity.
@@ -167,7 +167,7 @@ def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
 
 
 def missed(pen: Pen, group: CoupledTrain, quantity: str, part: Part) -> ContactMisclosure:
-    """What a trial plan misses where the last wheel touches a known one: across the radius.
+    """What a plan misses where the last wheel touches a known one: across the radius.
 
     They must not slip.
     """

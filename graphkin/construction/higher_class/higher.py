@@ -6,15 +6,13 @@ Once the place of one link is known the others follow as dyads.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
-
-from msgspec import Struct
+from typing import Any, NamedTuple
 
 from graphkin.construction.core.bases import Base, bases, ending
 from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
-from graphkin.construction.core.vocabulary import action, coordinate
+from graphkin.construction.core.vocabulary import action, coordinate, difference
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.higher_class.closed_group import ClosedGroup
@@ -35,10 +33,15 @@ Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
 
 
-@action("part", margin=lambda closing, place: closing[-1])
-def part(closing: tuple[Any, ...], place: int) -> Any:
+def part_of(closing: tuple[Any, ...] | float, place: int) -> Any:
+    """One of the values that close a group; not a number where nothing closes it."""
+    return closing if isinstance(closing, float) else closing[place]
+
+
+@action("part", margin=lambda closing, place: part_of(closing, -1))
+def part(closing: tuple[Any, ...] | float, place: int) -> Any:
     """One of the values that close a group: the tried one, or a dyad's sign."""
-    return closing[place]
+    return part_of(closing, place)
 
 
 @action("excess")
@@ -63,12 +66,6 @@ def on_line(line: Line, point: Point) -> Point:
 def beside_line(line: Line, point: Point) -> Real:
     """How far a point stands to the left of a line."""
     return cross(line.along, point - line.point) / abs(line.along)
-
-
-@action("less")
-def less(a: Real, b: Real) -> Real:
-    """What a number has too much."""
-    return a - b
 
 
 @action("sine-between")
@@ -99,24 +96,21 @@ def product(a: Real, b: Real) -> Real:
 def reach(line: Line, *rest: Any) -> Real:
     """How far from a line's own point the bars of a group allow: ``rest`` are so many lengths,
     then the known points, then how many lengths there are."""
-    *values, count = rest
-    total: Real = 0.0
-    for length in values[:count]:
-        total = total + abs(length)
-    for place in values[count:]:
-        total = total + abs(place - line.point)
-    return 1.01 * total
+    return 1.01 * spanned(line.point, *rest)
 
 
 @action("span")
 def span(*rest: Any) -> Real:
     """How far bars and the places of known points reach together: as for reach, without a line."""
+    return spanned(rest[rest[-1]], *rest)
+
+
+def spanned(start: Point, *rest: Any) -> Real:
+    """The sum of lengths and of how far points lie from one."""
     *values, count = rest
     total: Real = 0.0
-    for length in values[:count]:
-        total = total + abs(length)
-    for place in values[count:]:
-        total = total + abs(place - values[count])
+    for number, value in enumerate(values):
+        total = total + abs(value if number < count else value - start)
     return total
 
 
@@ -181,7 +175,7 @@ def build(
 
 def place_trial(pen: Pen, shapes: LinkShapes, group: Higher, tried: int) -> None:
     """The tried link: turned about its pin, or set along its guide or track."""
-    trial, (base,) = group.trial, bases(pen.scene, group.trial)
+    trial, (base,) = group.tried, bases(pen.scene, group.tried)
     pen.bases[trial.link] = base
     match trial.pair:
         case Pin(point=pivot):
@@ -196,33 +190,30 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     """The program of the trial, and the steps of what it takes as known."""
     fork = TrialPen(pen)
     shapes = LinkShapes(fork)
-    tried = [fork.input_step() for _ in group.nested]
+    tried = {one.links: fork.input_step() for one in group.nested}
     dyads = choosing_dyads(group)
     signs = [fork.input_step() for _ in dyads]
     fork.chosen |= {dyad.links: sign for dyad, sign in zip(dyads, signs, strict=True)}
-    ends = dict[tuple[str, ...], tuple[Any, ...]]()
+    found = dict[tuple[str, ...], Unknown]()
 
     def closed(one: Higher) -> None:
         with fork.on(Part.POSITION, Plane.NUMBERS):
-            ends[one.links] = fitting(fork, shapes, one, group)
+            found[one.links] = unknown(fork, shapes, one, group, tried[one.links])
 
-    build(fork, shapes, group, each, iter(tried), closed)
-    unknowns = [
-        Unknown(number, isinstance(one.trial.pair, Pin), *ends[one.links])
-        for one, number in zip(group.nested, tried, strict=True)
-    ]
+    build(fork, shapes, group, each, iter(tried.values()), closed)
+    unknowns = tuple(found[links] for links in tried)
     with fork.on(Part.POSITION, Plane.NUMBERS):
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
     traced = tuple(fork.the("position", point) for point in traced_points(pen, group.last))
-    kept = (end for one in unknowns for end in ends_of(one))
+    kept = (end for one in unknowns for end in one.ends)
     fork.keep_inputs(*kept, *axes, *traced)
     kind = Trying if len(unknowns) == 1 else several_trials()
     trying = kind(
         fork.program(),
         pen.scene.values,
         tuple(fork.inputs),
-        tuple(unknowns),
+        unknowns,
         tuple(signs),
         axes,
         traced,
@@ -237,20 +228,13 @@ def several_trials() -> type[Trying]:
     return SeveralTrials
 
 
-def ends_of(one: Unknown) -> tuple[int | None, ...]:
-    """The steps at which an unknown is looked at."""
-    return one.misfit, one.locus, one.facing, one.reach, one.rim
-
-
-def fitting(
-    pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher
-) -> tuple[int, int, int | None, int | None, int | None]:
-    """What closes a group of a ``whole``: misfit, locus, what faces, and how far it is tried."""
-    fit, pair = misfit(pen, shapes, group), group.trial.pair
+def unknown(pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher, tried: int) -> Unknown:
+    """What is tried of a group of a ``whole``, what closes it, and how far it is tried."""
+    fit, pair = misfit(pen, shapes, group), group.tried.pair
     if isinstance(pair, Pin):
-        return fit.size, fit.locus, fit.facing, None, None
+        return Unknown(tried, True, *fit)
     far = reach_of(pen, shapes, group) if group is whole else span_of(pen, shapes, whole)
-    return fit.size, fit.locus, fit.facing, far, led_by(pair).rim(pen)
+    return Unknown(tried, False, *fit, far, led_by(pair).rim(pen))
 
 
 def traced_points(pen: Pen, last: Tie | Driver) -> list[str]:
@@ -271,7 +255,7 @@ def stands(pen: Pen, link: str) -> bool:
     return link == FRAME or pen.has("axis", link)
 
 
-class Misfit(Struct, frozen=True):
+class Misfit(NamedTuple):
     """What must vanish, the point whose locus it is read from, and what must be positive."""
 
     size: int
@@ -299,11 +283,13 @@ def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
         case Driver(kind="slide") as driver:
             guide = standing_guide(pen, shapes, slide_of(pen, driver))
             first = pen.the("position", pen.scene.link(driver.link).points[0])
-            found = pen.draw(less, pen.draw(coordinate, guide, first), pen.drive(driver).position)
-            return Misfit(found, tried_point(pen, group.trial))
+            found = pen.draw(
+                difference, pen.draw(coordinate, guide, first), pen.drive(driver).position
+            )
+            return Misfit(found, tried_point(pen, group.tried))
         case Driver() as driver:
-            found = pen.draw(less, pen.the("rolled", driver.link), pen.drive(driver).position)
-            return Misfit(found, tried_point(pen, group.trial))
+            found = pen.draw(difference, pen.the("rolled", driver.link), pen.drive(driver).position)
+            return Misfit(found, tried_point(pen, group.tried))
     raise AssertionError(group.last)
 
 
@@ -323,10 +309,10 @@ def turn_misfit(pen: Pen, shapes: LinkShapes, driver: Driver, group: Higher) -> 
         lead = pen.draw(turned_back, lead, axis(pen, shapes, driver.against))
     wanted = pen.drive(driver).position
     sine = pen.draw(sine_between, lead, wanted)
-    moved = axis(pen, shapes, group.trial.link)
-    if not isinstance(group.trial.pair, Pin):
+    moved = axis(pen, shapes, group.tried.link)
+    if not isinstance(group.tried.pair, Pin):
         size = pen.draw(inverse, reach_of(pen, shapes, group))
-        moved = pen.draw(product, tried_point(pen, group.trial), size)
+        moved = pen.draw(product, tried_point(pen, group.tried), size)
     return Misfit(sine, moved, pen.draw(cosine_between, lead, wanted))
 
 
@@ -338,7 +324,7 @@ def slide_of(pen: Pen, driver: Driver) -> Sliding:
 
 def reach_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
     """How far along its guide the tried link may have to be looked for: what lengths allow."""
-    pair = group.trial.pair
+    pair = group.tried.pair
     assert not isinstance(pair, Pin)
     line = led_by(pair).line(pen, shapes)
     lengths = lengths_of(pen, shapes, group)
@@ -354,12 +340,16 @@ def span_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
 
 
 def lengths_of(pen: Pen, shapes: LinkShapes, group: Higher) -> list[int]:
-    """The lengths of the bars of a group, and those that its drivers set."""
+    """The lengths of the bars of a group, and those that its drivers set.
+
+    A cam's centre of curvature is no end of a bar: it follows once the group stands.
+    """
     lengths = [
         shapes.length(name, points[0], point)
         for name in group.links
         for points in (pen.scene.link(name).points,)
         for point in points[1:]
+        if point not in pen.scene.cam_centres
     ]
     return lengths + [pen.drive(d).position for d in slid_within(pen, group)]
 

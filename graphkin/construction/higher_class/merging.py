@@ -12,9 +12,11 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.higher_class.trial_chain import TrialChain, by_secant, middle, proved
+from graphkin.construction.higher_class.trial import TrialChain
 from graphkin.numbers.arithmetic import Kind
+from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
+from graphkin.numbers.refined_roots import by_secant, proved
 
 NEAR = 1e-3
 """How near closures that merge lie, in radians or parts of their trial value."""
@@ -76,7 +78,7 @@ def size(trying: Any, tried: Any) -> Any:
 
 def both(chain: TrialChain, start: float) -> list[Closing]:
     """The two closures beside a vertex near a start, in order; none where the misfit stays away."""
-    step = chain.kind.number(size(chain.trying, start)) * quarter(chain.kind)
+    step = chain.kind.number(size(chain.trial, start)) * quarter(chain.kind)
     vertex = vertex_near(chain, start, step)
     least, (before, after) = chain.misfit(vertex), sides(chain, vertex, step)
     bend = before - 2 * least + after
@@ -115,7 +117,7 @@ def vertex_near(chain: TrialChain, start: float, step: Any) -> Any:
         bend = before - 2 * chain.misfit(tried) + after
         away = middle((after - before) / bend * step / 2)
         tried = middle(tried - away)
-        if not abs(tried - start) < 2 * NEAR * size(chain.trying, start):
+        if not abs(tried - start) < 2 * NEAR * size(chain.trial, start):
             raise ValueError("no closures merge near the start")
         if abs(away) < step * FINE:
             break
@@ -124,7 +126,7 @@ def vertex_near(chain: TrialChain, start: float, step: Any) -> Any:
 
 def found_beside(chain: TrialChain, start: Any, step: Any) -> Any:
     """The closure near a start, proved; the other one lies farther away than a step."""
-    return proved(chain, by_secant(chain.middle_misfit, middle(start), step), abs(step))
+    return proved(chain.misfit, by_secant(chain.middle_misfit, middle(start), step), abs(step))
 
 
 def sine_of(chain: TrialChain, tried: Any, step: Any) -> Any:

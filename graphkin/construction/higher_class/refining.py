@@ -1,7 +1,7 @@
 """A closure of a group of class III or higher in numbers of another kind than doubles.
 
-Doubles tell which closure is meant. From there the secant through two trials leads to the value in
-the kind asked for; in balls a change of sign proves it: what is cut cannot but fit in between.
+Doubles tell which closure is meant. From there one is led to the value in the kind asked for; balls
+prove it: what is cut cannot but fit in between.
 """
 
 from __future__ import annotations
@@ -10,13 +10,19 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from graphkin.construction.higher_class.merging import Closing, closings_of, merged
-from graphkin.construction.higher_class.trial_chain import TrialChain, by_secant, middle, proved
-from graphkin.numbers.arithmetic import Kind, is_ball, phase, turn_by
+from graphkin.construction.higher_class.trial import TrialChain
+from graphkin.numbers.arithmetic import Kind, is_ball
+from graphkin.numbers.kinds import in_doubles, middle
+from graphkin.numbers.refined_roots import (
+    APART,
+    by_newton,
+    by_newton_arrays,
+    by_secant,
+    by_secants,
+    proved,
+    proved_together,
+)
 
-SECANTS = 2
-"""Steps along the secant that lead from a double to a longdouble."""
-APART = 2.0**-30
-"""How far the second trial lies from the closure in doubles, in radians or parts of its size."""
 FLAT = 1e-6
 """How near the end of a window a closure lies beside it, in radians or parts of its size."""
 ASIDE = 2.0**-15
@@ -32,18 +38,35 @@ def closed_in(trying: Any, known: Sequence[Any], number: int, kind: Kind) -> tup
     the group closes, and MergingError where it does not tell which closure has the number.
     """
     doubles = [in_doubles(value) for value in known]
-    if trying.several:
-        from graphkin.construction.higher_class.refined_trials import refined as refined_together
-
-        single = not any(hasattr(value, "shape") for value in doubles)
-        closed = (trying.closed_again if single else trying.closed)(tuple(doubles), number)
-        return refined_together(trying, known, closed, kind)
-    if kind.name == "ball":
+    if kind.name == "ball" and not trying.several:
         return closed_in_balls(trying, known, doubles, number, kind)
-    found, *signs, sine = trying.closed(doubles, number)
-    start = kind.number(phase(found) if trying.first.turns else found)
-    aim = aimed(TrialChain(trying, known, signs, kind), start)
-    return closing(aim.chain, refined(aim), sine)
+    return refined(trying, known, trying.closed(doubles, number), kind)
+
+
+def refined(
+    trying: Any, known: Sequence[Any], closed: Sequence[Any], kind: Kind
+) -> tuple[Any, ...]:
+    """A closure in doubles, ``closed``, in the kind of what is known: values, signs and sine.
+
+    Raises ValueError where a ball does not tell that the group closes.
+    """
+    size = len(trying.unknowns)
+    signs, sine = closed[size:-1], closed[-1]
+    chain = TrialChain(trying, known, signs, kind)
+    start = [kind.number(each) for each in trying.numbers(closed)]
+    if trying.several:
+        return closing(chain, together(chain, start), sine)
+    aim = aimed(chain, start[0])
+    return closing(aim.chain, [led(aim)], sine)
+
+
+def together(chain: TrialChain, start: Sequence[Any]) -> Sequence[Any]:
+    """The trial values of a closure of several unknowns, from doubles."""
+    if hasattr(start[0], "shape") and start[0].shape:
+        return start if chain.kind.name == "float32" else by_newton_arrays(chain.misfits, start)
+    if chain.kind.name != "ball":
+        return by_newton(chain.misfits, start)
+    return proved_together(chain.misfits, chain.middles, by_newton(chain.middles, start))
 
 
 def closed_in_balls(
@@ -60,17 +83,17 @@ def closed_in_balls(
     one = trying.chosen(closings, number)
     chain = TrialChain(trying, known, one.signs, kind)
     if is_ball(one.tried):
-        return closing(chain, one.tried, one.sine)
+        return closing(chain, [one.tried], one.sine)
     aim = aimed(chain, kind.number(one.tried))
-    value = refined(aim)
+    value = led(aim)
     refuse_confused(aim.chain, value, one, closings)
-    return closing(aim.chain, value, one.sine)
+    return closing(aim.chain, [value], one.sine)
 
 
-def closing(chain: TrialChain, value: Any, sine: Any) -> tuple[Any, ...]:
-    """What closes a group, in the kind of a chain: the trial value, signs, sine of crossing."""
+def closing(chain: TrialChain, found: Sequence[Any], sine: Any) -> tuple[Any, ...]:
+    """What closes a group, in the kind of a chain: the trial values, signs, sine of crossing."""
     rest = (each if is_ball(each) else chain.kind.number(each) for each in (*chain.signs, sine))
-    return (turn_by(value) if chain.trying.first.turns else value, *rest)
+    return (*chain.trial.placed(found), *rest)
 
 
 def refuse_confused(
@@ -80,32 +103,15 @@ def refuse_confused(
 
     Only those that lie so near that a secant might lead from one to the other are looked at.
     """
-    turns, tried = chain.trying.first.turns, one.tried
+    turns, tried = chain.trial.first.turns, one.tried
     for each in closings:
         if each is one or each.signs != tuple(chain.signs) or is_ball(each.tried):
             continue
         other = each.tried
         if abs(other - tried) < CONFUSED * (1 if turns else abs(tried) or 1):
-            away = refined(aimed(chain, chain.kind.number(other))) - value
+            away = led(aimed(chain, chain.kind.number(other))) - value
             if not (away > 0 if other > tried else away < 0):
                 raise ValueError("the balls do not tell two closures apart")
-
-
-def in_doubles(value: Any) -> Any:
-    """The double, or the array of doubles, next to a number of any kind."""
-    if hasattr(value, "shape") and value.shape:
-        import numpy as np
-
-        return value.astype(np.complex128 if value.dtype.kind == "c" else np.float64)
-    if isinstance(value, complex | float | int):
-        return value
-    parts = float(value.real), float(value.imag)
-    return complex(*parts) if is_complex(value) else parts[0]
-
-
-def is_complex(value: Any) -> bool:
-    """Whether a number of another kind than Python's is one of the plane."""
-    return type(value).__name__.startswith(("mpc", "acb", "complex", "clongdouble"))
 
 
 class Aim(NamedTuple):
@@ -122,11 +128,11 @@ def aimed(chain: TrialChain, start: Any) -> Aim:
     Beside the end of a window, where a dyad is stretched flat and doubles do not tell its sign, the
     curve of both signs is followed through the end.
     """
-    turns, trying = chain.trying.first.turns, chain.trying
+    turns = chain.trial.first.turns
     if hasattr(start, "shape") and start.shape:
         return Aim(chain, start, None)
     size = 1 if turns else abs(start) or 1
-    for k, choice in enumerate(trying.choices):
+    for k, choice in enumerate(chain.trial.choices):
         if choice is None:
             continue
         here, beyond = (chain.reach(k, start + step) for step in (0, APART * size))
@@ -140,15 +146,7 @@ def beside_flat(chain: TrialChain, k: int, start: Any, step: Any) -> Aim:
     """As aimed, where the dyad of a sign is stretched flat a step away from a start."""
     end = by_secant(lambda tried: chain.reach(k, tried), start, step or APART)
     way = 1 if chain.reach(k, end + abs(step) + APART) > 0 else -1
-    sides = {
-        sign: TrialChain(
-            chain.trying,
-            tuple(chain.known.values()),
-            [*chain.signs[:k], sign, *chain.signs[k + 1 :]],
-            chain.kind,
-        )
-        for sign in (-1.0, 1.0)
-    }
+    sides = {sign: chain.with_sign(k, sign) for sign in (-1.0, 1.0)}
 
     def side(v: Any) -> TrialChain:
         return sides[1.0 if v > 0 else -1.0]
@@ -161,25 +159,12 @@ def beside_flat(chain: TrialChain, k: int, start: Any, step: Any) -> Aim:
     return Aim(side(v), middle(end + way * v * v), v * v * ASIDE)
 
 
-def refined(aim: Aim) -> Any:
+def led(aim: Aim) -> Any:
     """The trial value of a closure in the kind of its chain."""
     chain, start, step = aim
     if step is None:
-        turns = chain.trying.first.turns
+        turns = chain.trial.first.turns
         return start if chain.kind.name == "float32" else by_secants(chain.misfit, start, turns)
     if chain.kind.name != "ball":
         return by_secant(chain.misfit, start, step)
-    return proved(chain, by_secant(chain.middle_misfit, start, step), step)
-
-
-def by_secants(misfit: Any, start: Any, turns: bool) -> Any:
-    """As by_secant for an array; each step gains all the digits that the first double had."""
-    import numpy as np
-
-    old, new = start + APART * (1 if turns else np.maximum(abs(start), APART)), start
-    before, after = misfit(old), misfit(new)
-    for _ in range(SECANTS):
-        flat = after == before
-        trial = np.where(flat, new, new - after * (new - old) / np.where(flat, 1, after - before))
-        old, new, before, after = new, trial, after, misfit(trial)
-    return new
+    return proved(chain.misfit, by_secant(chain.middle_misfit, start, step), step)

@@ -1,21 +1,29 @@
 """Groups in which several links are tried at once: where all that was cut fits again.
 
-Cells of a grid in which no misfit can vanish are left out, the others halved a few times; Newton's
-method closes in from each that is left. What this finds is a closure. One may be missed whose
-dyads can be drawn only within less than a step of the grid, or that all but merges with another.
+Cells of a grid in which no misfit can vanish are left out as soon as the links tried so far tell
+it. What is found in the others is a closure. One may be missed whose dyads can be drawn only within
+less than a step of the grid, or that all but merges with another.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property, partial
-from itertools import product
 from typing import Any, NamedTuple
 
-from graphkin.construction.core.batch import Ready, made_ready, run_moving
+from graphkin.construction.core.batch import Ready, run_moving
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
-from graphkin.construction.higher_class.trial import FAR
-from graphkin.numbers.arithmetic import batch_kind, phase
+from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.common_roots import (
+    Array,
+    Cells,
+    common_roots,
+    corners_of,
+    joined,
+    may_vanish,
+    roots_beside,
+    steps_of,
+)
 
 ACROSS = {2: 120, 3: 32, 4: 12}
 """Steps of the grid along each unknown, by how many are tried before any misfit tells anything."""
@@ -25,58 +33,12 @@ TOGETHER = 64
 """Elements that are closed at once."""
 MOST = 1_000_000
 """Places at which cells are looked at together."""
-HALVED = 4
-"""How often cells of two unknowns are halved; those of more are too many."""
-SLACK = 0.5
-"""By how much a misfit may vanish beyond what it is at a cell's corners, in parts of its range
-there: what curves it."""
-AT_EDGE = 2.0
-"""The same where a corner cannot be drawn: beside a flat dyad the misfit grows like a root."""
-BENT = 0.5
-"""The same in parts of its range all round, for the square of a cell's side in radians."""
-CELLS = 40_000
-"""Cells looked at together."""
-ROUNDS = 20
-"""Steps of Newton's method at most."""
-HOPEFUL = 7
-"""The step before which those are left out that miss by too much still."""
-LEFT = 1e-3
-"""What they may miss by then, in parts of the ranges of misfits; where two closures merge each step
-halves the way that is left."""
-NEAR = 64.0
-"""How far it may lead from where it starts, in halves of a cell."""
-BESIDE = 12.0
-"""How far in v beside a flat dyad, in parts of what half a cell makes of it."""
-STARTS = (0.1, 0.6)
-"""Where it starts in v, on the side of the dyad's sign."""
-CLUSTERED = 3
-"""The step before which those are left out that come to one place."""
-ONE_PLACE = 1e-5
-"""Shares that differ less are those of one place then."""
-SHORTER = 8
-"""How often a step is halved that leads beyond what can be drawn, or no nearer."""
-STEP = 1e-6
-"""Half the step of the differences that give slopes, in radians or shares of a way."""
-FLAT = 3.0
-"""How far from a flat dyad a cell may lie that is looked at beside it, in parts of its size."""
-LEADING = 5
-"""Steps along the secant that find the share for a v."""
-STILL = 1e-10
-"""A step so small that Newton's method has come to rest, in radians or shares of a way."""
 TRACES = 40
 """Places to both sides of a closure at which a locus is drawn."""
 TRACED = 0.02
 """How far they lie apart, in radians or parts of the way that is tried."""
 TRACING = 4
 """Steps of Newton's method for each."""
-CLOSED = 1e-9
-"""Misfit left at a closure at most, in parts of its range all round."""
-
-Array = Any
-Misses = Callable[[Array, Array], Array]
-"""The misfits (K, n) of rows (K,) at shares (K, n)."""
-Reach = Callable[[Array, Array], Array]
-"""How far a dyad can be drawn (K,): positive where it can; NaN where one before it cannot."""
 
 
 class SeveralTrials(Trying, frozen=True, dict=True):
@@ -123,16 +85,24 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             share = share + steps_of(missed, every, share, missed(every, share))
         return np.column_stack([tried[:, :1], share])
 
+    def closed_beside(self, known: Sequence[Any], tried: Array, signs: Array) -> Array:
+        """Trial values at which all closes beside some (K, n), by Newton's method.
+
+        NaN where it does not come to rest.
+        """
+        import numpy as np
+
+        def missed(row: Array, share: Array) -> Array:
+            found = self.found([array[row] for array in known], share, signs[row])
+            return np.stack([found[one.misfit] for one in self.unknowns], axis=1)
+
+        return roots_beside(missed, tried)
+
     def row_of(self, value: Sequence[Any]) -> Array:
         """A closure as numbers: trial values, signs, the sine of crossing."""
         import numpy as np
 
-        tried, rest = value[: len(self.unknowns)], value[len(self.unknowns) :]
-        angles = (
-            phase(complex(each)) if one.turns else float(each)
-            for one, each in zip(self.unknowns, tried, strict=True)
-        )
-        return np.array([*angles, *map(float, rest)])
+        return np.array([*map(float, (*self.numbers(value), *value[len(self.unknowns) :]))])
 
     def together(self, known: Sequence[Any], size: int) -> int:
         """How many elements are closed at once."""
@@ -163,15 +133,12 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         half = way / self.across / 2
         cells = Cells(cells.row, start + (cells.middle + 0.5) * 2 * half)
         chain = DrawnChain(self, known, owner, signs, scales)
-        cells, half = narrowed(chain, cells, half, ranges)
-        start = drawn_places(chain.missed, cells, half)
-        fits = [closed_in(chain.missed, cells.row, start, NEAR * half, ranges)]
-        for k, choice in enumerate(self.choices):
-            if choice is not None:
-                bit = 1 << (len(self.signs) - 1 - k)
-                flat = FlatDyad(chain.missed, partial(chain.reach, k), bit)
-                fits += flat.fits(cells, half, ranges)
-        row, share = (np.concatenate(column) for column in zip(*fits, strict=True))
+        edges = [
+            (partial(chain.reach, k), 1 << (len(self.signs) - 1 - k))
+            for k, choice in enumerate(self.choices)
+            if choice is not None
+        ]
+        row, share = common_roots(chain.missed, chain.at, edges, cells, half, ranges)
         tried = self.valued(share, scales[owner[row]])
         touching = np.zeros(row.size, dtype=bool)
         return self.ordered(known, size, owner[row], tried, signs[row], touching)
@@ -180,43 +147,10 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         """Where the shares of each unknown begin, and how far they go."""
         import numpy as np
 
-        ends = [
-            (0.123e-3, 2 * np.pi) if one.turns else (-FAR, 2 * FAR) if one.rim is None else (-1, 2)
-            for one in self.unknowns
-        ]
-        start, way = np.array(ends, dtype=float).T
+        start, way = np.array([one.shares for one in self.unknowns], dtype=float).T
         return start, way
 
-    def scales(self, known: Sequence[Any], size: int) -> Array:
-        """What the trial values of each element are measured by, a column for each unknown."""
-        import numpy as np
-
-        return np.stack(
-            [
-                np.broadcast_to(1.0 if one.reach is None else self.at_start(known, one.reach), size)
-                for one in self.unknowns
-            ],
-            axis=1,
-        )
-
-    def valued(self, share: Array, scale: Array) -> Array:
-        """Trial values from shares: angles, and coordinates along guides and tracks."""
-        import numpy as np
-
-        guided = [not one.turns and one.rim is None for one in self.unknowns]
-        return scale * np.where(guided, np.tan(np.where(guided, share, 0.0)), share)
-
     # --- cells in which all may vanish -----------------------------------------------------------
-
-    def readied(self, keep: tuple[int, ...]) -> Ready:
-        """The part of the program that gives some steps, made ready for arrays."""
-        needed = self.program.behind(keep)
-        return made_ready(self.program, needed, self.values, keep, self.outside)
-
-    @cached_property
-    def missing(self) -> Ready:
-        """What gives the misfits."""
-        return self.readied(tuple(one.misfit for one in self.unknowns))
 
     @cached_property
     def looked_at(self) -> Ready:
@@ -304,10 +238,8 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         overrides: dict[int, Any] = dict(zip(self.inputs, known, strict=True))
         for k, one in enumerate(self.unknowns[: size + 1]):
             steps = nodes[:, k, None, None] if k < size else np.arange(across + 1)
-            share = start[k] + steps * (way[k] / across)
-            guided = not one.turns and one.rim is None
-            value = scale[k] * (np.tan(share) if guided else share)
-            overrides[one.tried] = np.exp(1j * value) if one.turns else value
+            value = one.valued(start[k] + steps * (way[k] / across), scale[k])
+            overrides[one.tried] = one.value(value)
         for k, number in enumerate(self.signs):
             bit = 1 << (len(self.signs) - 1 - k)
             if k in stage.signs:
@@ -405,20 +337,6 @@ class Corners(NamedTuple):
 # --- where all misfits vanish --------------------------------------------------------------------
 
 
-class Cells(NamedTuple):
-    """Boxes of shares: whose each is (C,), its middle (C, n)."""
-
-    row: Array
-    middle: Array
-
-
-def joined(cells: Sequence[Cells]) -> Cells:
-    """Some cells after others."""
-    import numpy as np
-
-    return Cells(*(np.concatenate(column) for column in zip(*cells, strict=True)))
-
-
 class DrawnChain:
     """What is looked at, of rows (K,) at shares (K, n): each row has its element and its signs."""
 
@@ -428,42 +346,25 @@ class DrawnChain:
         self.trying, self.owner, self.signs, self.scales = trying, owner, signs, scales
         self.known = [array[:1] if (array == array[0]).all() else array for array in known]
 
-    def run(self, ready: Ready, row: Array, share: Array) -> Mapping[int, Any]:
-        """What a program gives."""
-        import numpy as np
-
+    def trials(self, row: Array, share: Array) -> tuple[list[Array], Array, Array]:
+        """What is known, what is tried and the signs."""
         owner = self.owner[row]
         here = [array if len(array) == 1 else array[owner] for array in self.known]
-        tried = self.trying.valued(share, self.scales[owner])
-        overrides = self.trying.overrides(here, tried, self.signs[row])
-        with np.errstate(all="ignore"):
-            kind = batch_kind()
-            return run_moving(ready, self.trying.values, kind, overrides=overrides).values
+        return here, self.trying.valued(share, self.scales[owner]), self.signs[row]
 
     def missed(self, row: Array, share: Array) -> Array:
         """The misfits (K, n)."""
-        import numpy as np
-
-        found = self.run(self.trying.missing, row, share)
-        misfits = (found[one.misfit] for one in self.trying.unknowns)
-        return np.stack([np.broadcast_to(each, len(row)) for each in misfits], axis=1)
+        return self.trying.misfits(*self.trials(row, share))
 
     def reach(self, k: int, row: Array, share: Array) -> Array:
         """How far the dyad of a sign can be drawn (K,)."""
-        import numpy as np
-
-        choice = self.trying.choices[k]
-        assert choice is not None
-        ready, far, args = choice
-        found = self.run(ready, row, share)
-        with np.errstate(all="ignore"):
-            return np.broadcast_to(far(*(found[arg] for arg in args)), len(row))
+        return self.trying.drawable(k, *self.trials(row, share))
 
     def at(self, row: Array, share: Array) -> tuple[list[Array], list[Array]]:
         """Each misfit, and how far each dyad can be drawn, in their order: (K,) each."""
         import numpy as np
 
-        found = self.run(self.trying.looked_at, row, share)
+        found = self.trying.run(self.trying.looked_at, *self.trials(row, share))
         choices = [choice for choice in self.trying.choices if choice is not None]
         misfits = [found[one.misfit] for one in self.trying.unknowns]
         with np.errstate(all="ignore"):
@@ -473,239 +374,3 @@ class DrawnChain:
             [np.broadcast_to(each, count) for each in misfits],
             [np.broadcast_to(each, count) for each in reaches],
         )
-
-
-def narrowed(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> tuple[Cells, Array]:
-    """Small parts of cells in which all misfits of a row may vanish, and half their sides (n,)."""
-    for _ in range(HALVED if len(half) == 2 else 0):
-        parts = range(0, len(cells.row), CELLS)
-        some = (Cells(cells.row[k : k + CELLS], cells.middle[k : k + CELLS]) for k in parts)
-        cells = joined([halved(chain, each, half, ranges) for each in some] or [cells])
-        half = half / 2
-    return cells, half
-
-
-def corners_of(size: int) -> Array:
-    """The corners of a cell, of shares nought and one."""
-    import numpy as np
-
-    return np.array([*product((0, 1), repeat=size)])
-
-
-def may_vanish(
-    misfits: Sequence[tuple[Array, Array]],
-    reaches: Sequence[tuple[Array, Array]],
-    some: Array,
-    whole: Array,
-    ranges: Array,
-    side: Array,
-) -> Array:
-    """Of which cells all misfits may vanish within: from the least and the largest at the corners,
-    or where no corner can be drawn from how far dyads are from that.
-
-    ``some`` and ``whole`` tell whether some corners, or all, can be drawn; ``ranges`` how far
-    misfits range.
-    """
-    import numpy as np
-
-    bent = np.where(whole, BENT * side.max() ** 2, np.sqrt(side.max()))
-    slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
-    with np.errstate(all="ignore"):
-        for (low, high), most in zip(misfits, np.moveaxis(ranges, -1, 0), strict=True):
-            more = (high - low) * slack + bent * most
-            crossed = crossed & (low - more <= 0) & (high + more >= 0)
-            drawn = drawn & np.isfinite(most)
-        for low, high in reaches:
-            drawn = drawn & ~(high + (high - low) * SLACK < 0)
-    found: Array = crossed | drawn
-    return found
-
-
-def halved(chain: DrawnChain, cells: Cells, half: Array, ranges: Array) -> Cells:
-    """The halves, in each direction, of cells in which all misfits may vanish."""
-    import numpy as np
-
-    size = len(half)
-    nodes = np.array([*product((-1, 0, 1), repeat=size)])
-    places = (cells.middle[:, None, :] + nodes * half).reshape(-1, size)
-    found = chain.at(np.repeat(cells.row, len(nodes)), places)
-    value, reach = (np.array(each).reshape(len(each), len(cells.row), len(nodes)) for each in found)
-    finite = np.isfinite(value).all(axis=0)
-    value = np.where(finite, value, np.nan)
-    strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
-    for first in corners_of(size):
-        at = (first + corners_of(size)) @ strides
-        some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
-        misfits, reaches = (
-            [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
-            for every in (value, reach)
-        )
-        keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
-        parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
-    return joined(parts)
-
-
-def closed_in(
-    missed: Misses, row: Array, start: Array, near: Array, ranges: Array
-) -> tuple[Array, Array]:
-    """Where Newton's method comes to rest from starts (K, n), no farther than ``near`` (n,): rows
-    and shares.
-
-    Steps are halved that lead beyond what can be drawn, or no nearer.
-    """
-    import numpy as np
-
-    share, value = start.copy(), missed(row, start)
-    which = np.flatnonzero(np.isfinite(value).all(axis=1))
-    found = [np.empty(0, dtype=int)]
-    for turn in range(ROUNDS):
-        if turn == HOPEFUL:
-            which = which[far(value[which], ranges[row[which]]) < LEFT]
-        if not which.size:
-            break
-        way = steps_of(missed, row[which], share[which], value[which])
-        aim = share[which] + way
-        good = np.isfinite(aim).all(axis=1) & (abs(aim - start[which]) <= near).all(axis=1)
-        which, way = which[good], way[good]
-        which, way = apart(row, share, which, way) if turn == CLUSTERED else (which, way)
-        rest = (abs(way) < STILL).all(axis=1)
-        share[which[rest]] += way[rest]
-        found.append(which[rest])
-        which, way = which[~rest], way[~rest]
-        scale, waiting = ranges[row[which]], np.ones(which.size, dtype=bool)
-        for shorter in range(SHORTER):
-            left = np.flatnonzero(waiting)
-            if not left.size:
-                break
-            trial = share[which[left]] + way[left] / 2**shorter
-            there = missed(row[which[left]], trial)
-            nearer = far(there, scale[left]) < far(value[which[left]], scale[left])
-            took = left[nearer]
-            share[which[took]], value[which[took]] = trial[nearer], there[nearer]
-            waiting[took] = False
-        still = which[waiting]
-        found.append(still[far(value[still], ranges[row[still]]) < CLOSED])
-        which = which[~waiting]
-    every = np.concatenate(found)
-    every = every[far(value[every], ranges[row[every]]) < CLOSED]
-    return row[every], share[every]
-
-
-def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:
-    """Of those that all but stand at one place only one, with the steps of each."""
-    import numpy as np
-
-    place = np.round((share[which] + way) / ONE_PLACE)
-    _, first = np.unique(np.column_stack([row[which], place]), axis=0, return_index=True)
-    return which[first], way[first]
-
-
-def drawn_places(missed: Misses, cells: Cells, half: Array) -> Array:
-    """A place of each cell that can be drawn: its middle, else a corner."""
-    import numpy as np
-
-    share = cells.middle.copy()
-    lost = np.arange(len(share))
-    for corner in np.array([[0] * len(half), *product((-1, 1), repeat=len(half))]):
-        share[lost] = cells.middle[lost] + corner * half
-        lost = lost[~np.isfinite(missed(cells.row[lost], share[lost])).all(axis=1)]
-        if not lost.size:
-            break
-    return share
-
-
-class FlatDyad(NamedTuple):
-    """Beside the places where the dyad of one sign is stretched flat: its two signs meet there.
-
-    With v, the root of how far it can be drawn, taken with its sign, in place of the share that
-    moves it most, misfits run smoothly through the flat dyad. ``bit`` is that of its sign in rows.
-    """
-
-    missed: Misses
-    reach: Reach
-    bit: int
-
-    def fits(self, cells: Cells, half: Array, ranges: Array) -> list[tuple[Array, Array]]:
-        """The fits near cells that the dyad does not reach all over: rows and shares."""
-        import numpy as np
-
-        here = self.reach(cells.row, cells.middle)
-        slopes = np.empty(cells.middle.shape)
-        for j, side in enumerate(half):
-            away = np.where(np.arange(len(half)) == j, side, 0.0)
-            low, high = (self.reach(cells.row, cells.middle + way * away) for way in (-1, 1))
-            slopes[:, j] = (high - low) / (2 * side)
-        size = abs(slopes * half)
-        with np.errstate(all="ignore"):
-            near = abs(here) < FLAT * size.sum(axis=1)
-        most = size.argmax(axis=1)
-        found = list[tuple[Array, Array]]()
-        for j in range(len(half)):
-            mine = np.flatnonzero(near & (most == j))
-            if mine.size:
-                some = Cells(cells.row[mine], cells.middle[mine])
-                found.append(self.fits_beside(j, some, slopes[mine, j], half, ranges))
-        return found
-
-    def fits_beside(
-        self, j: int, cells: Cells, slope: Array, half: Array, ranges: Array
-    ) -> tuple[Array, Array]:
-        """The fits near cells with v in place of a share whose ``slope`` of the reach is known."""
-        import numpy as np
-
-        row, middle = cells
-        scale, plain = np.sqrt(abs(slope) * half[j]), row & ~self.bit
-
-        def placed(which: Array, share: Array) -> tuple[Array, Array]:
-            v, at, rise = share[:, j] * scale[which], share.copy(), slope[which]
-            at[:, j], own = middle[which, j], plain[which]
-            here = self.reach(own, at)
-            for _ in range(LEADING):
-                way = (v * v - here) / rise
-                at[:, j] += way
-                before, here = here, self.reach(own, at)
-                moved = (way != 0) & np.isfinite(here) & (here != before)
-                rise = np.where(moved, (here - before) / np.where(way == 0, 1.0, way), rise)
-            return np.where(v < 0, own | self.bit, own), at
-
-        def missed(which: Array, share: Array) -> Array:
-            return self.missed(*placed(which, share))
-
-        near = NEAR * half
-        near[j] = BESIDE
-        start = np.tile(middle, (len(STARTS), 1))
-        start[:, j] = np.repeat(STARTS, row.size) * np.tile(
-            np.where(row & self.bit, -1, 1), len(STARTS)
-        )
-        which, share = closed_in(
-            missed, np.tile(np.arange(row.size), len(STARTS)), start, near, ranges[row]
-        )
-        return placed(which, share)
-
-
-def far(value: Array, scale: Array) -> Array:
-    """How large misfits are, in parts of their ranges; infinite without a value."""
-    import numpy as np
-
-    size = np.sqrt(((value / scale) ** 2).sum(axis=1))
-    return np.where(np.isfinite(size), size, np.inf)
-
-
-def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
-    """The steps of Newton's method; NaN where there is no slope."""
-    import numpy as np
-
-    size = share.shape[1]
-    slope = np.empty((len(row), size, size))
-    for k in range(size):
-        away = np.where(np.arange(size) == k, STEP, 0.0)
-        there, way = missed(row, share + away), np.full(len(row), STEP)
-        lost = ~np.isfinite(there).all(axis=1)
-        there[lost], way[lost] = missed(row[lost], share[lost] - away), -STEP
-        slope[:, :, k] = (there - value) / way[:, None]
-    finite: Array = np.isfinite(slope).all(axis=(1, 2))
-    area: Array = np.linalg.det(np.where(finite[:, None, None], slope, 0))
-    good: Array = finite & (area != 0)
-    slope = np.where(good[:, None, None], slope, np.eye(size))
-    found = np.linalg.solve(slope, -value[..., None])[..., 0]
-    return np.where(good[:, None], found, np.nan)

@@ -1,25 +1,29 @@
-"""The trial of a group of class III or higher: a program of its own, run on arrays of trials."""
+"""The trial of a group of class III or higher: a program of its own, run on arrays of trials, or on
+one scene in any kind of number."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
+from math import pi
 from typing import Any
 
 from msgspec import Struct
 
 from graphkin.construction.core.batch import Ready, made_ready, run_batch, run_moving
 from graphkin.construction.core.program import Program
-from graphkin.construction.core.run import Values
+from graphkin.construction.core.run import StepFailed, Values, run
 from graphkin.construction.core.vocabulary import meet
-from graphkin.construction.higher_class.trial_windows import REACHES
-from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arithmetic import Kind, batch_kind, phase, turn_by
+from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
 
 SAMPLES = 360
 """Trial positions of a round."""
 MOST = 400_000
 """Trial positions run at once."""
+START = 0.123e-3
+"""The angle with which a round begins: not one at which a link is drawn."""
 A_TURN = 24
 """Trial positions for each turn of a wheel on its track."""
 FAR = 1.565
@@ -42,6 +46,38 @@ class Unknown(Struct, frozen=True):
     facing: int | None = None
     reach: int | None = None
     rim: int | None = None
+
+    @property
+    def ends(self) -> tuple[int | None, ...]:
+        """The steps at which it is looked at."""
+        return self.misfit, self.locus, self.facing, self.reach, self.rim
+
+    @property
+    def is_guided(self) -> bool:
+        """Whether it is tried to both ends of a guide: other guides may lead the link farther than
+        bars reach."""
+        return not self.turns and self.rim is None
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """Where its shares begin and how far they go: a round, a guide, a way along a track."""
+        if self.turns:
+            return START, 2 * pi
+        return (-FAR, 2 * FAR) if self.rim is None else (-1.0, 2.0)
+
+    def number(self, value: Any) -> Any:
+        """The angle of a unit vector in radians; a coordinate as it is."""
+        return phase(value) if self.turns else value
+
+    def value(self, number: Any) -> Any:
+        """The unit vector at an angle in radians; a coordinate as it is."""
+        return turn_by(number) if self.turns else number
+
+    def valued(self, share: Any, scale: Any) -> Any:
+        """Its trial values from shares: angles, or coordinates in parts of how far they reach."""
+        import numpy as np
+
+        return scale * (np.tan(share) if self.is_guided else share)
 
 
 class Trial(Struct, frozen=True, dict=True):
@@ -71,6 +107,14 @@ class Trial(Struct, frozen=True, dict=True):
         """Whether links of groups within the group are tried with it."""
         return len(self.unknowns) > 1
 
+    def numbers(self, closed: Sequence[Any]) -> list[Any]:
+        """What is tried in a closure, as angles and coordinates."""
+        return [one.number(each) for one, each in zip(self.unknowns, closed, strict=False)]
+
+    def placed(self, numbers: Iterable[Any]) -> tuple[Any, ...]:
+        """What is tried at angles and coordinates, as unit vectors and coordinates."""
+        return tuple(one.value(each) for one, each in zip(self.unknowns, numbers, strict=True))
+
     # --- what is run ---------------------------------------------------------------------------
 
     @cached_property
@@ -85,37 +129,57 @@ class Trial(Struct, frozen=True, dict=True):
         """The steps whose values come from outside."""
         return frozenset((*self.inputs, *(one.tried for one in self.unknowns), *self.signs))
 
+    def readied(self, keep: tuple[int, ...]) -> Ready:
+        """The part of the program that gives some steps, made ready for arrays of trials."""
+        needed = self.program.behind(keep)
+        return made_ready(self.program, needed, self.values, keep, self.outside)
+
     @cached_property
     def ready(self) -> Ready:
-        """The program made ready for arrays of trials."""
-        needed = self.program.behind(self.results)
-        return made_ready(self.program, needed, self.values, self.results, self.outside)
+        """What gives all results."""
+        return self.readied(self.results)
+
+    @cached_property
+    def missing(self) -> Ready:
+        """What gives the misfits."""
+        return self.readied(tuple(one.misfit for one in self.unknowns))
+
+    def run(self, ready: Ready, known: Sequence[Any], tried: Any, signs: Any) -> Mapping[int, Any]:
+        """What a part of the program gives for arrays of trial values and of signs."""
+        import numpy as np
+
+        overrides = self.overrides(known, tried, signs)
+        with np.errstate(all="ignore"):
+            return run_moving(ready, self.values, batch_kind(), overrides=overrides).values
 
     def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """The results for arrays of trial values and of signs, known values given per element."""
         import numpy as np
 
-        overrides = self.overrides(known, tried, signs)
-        with np.errstate(all="ignore"):
-            trace = run_moving(self.ready, self.values, batch_kind(), overrides=overrides)
-        return {n: np.broadcast_to(trace.values[n], len(tried)) for n in self.results}
+        found = self.run(self.ready, known, tried, signs)
+        return {n: np.broadcast_to(found[n], len(tried)) for n in self.results}
+
+    def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
+        """The misfits alone (K, n); NaN where the chain cannot be drawn."""
+        import numpy as np
+
+        found = self.run(self.missing, known, tried, signs)
+        each = (np.broadcast_to(found[one.misfit], len(tried)) for one in self.unknowns)
+        return np.stack([*each], axis=1)
 
     @cached_property
     def choices(self) -> tuple[tuple[Ready, Any, tuple[int, ...]] | None, ...]:
         """For each sign: what its dyad is drawn of, made ready, and how far that reaches."""
         found: list[tuple[Ready, Any, tuple[int, ...]] | None] = []
         for sign in self.signs:
-            drawn = [(e.action.value, e.args) for e in self.program.steps if e.action is not None]
-            value, args = next(
-                ((v, args) for v, args in drawn if sign in args and v in REACHES), (None, ())
-            )
-            if value is None:
+            steps = (each for each in self.program.steps if sign in each.args)
+            drawn = ((each.action.reaches, each.args) for each in steps if each.action is not None)
+            reaches, args = next((each for each in drawn if each[0] is not None), (None, ()))
+            if reaches is None:
                 found.append(None)
                 continue
             args = tuple(arg for arg in args if arg != sign)
-            needed = self.program.behind(args)
-            ready = made_ready(self.program, needed, self.values, args, self.outside)
-            found.append((ready, REACHES[value], args))
+            found.append((self.readied(args), reaches, args))
         return tuple(found)
 
     def drawable(self, k: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
@@ -125,12 +189,9 @@ class Trial(Struct, frozen=True, dict=True):
         choice = self.choices[k]
         assert choice is not None
         ready, reaches, args = choice
+        found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
-            trace = run_moving(
-                ready, self.values, batch_kind(), overrides=self.overrides(known, tried, signs)
-            )
-            found = reaches(*(trace.values[arg] for arg in args))
-        return np.broadcast_to(found, len(tried))
+            return np.broadcast_to(reaches(*(found[arg] for arg in args)), len(tried))
 
     @cached_property
     def crossings(self) -> tuple[tuple[Ready, tuple[int, ...]], ...]:
@@ -139,9 +200,7 @@ class Trial(Struct, frozen=True, dict=True):
         for number in self.program.behind((self.first.misfit,)):
             step = self.program.steps[number]
             if step.action is not None and step.action.value is meet.value:
-                needed = self.program.behind(step.args)
-                ready = made_ready(self.program, needed, self.values, step.args, self.outside)
-                found.append((ready, step.args))
+                found.append((self.readied(step.args), step.args))
         return tuple(found)
 
     def crossing(self, n: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
@@ -149,36 +208,34 @@ class Trial(Struct, frozen=True, dict=True):
         import numpy as np
 
         ready, args = self.crossings[n]
-        overrides = self.overrides(known, tried, signs)
+        found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
-            trace = run_moving(ready, self.values, batch_kind(), overrides=overrides)
-            first, second = (trace.values[arg] for arg in args)
-            found = cross(first.along, second.along)
-        return np.broadcast_to(found, len(tried))
+            first, second = (found[arg] for arg in args)
+            return np.broadcast_to(cross(first.along, second.along), len(tried))
 
     def overrides(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """What the program takes from outside; the signs may be only the first few."""
-        import numpy as np
-
         found = dict(zip(self.inputs, known, strict=True))
         for one, each in zip(self.unknowns, tried.T, strict=True):
-            found[one.tried] = np.exp(1j * each) if one.turns else each
+            found[one.tried] = one.value(each)
         return found | {self.signs[k]: signs[:, k] for k in range(signs.shape[1])}
-
-    def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
-        """The misfit alone; NaN where the chain cannot be drawn."""
-        return self.found(known, tried, signs)[self.first.misfit]
 
     # --- where it is tried ---------------------------------------------------------------------
 
-    def along(self, share: Any, reach: Any) -> Any:
-        """A trial value from a share: a way along a track in parts of its reach.
-
-        A guide is tried to both ends, as other guides may lead the link farther than bars reach.
-        """
+    def scales(self, known: Sequence[Any], size: int) -> Any:
+        """What the trial values of each element are measured by, a column for each unknown: for
+        coordinates how far (m) they may have to be tried, as bars allow."""
         import numpy as np
 
-        return reach * (share if self.first.rim is not None else np.tan(share))
+        each = (1.0 if u.reach is None else self.at_start(known, u.reach) for u in self.unknowns)
+        return np.stack([np.broadcast_to(scale, size) for scale in each], axis=1)
+
+    def valued(self, share: Any, scale: Any) -> Any:
+        """Trial values from shares, both with a column for each unknown."""
+        import numpy as np
+
+        columns = zip(self.unknowns, share.T, scale.T, strict=True)
+        return np.stack([one.valued(*each) for one, *each in columns], axis=1)
 
     def shares(self, known: Sequence[Any], size: int) -> Any:
         """Where each element is tried: angles of a round, or shares of a way to both sides."""
@@ -189,7 +246,8 @@ class Trial(Struct, frozen=True, dict=True):
         if self.first.rim is None:
             row = np.linspace(-FAR, FAR, 3 * SAMPLES + 1)
         else:
-            turns = np.nanmax(abs(self.reaches(known, size) / self.at_start(known, self.first.rim)))
+            reach = self.scales(known, size)[:, 0]
+            turns = np.nanmax(abs(reach / self.at_start(known, self.first.rim)))
             count = np.clip(A_TURN * turns / np.pi, 2 * SAMPLES, MOST // 4)
             row = np.linspace(-1, 1, int(np.nan_to_num(count, nan=2 * SAMPLES)) + 1)
         return np.broadcast_to(row, (size, len(row)))
@@ -207,16 +265,9 @@ class Trial(Struct, frozen=True, dict=True):
         import numpy as np
 
         if self.first.turns:
-            round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + 0.123e-3
+            round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + START
             return np.broadcast_to(round_, (size, SAMPLES + 1))
-        return self.reaches(known, size)[:, None] * np.linspace(-1, 1, 2 * SAMPLES + 1)
-
-    def reaches(self, known: Sequence[Any], size: int) -> Any:
-        """How far a coordinate of each element may have to be tried (m), as bars allow."""
-        import numpy as np
-
-        assert self.first.reach is not None
-        return np.broadcast_to(self.at_start(known, self.first.reach), size)
+        return self.scales(known, size) * np.linspace(-1, 1, 2 * SAMPLES + 1)
 
     def at_start(self, known: Sequence[Any], step: int) -> Any:
         """A step that does not hang on what is tried."""
@@ -229,3 +280,74 @@ class Trial(Struct, frozen=True, dict=True):
                 self.program, needed, self.values, batch_kind(), (step,), overrides=overrides
             )
         return trace.values[step]
+
+
+class TrialChain:
+    """The trial chain of a group on one scene: its misfits at trial values, in a kind."""
+
+    def __init__(self, trial: Trial, known: Sequence[Any], signs: Sequence[float], kind: Kind):
+        self.trial, self.kind, self.signs = trial, kind, signs
+        self.known = dict(zip(trial.inputs, known, strict=True))
+        self.needed: dict[tuple[int, ...], tuple[int, ...]] = {}
+
+    def misfits(self, tried: Sequence[Any], known: Mapping[int, Any] | None = None) -> list[Any]:
+        """By how much each group misses; ValueError where the chain cannot be drawn."""
+        unknowns = self.trial.unknowns
+        facing = [one.facing for one in unknowns if one.facing is not None]
+        found = self.drawn(tried, (*(one.misfit for one in unknowns), *facing), known)
+        if not all(each > 0 for each in found[len(unknowns) :]):
+            raise ValueError("the last link does not surely face the right way")
+        return found[: len(unknowns)]
+
+    def middles(self, tried: Sequence[Any]) -> list[Any]:
+        """The middles of the misfits, in balls, of the middles of what is known."""
+        known = {number: middle(value) for number, value in self.known.items()}
+        return [middle(each) for each in self.misfits(tried, known)]
+
+    def drawn(
+        self, tried: Sequence[Any], wanted: tuple[int, ...], known: Mapping[int, Any] | None = None
+    ) -> list[Any]:
+        """The values of some steps at trial values; ValueError where they cannot be drawn."""
+        trial = self.trial
+        overrides = dict(self.known if known is None else known)
+        for one, each in zip(trial.unknowns, tried, strict=True):
+            overrides[one.tried] = one.value(each)
+        overrides |= dict(zip(trial.signs, self.signs, strict=True))
+        if wanted not in self.needed:
+            self.needed[wanted] = trial.program.behind(wanted)
+        needed = self.needed[wanted]
+        try:
+            trace = run(trial.program, needed, trial.values, self.kind, overrides=overrides)
+        except StepFailed as failed:
+            raise ValueError("the chain of the trial cannot be drawn") from failed
+        return [trace.values[n] for n in wanted]
+
+    # --- of one link that is tried ---------------------------------------------------------------
+
+    def misfit(self, tried: Any) -> Any:
+        """By how much the last link misses; ValueError where the chain cannot be drawn."""
+        return self.misfits((tried,))[0]
+
+    def middle_misfit(self, tried: Any) -> Any:
+        """The middle of the misfit, in balls, of the middles of what is known."""
+        return self.middles((tried,))[0]
+
+    def axes(self, tried: Any) -> list[Any]:
+        """The axes of the links in the order in which closures are numbered."""
+        return self.drawn((tried,), self.trial.axes)
+
+    def locus(self, tried: Any) -> Any:
+        """The point that moves as the link is tried."""
+        return self.drawn((tried,), (self.trial.first.locus,))[0]
+
+    def reach(self, k: int, tried: Any) -> Any:
+        """How far the dyad of a sign can be drawn, positive where it can: its middle, in balls."""
+        choice = self.trial.choices[k]
+        assert choice is not None
+        _, reaches, args = choice
+        return middle(reaches(*self.drawn((tried,), args)))
+
+    def with_sign(self, k: int, sign: float) -> TrialChain:
+        """The same with another sign of a dyad."""
+        signs = [*self.signs[:k], sign, *self.signs[k + 1 :]]
+        return TrialChain(self.trial, tuple(self.known.values()), signs, self.kind)

@@ -15,8 +15,8 @@ from msgspec import Struct
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Program
+from graphkin.construction.higher_class.closure_solver import run_settled
 from graphkin.construction.higher_class.divided_point import Divided
-from graphkin.construction.higher_class.settling import run_settled
 from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.scene.model import Scene
 

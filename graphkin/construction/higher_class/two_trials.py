@@ -5,39 +5,39 @@ What a trial misses grows in proportion to what was tried (method of two plans, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import ClassVar
 
-from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.acceleration import acceleration as accelerations
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.amounts import OnPaper
-from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
-from graphkin.construction.core.pen import Pen, image, second_image
+from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program, Target
-from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
-from graphkin.construction.core.vocabulary import action, distance, part_along, sum_of
+from graphkin.construction.core.vocabulary import (
+    action,
+    difference,
+    distance,
+    part_along,
+    sum_of,
+)
 from graphkin.construction.guides.coincident_points import image_under, omega_of
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.higher_class import coupled_train
 from graphkin.construction.higher_class.divided_point import (
-    CrossedLine,
+    ACCELERATION,
+    VELOCITY,
     DividedPoint,
-    DividedRate,
-    between,
-    crossed_point,
-    crossing,
+    PlanQuantity,
+    crossings,
 )
-from graphkin.construction.higher_class.higher import Each, inverse, less, product, slide_of
+from graphkin.construction.higher_class.higher import Each, inverse, product, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
     DrivenMisclosure,
@@ -46,10 +46,9 @@ from graphkin.construction.higher_class.misclosure import (
     lacks,
     lacks_across,
 )
-from graphkin.construction.higher_class.trial_arrows import components, relative_arrows
+from graphkin.construction.higher_class.right_plan import components, in_order, settle
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.velocity import velocity as velocities
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -320,24 +319,8 @@ def acceleration(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, eac
     two_trials(pen, shapes, group, each, ACCELERATION)
 
 
-class TrialQuantity(Struct, frozen=True):
-    """What differs between the two plans."""
-
-    quantity: str
-    rate: str
-    part: Part
-    plane: Plane
-    named: Callable[[str], str]
-
-
-VELOCITY = TrialQuantity("velocity", OMEGA, Part.VELOCITY, Plane.VELOCITIES, image)
-ACCELERATION = TrialQuantity(
-    "acceleration", EPSILON, Part.ACCELERATION, Plane.ACCELERATIONS, second_image
-)
-
-
 def two_trials(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each, kind: TrialQuantity
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each, kind: PlanQuantity
 ) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried."""
     layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
@@ -374,10 +357,10 @@ def two_trials(
 
 
 def plans_of(
-    pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity
+    pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity
 ) -> tuple[TrialPlan, TrialPlan]:
     """The two trial plans of a group; those of one within a group lie within its trial plans."""
-    whole, link = pen.auxiliary, group.trial.link
+    whole, link = pen.auxiliary, group.tried.link
     assert whole is None or isinstance(whole, TrialPlan)
     tag = whole.tag if whole is not None else ""
     with pen.on(Part.SHAPE, Plane.NUMBERS):
@@ -391,7 +374,7 @@ def plans_of(
     return first, second
 
 
-def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> dict[str, int]:
+def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> dict[str, int]:
     """The images of known wheels where those of a coupled train touch them, before any trial.
 
     Velocities are by the name of the point of the train's own last wheel, which has the same.
@@ -402,7 +385,7 @@ def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> d
     return {} if kind is ACCELERATION else found
 
 
-def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> int:
+def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> int:
     """The second trial: as fast as the driver turns, or slides by a bar in that time.
 
     An acceleration is as large as the squares of that and of how fast the link has been found to
@@ -410,11 +393,11 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> 
     a round number takes its place (trial_rates).
     """
     rate = pen.draw(inverse, pen.seconds())
-    turns = isinstance(group.trial.pair, Pin)
+    turns = isinstance(group.tried.pair, Pin)
     bar = None if turns else pen.draw(far, *places_of(pen, group))
     if kind is ACCELERATION:
         with pen.on(kind.part, Plane.NUMBERS):
-            own = omega_of(pen, group.trial.link) if bar is None else slid_rate(pen, group, bar)
+            own = omega_of(pen, group.tried.link) if bar is None else slid_rate(pen, group, bar)
             squares = (pen.draw(product, each, each) for each in (rate, own))
             rate = pen.draw(sum_of, *squares)
     return rate if bar is None else pen.draw(product, rate, bar)
@@ -422,44 +405,37 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: TrialQuantity) -> 
 
 def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
-    pair, point = group.trial.pair, pen.bases[group.trial.link].start
+    pair, point = group.tried.pair, pen.bases[group.tried.link].start
     assert not isinstance(pair, Pin)
-    under = image_under(pen, partner(pair, group.trial.link), point)
+    under = image_under(pen, partner(pair, group.tried.link), point)
     speed = pen.draw(distance, under, pen.the("velocity", point))
     return pen.draw(product, speed, pen.draw(inverse, bar))
 
 
 def places_of(pen: Pen, group: CoupledTrain | Higher) -> list[int]:
     """Where the points of a group stand, that of the tried link first."""
-    start = pen.bases[group.trial.link].start
+    start = pen.bases[group.tried.link].start
     points = dict.fromkeys((start, *(p for n in group.links for p in pen.scene.link(n).points)))
     return [pen.the("position", point) for point in points]
 
 
 def move_trial(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: TrialQuantity, value: int
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity, value: int
 ) -> None:
     """The tried link in a trial plan."""
-    trial, base = group.trial, pen.bases[group.trial.link]
+    trial, base = group.tried, pen.bases[group.tried.link]
     match trial.pair:
         case Pin(point=pivot):
             pen.want(kind.rate, trial.link, value)
             if base.end is not None:
-                if kind is VELOCITY:
-                    velocities.turn_tip(pen, trial.link, pivot, base.end)
-                else:
-                    accelerations.turn_tip(pen, trial.link, pivot, base.end)
+                kind.turn_tip(pen, trial.link, pivot, base.end)
         case _ as pair:
-            slide = velocities.slide_on if kind is VELOCITY else accelerations.slide_on
-            slide(pen, shapes, pair, trial.link, value)
-    if kind is VELOCITY:
-        velocities.plate_points(pen, shapes, base)
-    else:
-        accelerations.plate_points(pen, shapes, base)
+            kind.slide_on(pen, shapes, pair, trial.link, value)
+    kind.plate_points(pen, shapes, base)
 
 
 def missed(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: TrialQuantity
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity
 ) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
     if isinstance(group, CoupledTrain):
@@ -477,135 +453,35 @@ def missed(
             roles = dict(zip(("p", "q", "foot", "tip"), ends, strict=True))
             return BarMisclosure(size=size, wanted=wanted, **roles)
         case Tie(link, Pin(point=p), Sliding() as pair):
-            known = partner(pair, link)
             line = known_guide(pen, shapes, pair)
-            if kind is VELOCITY:
-                start = image_under(pen, known, p)
-            else:
-                start = known_end(pen, pair, link, p)
+            start = kind.known_end(pen, pair, link, p)
             tip = pen.the(kind.quantity, p)
             with pen.on(kind.part, Plane.NUMBERS):
                 size = pen.draw(lacks_across, line, start, tip)
             return GuideMisclosure(size=size, block=pair.links[0], guide=line, start=start, tip=tip)
         case Driver(kind="turn") as driver:
-            given = getattr(pen.drive(driver), "speed" if kind is VELOCITY else "acceleration")
+            given = getattr(pen.drive(driver), kind.given)
             own = omega_of(pen, driver.link, kind.rate)
             if driver.against != FRAME:
                 with pen.on(kind.part, Plane.NUMBERS):
-                    own = pen.draw(less, own, omega_of(pen, driver.against, kind.rate))
+                    own = pen.draw(difference, own, omega_of(pen, driver.against, kind.rate))
             with pen.on(kind.part, Plane.NUMBERS):
-                size = pen.draw(less, own, given)
+                size = pen.draw(difference, own, given)
             return DrivenMisclosure(size=size, driver=driver, found=own)
         case Driver() as driver:
             return missed_slide(pen, shapes, driver, kind)
     raise AssertionError(last)
 
 
-def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: TrialQuantity) -> Misclosure:
+def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: PlanQuantity) -> Misclosure:
     """What a trial plan misses of a given sliding speed or acceleration."""
     pair = slide_of(pen, driver)
     first = pen.scene.link(driver.link).points[0]
-    given = getattr(pen.drive(driver), "speed" if kind is VELOCITY else "acceleration")
+    given = getattr(pen.drive(driver), kind.given)
     line = known_guide(pen, shapes, pair)
-    if kind is VELOCITY:
-        start = image_under(pen, driver.against, first)
-    else:
-        start = known_end(pen, pair, driver.link, first)
+    start = kind.known_end(pen, pair, driver.link, first)
     with pen.on(kind.part, Plane.NUMBERS):
         tip = pen.the(kind.quantity, first)
         found = pen.draw(part_along, line, start, tip)
-        size = pen.draw(less, found, given)
+        size = pen.draw(difference, found, given)
     return DrivenMisclosure(size=size, driver=driver, found=found, start=start, tip=tip)
-
-
-def trials_of(layers: list[dict[Target, int]], kind: TrialQuantity, point: str) -> tuple[int, int]:
-    """The images of a point in both trial plans."""
-    first, second = (layer[kind.quantity, point] for layer in layers)
-    return first, second
-
-
-def crossings(
-    pen: Pen,
-    shapes: LinkShapes,
-    group: CoupledTrain | Higher,
-    kind: TrialQuantity,
-    layers: list[dict[Target, int]],
-) -> dict[str, CrossedLine]:
-    """The point that a line known before the trials finds by a crossing, and how."""
-    images = [of for what, of in layers[0] if what == kind.quantity]
-    tried = {of for of in images if len({*trials_of(layers, kind, of)}) > 1}
-    point = crossed_point(pen, group, kind.quantity, tried)
-    if point is None:
-        return {}
-    ends = trials_of(layers, kind, point)
-    return {point: crossing(pen, shapes, group, kind.quantity, point, ends)}
-
-
-def settle(
-    pen: Pen,
-    group: CoupledTrain | Higher,
-    kind: TrialQuantity,
-    layers: list[dict[Target, int]],
-    divided: int,
-    crossed: dict[str, CrossedLine],
-    rims: dict[str, int],
-) -> None:
-    """Every point of the right plan, on the lines through its two trials."""
-    first, second = layers
-    settled: dict[tuple[int, int], str] = {}
-    for (quantity, of), one in first.items():
-        two = second[quantity, of]
-        if quantity == kind.rate and own_rate(pen, of):
-            with pen.on(Part.RESULT, Plane.NUMBERS):
-                value = pen.want(quantity, of, pen.draw(between, one, two, divided, name=of))
-            pen.make(DividedRate(first=one, second=two, share=divided, value=value))
-        elif quantity == kind.quantity and (one == two or of in rims):
-            pen.want(quantity, of, rims.get(of, one))
-        elif quantity == kind.quantity and pen.has(quantity, of):
-            settled[one, two] = of  # of a known link, where the line of a crossing begins
-        elif quantity == kind.quantity and (one, two) in settled:
-            pen.want(quantity, of, pen.the(quantity, settled[one, two]))
-        elif quantity == kind.quantity:
-            line, name = crossed.get(of), kind.named(of)
-            by_hand = line.crossing if line is not None else None
-            with pen.on(kind.part, kind.plane):
-                value = pen.draw(between, one, two, divided, name=name, by_hand=by_hand)
-            pen.want(quantity, of, value)
-            roles = {"first": one, "second": two, "share": divided, "value": value}
-            pen.make(DividedPoint(**roles, point=of, crossed=line))
-            settled[one, two] = of
-    closing: tuple[str, ...] = ()
-    match group.last:
-        case Tie(_, Pin(point=p), Pin(point=q)):
-            closing = in_order((p, q), [*settled.values()])
-    for point in settled.values():
-        if "@" not in point:
-            finish(pen, kind, point, closing)
-        elif kind is VELOCITY:
-            relative_arrows(pen, point)
-    if closing and kind is VELOCITY:
-        velocity_arrows(pen, closing[1], closing[0])
-
-
-def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
-    """The ends of the bar that closes a group, the one that is known or found first before."""
-    return tuple(sorted(ends, key=lambda end: found.index(end) if end in found else -1))
-
-
-def own_rate(pen: Pen, link: str) -> bool:
-    """Whether no two points of a link tell how it turns: the tried link with one pin."""
-    base = pen.bases.get(link)
-    return base is not None and base.end is None and link not in pen.leads and pen.turns(link)
-
-
-def finish(pen: Pen, kind: TrialQuantity, point: str, closing: tuple[str, ...]) -> None:
-    """The arrows to a point of the right plan; none against the end of a bar that is found last."""
-    if kind is VELOCITY:
-        moved = [base for base in pen.bases.values() if pen.has("velocity", base.start)]
-        starts = {b.start for b in moved if point == b.end}
-        starts = starts or {b.start for b in moved if point in b.others}
-        pivots: list[str | None] = [*sorted(starts)]
-        for pivot in pivots or [None]:
-            velocity_arrows(pen, point, None if (point, pivot) == closing else pivot)
-    else:
-        acceleration_arrow(pen, point)

@@ -19,11 +19,15 @@ def counted_near(axis: Point, heading: Point, angle: Real) -> Real:
 
     An axis turned just half round from it, but for rounding, has turned ahead and not back.
     """
-    way = axis * heading.conjugate()
+    return angle + turned_ahead(axis * heading.conjugate())
+
+
+def turned_ahead(way: Point) -> Real:
+    """The angle of a direction: half a turn back, but for rounding, is half a turn ahead."""
     size = abs(way)
     quarter = phase(at(size * 0.0, size))
     since = phase(way)
-    return angle + pick(below(since, ROUND - 2 * quarter), since + 4 * quarter, since)
+    return pick(below(since, ROUND - 2 * quarter), since + 4 * quarter, since)
 
 
 class CountedTurn(Construction, frozen=True, kw_only=True):

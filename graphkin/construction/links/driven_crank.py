@@ -16,8 +16,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_actions import axis_by_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import FRAME

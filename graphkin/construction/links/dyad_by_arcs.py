@@ -11,7 +11,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.arithmetic import Point, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.text.errors import Problem
 
@@ -20,9 +20,26 @@ if TYPE_CHECKING:
 
 COINCIDE = 1e-6
 """Distance of two centres, in radii, below which they fall together."""
+TOGETHER = 2.0**-25
+"""Distance of the centres of two equal circles, in parts of both radii, that may be rounding.
+
+Beside a flat crossing rounding is as large as the root of eps.
+"""
 
 
-@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n))
+def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
+    """By how much two circles meet: positive where they cross, negative where they do not.
+
+    Equal circles that fall together do not: their centres may stay together on all the way, and
+    where the circles cross is then rounding.
+    """
+    distance, most = abs(n.centre - m.centre), m.radius + n.radius
+    least, hidden = abs(m.radius - n.radius), TOGETHER * most
+    least = pick(least < hidden, hidden, least)
+    return (most**2 - distance**2) * (distance**2 - least**2)
+
+
+@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n), reaches=arcs_reach)
 def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
     """Where two arcs meet, on one side of the way from the first centre to the second."""
     return circle_meets_circle(m, n, side)

@@ -12,11 +12,13 @@ from graphkin.construction.guides.rails import places_of
 from graphkin.construction.guides.slide_symbols import number_side
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.construction.links.wheel_symbols import number_beside
+from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import GAP, NUMBER, Label
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark
-from graphkin.drawing.richtext import escape, extent
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Link
 
@@ -37,10 +39,21 @@ PARTS = 8
 
 
 class Body(NamedTuple):
-    """A bar or a plate on the page: its sides, and the corners of a plate in order around it."""
+    """A bar or a plate on the page: sides, the corners of a plate in order around it, its box."""
 
     sides: list[Segment]
     corners: list[complex]
+    box: Rect
+
+    def near(self, start: complex, end: complex, far: float) -> bool:
+        """False where its box is farther than so much from the box of a line."""
+        left, top, right, low = self.box
+        return (
+            min(start.real, end.real) - far <= right
+            and max(start.real, end.real) + far >= left
+            and min(start.imag, end.imag) - far <= low
+            and max(start.imag, end.imag) + far >= top
+        )
 
     def apart(self, place: complex) -> float:
         """How far a place is from it; zero inside a plate."""
@@ -95,12 +108,18 @@ def body_of(drawing: Drawing, field: Field, link: Link) -> Body | None:
     """The bar or the plate of a link on the page; None where it has neither."""
     corners = [complex(*field(corner)) for corner in corners_of(drawing, link) or ()]
     if corners:
-        return Body([*pairwise([*corners, corners[0]])], corners)
+        return Body([*pairwise([*corners, corners[0]])], corners, around(corners))
     places = places_of(drawing, link.name)
     if len(places) < 2:
         return None
     first, last = (complex(*field(place)) for place in farthest(places))
-    return Body([(first, last)], []) if first != last else None
+    return Body([(first, last)], [], around((first, last))) if first != last else None
+
+
+def around(places: Sequence[complex]) -> Rect:
+    """The upright box around places."""
+    xs, ys = [place.real for place in places], [place.imag for place in places]
+    return min(xs), min(ys), max(xs), max(ys)
 
 
 def label_inside(link: Link, body: Body, others: Sequence[Body]) -> Label | None:
@@ -133,10 +152,11 @@ def label_beside(link: Link, start: complex, end: complex, others: Sequence[Body
     length = abs(end - start)
     way = (end - start) / length
     off = (NUMBER + GAP) * 1j * way
+    beside = [other for other in others if other.near(start, end, ENOUGH + abs(off))]
     found: list[tuple[float, float, int]] = []
     for share, side in product(SHARES, (1, -1)):
         place = start + share * (end - start) + side * off
-        room = min((other.apart(place) for other in others), default=ENOUGH)
+        room = min((other.apart(place) for other in beside), default=ENOUGH)
         found.append((min(room, ENOUGH) - SHIFT * (share - 0.5) ** 2, share, side))
         if room >= ENOUGH:
             break

@@ -99,11 +99,7 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The links with their plates, bars, guides, blocks, wheels, profiles and pins."""
     draw_plates(board, drawing, field)
     draw_slides(board, drawing, field)
-    draw_bodies(board, drawing, field, carriers=False)
-    draw_outlines(board, drawing, field)
-    draw_edges(board, drawing, field)
-    draw_cams(board, drawing, field)
-    draw_touches(board, drawing, field)
+    draw_shapes(board, drawing, field)
     draw_pins(board, drawing, field)
 
 
@@ -152,13 +148,18 @@ def draw_slides(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_upper(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """The other bars, the sides of plates, profiles, turns of wheels, and the links' numbers."""
+    """What lies above blocks, and the links' numbers."""
+    draw_shapes(board, drawing, field)
+    draw_numbers(board, drawing, field)
+
+
+def draw_shapes(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The other bars, the sides of plates, profiles, and turns of wheels."""
     draw_bodies(board, drawing, field, carriers=False)
     draw_outlines(board, drawing, field)
     draw_edges(board, drawing, field)
     draw_cams(board, drawing, field)
     draw_touches(board, drawing, field)
-    draw_numbers(board, drawing, field)
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field, *, carriers: bool) -> None:

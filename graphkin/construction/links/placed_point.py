@@ -12,8 +12,7 @@ from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.guides.guide_actions import placed
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 
 UNTURNED = 0.05
 """A wheel that has turned by less, in degrees, is drawn as at the start."""

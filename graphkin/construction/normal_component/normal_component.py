@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
     Measured,
@@ -43,6 +42,7 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 # --- its value, and the steps of the hand's way --------------------------------------------------

@@ -18,8 +18,7 @@ from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, dot
 from graphkin.scene.model import FRAME, Belt, Rolling

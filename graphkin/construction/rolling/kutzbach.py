@@ -24,9 +24,8 @@ from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.coincident_points import carried
-from graphkin.drawing.richtext import escape
 from graphkin.drawing.style import CHAIN_LINES
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, dot
 from graphkin.scene.model import FRAME, Driver

@@ -13,7 +13,12 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, coordinate, difference, sum_of
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
 from graphkin.construction.guides.set_by_coordinate import set_at, set_point
-from graphkin.construction.links.counted_turn import CountedTurn, counted_link, counted_near
+from graphkin.construction.links.counted_turn import (
+    CountedTurn,
+    counted_link,
+    counted_near,
+    turned_ahead,
+)
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.links.plate_points import plate_points
@@ -58,7 +63,7 @@ def way_rolled(turn: Real, start: Real, radius: Real) -> Real:
 @action("less-axis")
 def less_axis(turn: Real, axis: Point) -> Real:
     """An angle less that of a link that keeps its direction."""
-    return turn - phase(axis)
+    return turn - turned_ahead(axis)
 
 
 @action("opposite")
@@ -362,9 +367,11 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
             return pen.given("nought")
         if pen.has("turned", link):
             return pen.the("turned", link)
-        if driver := gives_angle(pen.scene, link):
+        driver = gives_angle(pen.scene, link)
+        if driver is not None and stands(pen, driver.against):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
-        if (known := turned_with_driven(pen.scene, link)) is not None:
+        known = turned_with_driven(pen.scene, link)
+        if known is not None and stands(pen, known):
             axes = axis(pen, shapes, link), axis(pen, shapes, known)
             found = pen.draw(counted_near, *axes, angle_of(pen, shapes, known))
             return pen.want("turned", link, found)
@@ -374,6 +381,11 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
         if pen.turns(link):
             pen.make(CountedTurn(link=link, heading=ends[0], radians=ends[1], turn=found))
         return pen.want("turned", link, found)
+
+
+def stands(pen: Pen, link: str) -> bool:
+    """Whether a link stands already: one against which a driver turns another may come later."""
+    return link == FRAME or link in pen.bases
 
 
 def refuse_idle_turns(pen: Pen) -> None:

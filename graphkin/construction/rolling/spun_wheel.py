@@ -12,14 +12,12 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import sum_of
-from graphkin.construction.guides.coincident_points import carried, omega_of
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.placed_point import place_point
 from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
-from graphkin.construction.rolling.rolling_normal import rolled_image
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.velocity import velocity as velocities
 from graphkin.structure.groups import Geared, Spun
@@ -109,10 +107,5 @@ def accelerate(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
 @by_contact
 def accelerate_centre(pen: Pen, link: str, contact: Contact, centre: str) -> None:
     """The second image of a wheel's centre from that of its point of contact."""
-    name, other = contact_name(contact), partner(contact, link)
-    start = carried(pen, other, name, "acceleration")
-    rates = omega_of(pen, link), omega_of(pen, other)
-    rim = under(name, link)
-    track = contact.wheel_of(other).centre
-    rolled_image(pen, start, rim, (name, centre, track), rates)
-    wheel_images.turn_from_rim(pen, link, rim, centre)
+    wheel_images.second_image_of_rim(pen, contact, link, partner(contact, link))
+    wheel_images.turn_from_rim(pen, link, under(contact_name(contact), link), centre)

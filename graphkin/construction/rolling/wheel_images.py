@@ -93,13 +93,11 @@ def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
             first = touched(pen, own, link, partner(own, link))
             names = [under(contact_name(own), link), under(name, link)]
             centre, letters = own.wheel.centre, (letter(names[0]), letter(names[1]))
-            ends = pen.the("position", names[0]), pen.the("position", names[1])
-            with pen.on(Part.SHAPE, Plane.NUMBERS):
-                ratio = pen.draw(in_proportion, *ends, pen.the("position", centre))
+            divided = on_line_of(pen, names, [first, start], centre)
             with pen.on(Part.VELOCITY, Plane.VELOCITIES):
                 found = image_of_link(
                     pen,
-                    (first, start, ratio),
+                    divided,
                     (*letters, centre),
                     name=image(centre),
                     touching=(image(names[0]), image(names[1])),
@@ -108,10 +106,7 @@ def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
             velocity_arrows(pen, centre, None)
             relative_arrow(pen, names[1], names[0])
             index = against(pen, names[1], names[0])
-            with pen.on(Part.RESULT, Plane.NUMBERS):
-                steps = ends, (first, start)
-                turning = turning_of_link(pen, OMEGA, link, letters, index, steps)
-            pen.want(OMEGA, link, turning)
+            turning_of_contacts(pen, OMEGA, link, names, index, (first, start))
 
 
 @by_contact
@@ -228,12 +223,9 @@ def turning_rack(pen: Pen, group: Geared) -> None:
 
     That moves against the wheel's straight away from the wheel's centre, as the wheel's to it.
     """
-    link, contact, point = group.link, group.contact, pen.bases[group.link].start
-    name, wheel, centre = contact_name(contact), contact.links[0], contact.wheel.centre
-    start = carried(pen, wheel, name, "acceleration")
-    rates, rim = (omega_of(pen, wheel), omega_of(pen, link)), under(name, link)
-    rolled_image(pen, start, rim, (centre, name), rates, on_bar=True)
-    turn_from_rim(pen, link, rim, point)
+    link, contact = group.link, group.contact
+    second_image_of_rim(pen, contact, link, contact.links[0])
+    turn_from_rim(pen, link, under(contact_name(contact), link), pen.bases[link].start)
 
 
 def turned_from_rim(pen: Pen, link: str, name: str, point: str, start: int) -> int:
@@ -264,32 +256,36 @@ def turn_from_rim(pen: Pen, link: str, rim: str, point: str) -> None:
 
 def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
     """A roller between tracks: its points of contact move against them to its centre only."""
-    link, centre = group.link, own.wheel.centre
-    images, names, starts = [], [], []
-    for contact in (own, group.contact):
-        name, known = contact_name(contact), partner(contact, link)
-        start = carried(pen, known, name, "acceleration")
-        rates = omega_of(pen, link), omega_of(pen, known)
-        images.append(rolled_image(pen, start, under(name, link), (name, centre), rates))
-        names.append(name)
-        starts.append(start)
-    ends = pen.the("position", names[0]), pen.the("position", names[1])
-    with pen.on(Part.SHAPE, Plane.NUMBERS):
-        ratio = pen.draw(in_proportion, *ends, pen.the("position", centre))
+    link, centre, contacts = group.link, own.wheel.centre, (own, group.contact)
+    known = [partner(each, link) for each in contacts]
+    first, second = (
+        second_image_of_rim(pen, each, link, other)
+        for each, other in zip(contacts, known, strict=True)
+    )
+    names = [contact_name(each) for each in contacts]
+    divided = on_line_of(pen, names, [first, second], centre)
     rims = [under(name, link) for name in names]
-    letters, (first, second) = (letter(rims[0]), letter(rims[1])), images
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        points, called = (*letters, centre), second_image(centre)
-        found = image_of_link(pen, (first, second, ratio), points, name=called)
-        if not any(pen.turns(partner(contact, link)) for contact in (own, group.contact)):
-            component_arrow(pen, starts[0], starts[1], "τ", rims[1], rims[0])
+        points, called = (letter(rims[0]), letter(rims[1]), centre), second_image(centre)
+        found = image_of_link(pen, divided, points, name=called)
+        if not any(map(pen.turns, known)):
+            pairs = zip(known, names, strict=True)
+            tail, tip = (carried(pen, on, name, "acceleration") for on, name in pairs)
+            component_arrow(pen, tail, tip, "τ", rims[1], rims[0])
     pen.want("acceleration", centre, found)
     acceleration_arrow(pen, centre)
-    index = about(pen, rims[1], rims[0])
+    turning_of_contacts(pen, EPSILON, link, rims, about(pen, rims[1], rims[0]), (first, second))
+
+
+def turning_of_contacts(
+    pen: Pen, rate: str, link: str, rims: Sequence[str], index: str, images: tuple[int, int]
+) -> None:
+    """The rate of a roller from the images of both its points of contact."""
+    ends = pen.the("position", rims[0]), pen.the("position", rims[1])
+    letters = letter(rims[0]), letter(rims[1])
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        steps = ends, (first, second)
-        turning = turning_of_link(pen, EPSILON, link, letters, index, steps)
-    pen.want(EPSILON, link, turning)
+        found = turning_of_link(pen, rate, link, letters, index, (ends, images))
+    pen.want(rate, link, found)
 
 
 # --- pinned at the instant where they touch their tracks -----------------------------------------
@@ -321,7 +317,7 @@ def accelerate_pinned(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -
 
 
 @by_contact
-def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> None:
+def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int:
     """The second image of a point of contact, from that of the point which it touches.
 
     A wheel's moves towards its centre, on a straight track with the square of its turning times its
@@ -332,8 +328,8 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> Non
     rates, rim = (omega_of(pen, own), omega_of(pen, known)), under(name, own)
     if contact.track is not None:
         hubs = contact.wheel_of(own).centre, contact.wheel_of(known).centre
-        rolled_image(pen, start, rim, (name, *hubs), rates)
-    elif own == contact.links[0]:
-        rolled_image(pen, start, rim, (name, contact.wheel.centre), rates)
-    else:
-        rolled_image(pen, start, rim, (contact.wheel.centre, name), rates[::-1], on_bar=True)
+        return rolled_image(pen, start, rim, (name, *hubs), rates)
+    if own == contact.links[0]:
+        return rolled_image(pen, start, rim, (name, contact.wheel.centre), rates)
+    ends = contact.wheel.centre, name
+    return rolled_image(pen, start, rim, ends, rates[::-1], on_bar=True)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.vocabulary import meet
 from graphkin.drawing.symbol_markup import symbol
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 

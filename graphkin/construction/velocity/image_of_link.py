@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.pen import Pen
@@ -14,6 +13,9 @@ from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.velocity.crossed_image import CrossedImage
 from graphkin.drawing.symbol_markup import bar, symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
 
 IN_LINE = 1e-9
 """How far beside its line, in parts of its distance, a point still counts as on it."""

@@ -14,8 +14,7 @@ from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.along_guide import AlongGuide
-from graphkin.drawing.richtext import escape
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
 

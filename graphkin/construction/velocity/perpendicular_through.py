@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action
@@ -16,6 +15,7 @@ from graphkin.numbers.plane import Line
 from graphkin.structure.pairs import is_in_scene
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation
@@ -16,6 +15,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, rate_symbol, vector_of
 from graphkin.construction.core.pen import Pen
@@ -21,6 +20,9 @@ from graphkin.construction.velocity.laid_off_by_rate import (
 )
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
 
 
 @action("turned-velocity")

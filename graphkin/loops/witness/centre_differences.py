@@ -6,7 +6,7 @@ With it come its bound, by the errors of the motion, and the motion that cancels
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from msgspec import Struct
@@ -48,7 +48,7 @@ class MotionField(Struct, frozen=True, eq=False):
     missed_turn: Reals
 
 
-class Left(NamedTuple):
+class Left(Struct, frozen=True, eq=False):
     """What motion is left at a centre, its bound, and the motion that cancels there."""
 
     found: Reals

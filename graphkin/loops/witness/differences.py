@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
@@ -23,6 +24,7 @@ from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import Rounding
 from graphkin.loops.witness.centre_differences import centre_differences
 
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
 FLOOR = 1e-3
 """Share of its natural size below which a scale is not taken seriously."""
 LOST = 0.1
@@ -35,35 +37,43 @@ KINDS_OF = {each.attribute: each.kind for each in (*OF_POINTS, *RATES, *OF_SLIDE
 """Of which derivative each quantity is; centres have none."""
 
 
-class Difference(NamedTuple):
-    """A difference, the bound of its error, and the size of the quantity, all over its scale."""
+class Differences(Struct, frozen=True, eq=False, dict=True):
+    """Differences by the ``names`` of their quantities, the bounds of their errors, and the sizes
+    of the quantities, all over their scales: each of shape (Q, N).
+    """
 
+    names: tuple[str, ...]
     found: Reals
     bound: Reals
     size: Reals
 
-    @property
-    def share(self) -> Reals:
-        """The bound as a share of the quantity; of a small one, as that of a thousandth."""
-        return np.asarray(self.bound / np.maximum(self.size, FLOOR))
+    @classmethod
+    def of(cls, rows: Sequence[tuple[str, Any, Any, Any]], count: int) -> Differences:
+        """From the name, difference, bound and size, (N,) each, of every quantity."""
+        if not rows:
+            return cls((), *np.zeros((3, 0, count)))
+        names, *columns = zip(*rows, strict=True)
+        return cls(tuple(names), *map(np.array, columns))
 
-    @property
-    def sure(self) -> Any:
+    @cached_property
+    def sure(self) -> Flags:
         """Where some digit of the quantity is sure."""
-        return ~(self.share > LOST)
+        return np.asarray(~(share(self.bound, self.size) > LOST))
 
-    @property
-    def judged(self) -> Any:
+    @cached_property
+    def judged(self) -> Flags:
         """Where the difference is judged: not where both routes know nothing; NaN is."""
-        return self.sure | np.isnan(self.found)
+        return np.asarray(self.sure | np.isnan(self.found))
 
-    @property
+    @cached_property
     def limit(self) -> Reals:
         """The largest difference that is allowed."""
         return np.maximum(LEAST_LIMIT, self.bound)
 
 
-Differences = Mapping[str, Difference]
+def share(bound: Reals, size: Reals) -> Reals:
+    """A bound as a share of the quantity; of a small one, as that of a thousandth."""
+    return np.asarray(bound / np.maximum(size, FLOOR))
 
 
 class Magnitudes(Struct, frozen=True, eq=False):
@@ -114,12 +124,14 @@ def differing(solved: LoopSolution, solution: Solution, extent: Reals) -> Differ
         *of_slides(solved, solution, scales),
     )
 
-    def compared(ours: Any, theirs: Any, bound: Any, scale: Any) -> Difference:
-        return Difference(abs(ours - theirs) / scale, bound / scale, abs(theirs) / scale)
-
-    found = {name: compared(ours, *rest) for name, ours, *rest in pairs if ours is not None}
+    rows = [
+        (name, abs(ours - theirs) / scale, bound / scale, abs(theirs) / scale)
+        for name, ours, theirs, bound, scale in pairs
+        if ours is not None
+    ]
     left = centre_differences(solved, solution, scales)
-    return found | {name: Difference(*each) for name, each in left}
+    rows += [(name, each.found, each.bound, each.size) for name, each in left]
+    return Differences.of(rows, len(extent))
 
 
 Pairs = Iterator[tuple[str, Any, Reals | Complexes, Reals, Reals]]
@@ -174,12 +186,12 @@ def digits_of(differences: Differences) -> dict[str, int]:
     smaller than a thousandth of the largest of its kind, digits of that thousandth.
     """
     found: dict[str, int] = {}
-    for name, each in differences.items():
+    apart = np.fmax(differences.bound, differences.found)[:, 0]
+    shares = share(apart, differences.size[:, 0]).tolist()
+    for name, off in zip(differences.names, shares, strict=True):
         kind = KINDS_OF.get(name.rpartition(".")[2])
         if kind is not None:
-            apart = each._replace(bound=np.fmax(each.bound, each.found))
-            digits = sure_digits(float(apart.share[0]))
-            found[kind] = min(found.get(kind, MOST_DIGITS), digits)
+            found[kind] = min(found.get(kind, MOST_DIGITS), sure_digits(off))
     return found
 
 

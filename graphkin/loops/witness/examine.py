@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,6 @@ from graphkin.loops.witness.branch_conditions import Flags, branch_conditions
 from graphkin.loops.witness.coverage import has_acceleration, links_concerned, scene_of
 from graphkin.loops.witness.differences import (
     LEAST_LIMIT,
-    Difference,
     Differences,
     differing,
     digits_of,
@@ -71,23 +71,24 @@ class Examined(Struct, frozen=True, eq=False):
     @property
     def unsure(self) -> dict[str, Flags]:
         """The quantities of which no digit is sure in some setting, and in which: (N,) each."""
-        lost = {name: ~each.judged for name, each in self.differences.items()}
-        return {name: rows for name, rows in lost.items() if rows.any()}
+        lost = ~self.differences.judged
+        somewhere = np.flatnonzero(lost.any(axis=1))
+        return {self.differences.names[q]: lost[q] for q in somewhere}
 
     @property
     def worst(self) -> Reals:
         """The largest difference of each setting in what is sure; NaN where any is unknown."""
-        worst = np.where(self.solved.report.good, 0.0, np.nan)
-        for each in self.differences.values():
-            worst = np.maximum(worst, np.where(each.judged, each.found, 0.0))
-        return worst
+        each = self.differences
+        known = np.where(self.solved.report.good, 0.0, np.nan)
+        worst = np.where(each.judged, each.found, 0.0).max(axis=0, initial=0.0)
+        return np.asarray(np.maximum(known, worst))
 
     @property
     def agrees(self) -> Flags:
         """Where every difference is within its limit and every branch as stated."""
+        each = self.differences
         agrees = self.solved.report.good
-        for each in self.differences.values():
-            agrees = agrees & ((each.found <= each.limit) | ~each.judged)
+        agrees = agrees & ((each.found <= each.limit) | ~each.judged).all(axis=0)
         for holds in self.branches.values():
             agrees = agrees & holds
         return np.asarray(agrees)
@@ -97,18 +98,19 @@ class Examined(Struct, frozen=True, eq=False):
 
         Where some difference is beyond its limit: the one that is so the farthest, and its own.
         """
-        known = {name: each for name, each in self.differences.items() if each.judged[row]}
-        beyond = {n: each for n, each in known.items() if not each.found[row] <= each.limit[row]}
+        every = self.differences
+        found, limit = every.found[:, row].tolist(), every.limit[:, row].tolist()
+        known = np.flatnonzero(every.judged[:, row]).tolist()
+        beyond = [q for q in known if not found[q] <= limit[q]]
 
-        def farthest(pair: tuple[str, Difference]) -> tuple[bool, float]:
-            found, limit = pair[1].found[row], pair[1].limit[row] if beyond else 1.0
-            return bool(np.isnan(found)), float(found / limit)
+        def farthest(q: int) -> tuple[bool, float]:
+            return isnan(found[q]), found[q] / limit[q] if beyond else found[q]
 
         if not known:
             return 0.0, "", LEAST_LIMIT
-        name, worst = max((beyond or known).items(), key=farthest)
-        limits = [each.limit[row] for each in (beyond and [worst]) or known.values()]
-        return float(worst.found[row]), name, float(max(limits))
+        worst = max(beyond or known, key=farthest)
+        most = max(limit[q] for q in (beyond and [worst]) or known)
+        return found[worst], every.names[worst], most
 
 
 def examine(

@@ -240,14 +240,13 @@ def block(ax: Axes, stand: Outline, link: Link, slide: Slide, size: float) -> No
         return
     corners = [place + along * size * complex(x, y) for x, y in ((-1.2, -0.7), (1.2, -0.7))]
     corners += [place + along * size * complex(x, y) for x, y in ((1.2, 0.7), (-1.2, 0.7))]
-    ax.fill(
-        [z.real for z in corners],
-        [z.imag for z in corners],
-        facecolor="white",
-        edgecolor=INK,
-        linewidth=1.0,
-        zorder=4,
-    )
+    draw_white(ax, corners, 1.0)
+
+
+def draw_white(ax: Axes, corners: list[complex], edge: float) -> None:
+    """A white figure, its edge so wide (points)."""
+    xs, ys = [z.real for z in corners], [z.imag for z in corners]
+    ax.fill(xs, ys, facecolor="white", edgecolor=INK, linewidth=edge, zorder=4)
 
 
 def guide_of(stand: Outline, slide: Slide) -> complex | None:
@@ -266,14 +265,7 @@ def guide_of(stand: Outline, slide: Slide) -> complex | None:
 def pivot(ax: Axes, place: complex, size: float) -> None:
     """A fixed pivot: a triangle on hatched ground."""
     foot = [place, place + size * complex(-0.8, -1.3), place + size * complex(0.8, -1.3)]
-    ax.fill(
-        [z.real for z in foot],
-        [z.imag for z in foot],
-        facecolor="white",
-        edgecolor=INK,
-        linewidth=0.9,
-        zorder=4,
-    )
+    draw_white(ax, foot, 0.9)
     ground = place.imag - 1.3 * size
     ax.plot(
         [place.real - 1.2 * size, place.real + 1.2 * size],

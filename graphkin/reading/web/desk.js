@@ -101,7 +101,7 @@
   }
 
   const label = (each) =>
-    `${each.name} ${each.code} ${each.kind}${each.refused ? " ✗" : open(each) ? ` (${open(each)} ?)` : " ✓"}`;
+    `${each.name}: ${each.who || each.code}, ${each.kind}${each.refused ? " ✗" : open(each) ? ` (${open(each)} ?)` : " ✓"}`;
 
   function hold(step) {
     current = step;
@@ -224,6 +224,7 @@
     Enter: () => {
       const likely = document.querySelector('#choices button[aria-pressed="true"]');
       if (likely) decide(likely.dataset.verdict);
+      else tell(point() ? said.help : "");
     },
     m: () => find("note").focus(),
     PageDown: () => turn(1), PageUp: () => turn(-1),

@@ -121,6 +121,7 @@ def test_a_student_may_sign_with_the_code_on_the_sheets(tmp_path):
     [
         ("twelve", SPEED, "number"),
         ("12,3,4", SPEED, "number"),
+        ("?", SPEED, "open"),
         ("12 kg", SPEED, "unit"),
         ("3 mm", RATE, "unit"),
         ("1e400", SPEED, "large"),

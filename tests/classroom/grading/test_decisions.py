@@ -16,6 +16,7 @@ from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
 from graphkin.classroom.grading.graded import Answer, Decision, Status
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import read_marks
+from graphkin.classroom.grading.releases import Releases
 from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
@@ -159,6 +160,11 @@ def test_a_row_releases_who_is_held_and_an_open_request_does_not(decision, held)
     found = marked([decision] if decision else [], hold=True)
     assert of(found, "s008").held == held
     assert ("s008" in points_by_id(found)) != held
+
+
+def test_the_list_of_those_released_is_written_as_a_lecturer_reads_it():
+    (text,) = Releases(("Șerban-7", "s008")).files().values()
+    assert text.decode("utf-8") == '["Șerban-7", "s008"]\n'
 
 
 @pytest.mark.parametrize("language", SPOKEN)

@@ -109,6 +109,13 @@ def test_a_factor_has_one_name_in_all_the_values_that_it_spoils(name, case):
         assert names(marker, answers, fields) == {slip}, (n, fields)
 
 
+def test_the_square_forgotten_in_one_acceleration_alone_has_the_name_of_the_unit():
+    for n in VARIANTS:
+        marker, answers = marker_of("pump", n), right_set("pump", n)
+        found = off_by(marker.standard, answers, ["a_D"], 1, RPM)
+        assert names(marker, found, ["a_D"]) == {"rpm_as_rad"}
+
+
 def test_ten_times_and_thirty_over_pi_times_are_told_apart_by_the_own_segment():
     """They differ by 5 %, and the drawing alone by more: what was measured tells them apart."""
     for n in VARIANTS:

@@ -85,6 +85,13 @@ def test_what_cannot_be_read_waits_and_is_not_nought():
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
+def test_what_follows_on_the_drawing_says_so(language):
+    found = graded({"v_D_mm": Answer("82.5", 82.5, followed=True)})
+    said = plain(words(language)("feedback.follows_drawn", share="80"))
+    assert said in why(found, "v_D_mm", language)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_slip_that_is_paid_once_says_so(language):
     """Both shares stand on the page with their reason: the slip's own, then what follows."""
     found, spoken = mistaken("pump", "rpm_as_rad"), words(language)

@@ -8,6 +8,7 @@ from math import isnan
 import mpmath
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
@@ -131,6 +132,19 @@ def test_the_tolerance_is_a_length_of_paper_and_so_differs_from_student_to_stude
         for n in (7, 15)
     }
     assert shares[7] != pytest.approx(shares[15], rel=0.05)
+
+
+def test_tolerances_do_not_hang_on_where_the_origin_lies():
+    """Where all points of the frame are moved alike, what caps those of places stays as large."""
+    lab = lab_of("pump")
+    strict = replace(lab, rubric=replace(lab.rubric, cap=0.001))
+    text = scene_of("pump").read_text(encoding="utf-8")
+    moved = text
+    for old, new in (("[0, 0]", "[500, 200]"), ("[0, -30]", "[500, 170]")):
+        moved = moved.replace(old, new)
+    here, there = (Book(strict, each).marker({"n": "7"}).standard for each in (text, moved))
+    values = {field: one.value for field, one in here.tolerance.items()}
+    assert {f: one.value for f, one in there.tolerance.items()} == pytest.approx(values, rel=1e-9)
 
 
 def test_a_computed_value_is_held_to_the_cap():

@@ -71,6 +71,31 @@ def test_nothing_follows_from_a_value_that_is_nearly_nought():
     assert {found[f].earned for f in ("v_BA_mm", "v_BA", "omega_3", "a_BA_nu")} == {0}
 
 
+def test_what_follows_on_the_drawing_earns_follow_though_no_number_tells_it():
+    """A crank laid off in a wrong direction is in no field of the form: only the drawing has it."""
+    marker = marker_of("pump", 7)
+    far = Answer("82.5", 82.5)
+    found = {}
+    for followed in (False, True):
+        own = {"v_D_mm": replace(far, followed=followed)}
+        (found[followed],) = [
+            mark
+            for mark in marker.mark(taker(), {**key_answers(marker.standard), **own}).marks
+            if mark.item.field == "v_D_mm"
+        ]
+    assert found[False].status is Status.WRONG
+    assert found[False].earned == 0
+    assert found[True].status is Status.FOLLOWS
+    assert found[True].source == ""
+    assert found[True].earned == found[True].points * Fraction("0.8")
+    right = {field: replace(answer, followed=True) for field, answer in
+             key_answers(marker.standard).items()}  # fmt: skip
+    assert {mark.status for mark in marker.mark(taker(), right).marks} == {Status.RIGHT}
+    strict = marker_with("pump", (), follow=0.0)
+    marks = strict.mark(taker(), {**key_answers(strict.standard), "v_D_mm": own["v_D_mm"]}).marks
+    assert next(mark for mark in marks if mark.item.field == "v_D_mm").earned == 0
+
+
 def test_without_a_share_nothing_follows():
     marker = marker_with("pump", (), follow=0.0)
     own = 1.4 * marker.standard.key["v_D_mm"]

@@ -62,7 +62,7 @@ def test_what_no_crank_scales_is_asked_one_by_one(name, parameter, values):
 
 def with_sheet(tmp_path: Path, line: str) -> Path:
     """A lab with one more line in its [sheet]."""
-    text = load("offset-slider-crank").scene.source.read_text(encoding="utf-8")
+    text = Path(load("offset-slider-crank").scene.source).read_text(encoding="utf-8")
     path = tmp_path / "offset-slider-crank.toml"
     path.write_text(f"{text.rstrip()}\n{line}\n", encoding="utf-8")
     return path

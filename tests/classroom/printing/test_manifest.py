@@ -92,3 +92,4 @@ def test_students_with_the_same_id_or_code_are_refused(make):
     lines = told(folder)
     assert any('2 students have the id "1"' in line for line in lines)
     assert any('3 students have the code "AAAA"' in line for line in lines)
+    assert all(line.startswith("manifest.json: ") for line in lines if " students have " in line)

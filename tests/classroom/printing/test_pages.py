@@ -13,7 +13,7 @@ from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.printing.answer_form import form
 from graphkin.classroom.printing.edition import Variant, read_edition
-from graphkin.classroom.printing.personal import fits, owner
+from graphkin.classroom.printing.personal import fits, owner, shortened
 from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.printing.qr_code import modules
@@ -180,3 +180,11 @@ def test_a_student_who_cannot_be_drawn_keeps_nobody_else_back(edition):
     assert not found[0].files
     assert not found[1].problems
     assert list(found[1].files["task", "pdf"]) == ["task/0012-task.pdf", "task/0012-form.pdf"]
+
+
+def test_of_a_name_too_long_as_much_is_kept_as_fits():
+    name = "Ștefania-Alexandra " * 20
+    kept = shortened(name)
+    assert kept.endswith("…") and name.startswith(kept[:-1]) and fits(kept)
+    assert not fits(f"{name[: len(kept) + 2].rstrip()}…")
+    assert shortened("Ana Pop, 912") == "Ana Pop, 912"

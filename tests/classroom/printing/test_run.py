@@ -218,6 +218,18 @@ def test_a_file_of_somebody_else_is_not_replaced_without_force(make):
     assert mine.read_bytes() != b"mine"
 
 
+def test_a_whole_class_s_file_of_somebody_else_is_not_replaced_without_force(make):
+    folder = make("foreign", ["0001"])
+    mine = folder / "print" / "class-task.pdf"
+    mine.parent.mkdir()
+    mine.write_bytes(b"mine")
+    with pytest.raises(PageError, match=r"class-task\.pdf"):
+        printed(folder)
+    assert mine.read_bytes() == b"mine"
+    printed(folder, PrintRequest(force=True))
+    assert mine.read_bytes() != b"mine"
+
+
 def test_a_forced_run_that_was_cut_short_goes_on_without_force(make, monkeypatch):
     """What it had begun to replace is known to be its own."""
     folder, wishes = make("forced", ["0001"]), PrintRequest(language="ro")

@@ -409,6 +409,11 @@ def test_a_stray_cell_far_below_costs_no_cells_between(packed):
     assert [(row.line, row.cells) for row in found] == [(1, ("nr", "id")), (1048576, ("1", "7"))]
 
 
+def test_a_row_below_the_last_of_a_spreadsheet_is_refused(packed):
+    (found,) = problems(packed('<row r="1048577"><c><v>1</v></c></row>'))
+    assert "1048577 rows" in found
+
+
 @pytest.mark.parametrize(
     ("rows", "words"),
     [

@@ -29,6 +29,7 @@ from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
+from graphkin.classroom.variants.class_words import class_lines
 from graphkin.classroom.variants.manifest import read_rule, rederived
 from graphkin.cli.main import app
 from graphkin.text.errors import PageError
@@ -72,6 +73,19 @@ def test_what_ranges_give_is_drawn_again_until_it_is_fair():
     for each in again:
         earlier = [settings(lab, each.student, attempt) for attempt in range(each.attempt)]
         assert not judged(load("pump"), lab, earlier).fair.any()
+
+
+def test_who_draws_again_is_told_with_how_often():
+    """Row, number, id, name, draws; of these students no more draw again than a list names."""
+    lab = drawing_lab()
+    found = assigned(lab, [Student(i, f"s{i}") for i in range(60)])
+    lines = [*class_lines(lab, found)]
+    (first,) = (n for n, line in enumerate(lines) if line.startswith("again "))
+    again = [each for each in found if each.attempt]
+    told = [line.split() for line in lines[first : first + len(again) + 1]]
+    assert told[0] == ["again", "row", "number", "id", "name", "draws"]
+    rows = [(f"{each.student.row}", each.student.id, f"{each.attempt + 1}") for each in again]
+    assert rows and [tuple(cells) for cells in told[1:]] == rows
 
 
 def test_the_data_of_a_student_do_not_hang_on_the_others_or_on_the_order():

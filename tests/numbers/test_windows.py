@@ -1,21 +1,10 @@
-"""Where a trial can be drawn: windows narrower than the grid, and places close to their ends."""
-
-import cmath
+"""Windows of functions: narrower than the grid, and places close to their ends."""
 
 import numpy as np
 import pytest
 
-from graphkin.construction.higher_class.flat_dyads import fits_beside
-from graphkin.construction.higher_class.trial_windows import (
-    Windows,
-    arcs_reach,
-    line_reached,
-    narrowed,
-    swing_reached,
-)
-from graphkin.construction.links.counted_turn import counted_near
-from graphkin.numbers.plane import Circle, Line, circle_meets_circle, line_meets_circle
 from graphkin.numbers.roots import roots
+from graphkin.numbers.windows import Windows, fits_beside, narrowed
 
 GRID = np.linspace(0, 10, 101)[None, :]
 
@@ -76,36 +65,3 @@ def test_signs_that_do_not_meet_at_the_end_of_a_window_have_no_fit_between(missi
     _, ends = parts(lambda x: x - 3.141)
     found = fits_beside(lambda _, x, s: s * (missing + (x - 3.141)), ends.at, ends.beside)
     assert not found[0].size
-
-
-@pytest.mark.parametrize("radius", [0.4, 0.6, 1.9, 2.1, 3.4, 3.6])
-def test_arcs_reach_each_other_just_where_they_meet(radius):
-    m, n = Circle(0j, radius), Circle(2 + 0j, 1.5)
-    assert (arcs_reach(m, n) > 0) == meets(circle_meets_circle, m, n, 1)
-
-
-@pytest.mark.parametrize("height", [-2.1, -1.9, 0.0, 1.9, 2.1])
-def test_an_arc_reaches_a_line_just_where_it_cuts_it(height):
-    line, circle = Line(height * 1j, 3 + 0j), Circle(1 + 0j, 2.0)
-    assert (line_reached(line, circle) > 0) == meets(line_meets_circle, line, circle, 1)
-
-
-def test_a_pin_nearer_than_the_height_of_its_guide_is_not_reached():
-    assert swing_reached(0j, 3 + 4j, 4.9) > 0 > swing_reached(0j, 3 + 4j, -5.1)
-
-
-def meets(draw, *args):
-    """Whether something can be drawn."""
-    try:
-        draw(*args)
-    except ValueError:
-        return False
-    return True
-
-
-@pytest.mark.parametrize("off", [0.0, 1e-16, -1e-16, 1e-12, -1e-12])
-def test_half_a_turn_is_ahead_whatever_rounding_says(off):
-    """The whole turns of wheels are counted from it."""
-    axis = cmath.rect(1, cmath.pi) * complex(1, off)
-    assert counted_near(axis, 1 + 0j, 0.0) == pytest.approx(cmath.pi)
-    assert counted_near(np.array([axis]), 1 + 0j, 0.0) == pytest.approx(cmath.pi)

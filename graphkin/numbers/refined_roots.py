@@ -1,72 +1,101 @@
-"""A closure of a group in which several links are tried, in numbers of another kind than doubles.
+"""Where functions vanish near doubles that do so nearly, in numbers of any other kind.
 
-Newton's method leads from doubles to the kind asked for. In balls Miranda's theorem proves it: each
-combination of misfits that grows along one unknown alone has two signs on opposite faces of a box,
-so that all vanish somewhere within.
+The secant through two places leads to the root of one function, Newton's method to that of several.
+In balls a change of sign proves the one, Miranda's theorem the other: each combination of functions
+that grows along one number alone has two signs on opposite faces of a box, so that all vanish
+somewhere within.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import product
 from typing import Any
 
-from graphkin.construction.higher_class.trial_chain import TrialChain, middle
-from graphkin.numbers.arithmetic import Kind, is_ball, phase, turn_by
+from graphkin.numbers.arithmetic import is_ball
+from graphkin.numbers.kinds import middle
+
+Misfit = Callable[[Any], Any]
+Misfits = Callable[[Sequence[Any]], Sequence[Any]]
+Rows = Sequence[Sequence[Any]]
 
 APART = 2.0**-30
-"""How far the first differences reach, in radians or parts of a trial value."""
+"""How far the second place lies from the double, in radians or parts of its size."""
+LEAST = 4 * 1024
+"""The power of a half that the interval of a proof has at least for its width."""
+MOST_SECANTS = 40
+"""Most steps along the secant."""
+WIDENED = 100
+"""How many times the interval of a proof is widened before it is given up."""
+WIDER = 1.25
+"""How much wider each time."""
+ARRAY_STEPS = 2
+"""Steps for arrays; each gains all the digits that the first double had."""
 ROUNDS = 60
 """Steps of Newton's method at most."""
-ARRAY_ROUNDS = 2
-"""Steps for arrays; each gains all the digits that the first double had."""
 PIECES = (1, 16, 128, 1024, 4096)
 """Parts into which a face is cut, one number after the other: balls on smaller parts are tighter by
 as much."""
-WIDENED = 3
+DOUBLED = 3
 """How many times a box is tried, doubled each time, before its proof is given up."""
-Rows = Sequence[Sequence[Any]]
 
 
-def refined(
-    trying: Any, known: Sequence[Any], closed: Sequence[Any], kind: Kind
-) -> tuple[Any, ...]:
-    """A closure in doubles, ``closed``, in the kind of what is known: values, signs and sine.
+def by_secant(misfit: Misfit, start: Any, step: Any) -> Any:
+    """Where a misfit vanishes, near a start: until it no longer comes nearer to nought.
 
-    Raises ValueError where a ball does not tell that the group closes.
+    The second place lies a ``step`` away.
     """
-    size = len(trying.unknowns)
-    first, signs, sine = closed[:size], closed[size:-1], closed[-1]
-    chain = SeveralChain(trying, known, signs, kind)
-    pairs = [*zip(trying.unknowns, first, strict=True)]
-    start = [kind.number(phase(each) if one.turns else each) for one, each in pairs]
-    if hasattr(start[0], "shape") and start[0].shape:
-        found = by_newton_arrays(chain, start)
-    elif kind.name == "ball":
-        found = proved(chain, by_newton(chain.middles, start))
-    else:
-        found = by_newton(chain.misfits, start)
-    values = (turn_by(v) if one.turns else v for (one, _), v in zip(pairs, found, strict=True))
-    rest = (each if is_ball(each) else kind.number(each) for each in (*signs, sine))
-    return (*values, *rest)
+    old, new = start, start + step
+    before, after = misfit(old), misfit(new)
+    if abs(before) < abs(after):
+        old, new, before, after = new, old, after, before
+    for _ in range(MOST_SECANTS):
+        if after in (0, before):
+            return new
+        aim = middle(new - after * (new - old) / (after - before))
+        value = misfit(aim)
+        if not abs(value) < abs(after):
+            return new
+        old, new, before, after = new, aim, after, value
+    return new
 
 
-class SeveralChain(TrialChain):
-    """The trial chain of a group on one scene: its misfits at trial values, in a kind."""
+def by_secants(misfit: Misfit, start: Any, turns: bool) -> Any:
+    """As by_secant for an array; each step gains all the digits that the first double had."""
+    import numpy as np
 
-    def misfits(self, tried: Sequence[Any], known: Any = None) -> list[Any]:
-        """By how much each group misses; ValueError where the chain cannot be drawn."""
-        unknowns = self.trying.unknowns
-        facing = [one.facing for one in unknowns if one.facing is not None]
-        found = self.drawn(tried, (*(one.misfit for one in unknowns), *facing), known)
-        if not all(each > 0 for each in found[len(unknowns) :]):
-            raise ValueError("the last link does not surely face the right way")
-        return found[: len(unknowns)]
+    old, new = start + APART * (1 if turns else np.maximum(abs(start), APART)), start
+    before, after = misfit(old), misfit(new)
+    for _ in range(ARRAY_STEPS):
+        flat = after == before
+        aim = np.where(flat, new, new - after * (new - old) / np.where(flat, 1, after - before))
+        old, new, before, after = new, aim, after, misfit(aim)
+    return new
 
-    def middles(self, tried: Sequence[Any]) -> list[Any]:
-        """The middles of the misfits, in balls, of the middles of what is known."""
-        known = {number: middle(value) for number, value in self.known.items()}
-        return [middle(each) for each in self.misfits(tried, known)]
+
+def proved(misfit: Misfit, near: Any, step: Any) -> Any:
+    """The ball about a value at whose ends the misfit surely has two signs, and none is missing.
+
+    Between them the misfit is a continuous function, for it is finite on the whole ball.
+    """
+    from flint import arb
+
+    slope = (misfit(near + step) - misfit(near - step)) / (2 * step)
+    width = abs(misfit(near)).upper() / abs(slope).lower()
+    if not width.is_finite():
+        raise ValueError("the ball does not tell how the locus crosses")
+    for _ in range(WIDENED):
+        ball = arb(near, width.upper())
+        ends = misfit(near - width), misfit(near + width)
+        if (ends[0] < 0 and ends[1] > 0) or (ends[0] > 0 and ends[1] < 0):
+            if bool(misfit(ball).is_finite()):
+                return ball
+            break
+        width = WIDER * width + arb(2) ** -LEAST
+    raise ValueError("the ball does not tell whether the group closes")
+
+
+# --- of several functions -----------------------------------------------------------------------
 
 
 def determinant(rows: Rows) -> Any:
@@ -91,7 +120,9 @@ def solved(rows: Rows, right: Sequence[Any]) -> list[Any]:
     return [determinant(each) / whole for each in with_right]
 
 
-def slopes(misfits: Any, here: Sequence[Any], value: Sequence[Any], steps: Sequence[Any]) -> Rows:
+def slopes(
+    misfits: Misfits, here: Sequence[Any], value: Sequence[Any], steps: Sequence[Any]
+) -> Rows:
     """How each misfit grows with each unknown: rows of differences."""
     columns = []
     for k, step in enumerate(steps):
@@ -101,11 +132,11 @@ def slopes(misfits: Any, here: Sequence[Any], value: Sequence[Any], steps: Seque
 
 
 def size_of(value: Any) -> Any:
-    """What a step is measured by: a radian, or the trial value."""
+    """What a step is measured by: a radian, or the value itself."""
     return abs(value) or 1
 
 
-def by_newton(misfits: Any, start: Sequence[Any]) -> list[Any]:
+def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
     """Where all misfits vanish, near a start: until they no longer come nearer to nought.
 
     Differences reach as far as the last step went.
@@ -117,44 +148,42 @@ def by_newton(misfits: Any, start: Sequence[Any]) -> list[Any]:
             break
         rows = slopes(misfits, here, value, steps)
         way = solved(rows, [-each for each in value])
-        trial = [middle(each + step) for each, step in zip(here, way, strict=True)]
-        there = misfits(trial)
+        aim = [middle(each + step) for each, step in zip(here, way, strict=True)]
+        there = misfits(aim)
         if not sum(map(abs, there)) < sum(map(abs, value)):
             break
-        here, value = trial, there
+        here, value = aim, there
         steps = [middle(step) or old for step, old in zip(way, steps, strict=True)]
     return here
 
 
-def by_newton_arrays(chain: SeveralChain, start: Sequence[Any]) -> list[Any]:
-    """As by_newton for arrays; in single precision the start is all that there is."""
-    if chain.kind.name == "float32":
-        return [*start]
+def by_newton_arrays(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
+    """As by_newton for arrays."""
     here = [*start]
-    for _ in range(ARRAY_ROUNDS):
-        value, steps = chain.misfits(here), [size * APART for size in map(abs, here)]
-        way = solved(slopes(chain.misfits, here, value, steps), [-each for each in value])
+    for _ in range(ARRAY_STEPS):
+        value, steps = misfits(here), [size * APART for size in map(abs, here)]
+        way = solved(slopes(misfits, here, value, steps), [-each for each in value])
         here = [each + step for each, step in zip(here, way, strict=True)]
     return here
 
 
-def proved(chain: SeveralChain, near: Sequence[Any]) -> list[Any]:
+def proved_together(misfits: Misfits, middles: Misfits, near: Sequence[Any]) -> list[Any]:
     """The balls about values within which all misfits surely vanish, by Miranda's theorem."""
     from flint import arb
 
     sides = range(len(near))
-    value = chain.misfits(near)
+    value = misfits(near)
     steps = [size_of(each) * APART for each in near]
-    rows = slopes(chain.middles, near, chain.middles(near), steps)
+    rows = slopes(middles, near, middles(near), steps)
     inverse = [*zip(*(solved(rows, [int(i == k) for i in sides]) for k in sides), strict=True)]
     inverse = [tuple(middle(each) for each in row) for row in inverse]
 
     def grown(tried: Sequence[Any]) -> list[Any]:
         """The combinations of misfits that grow each along one unknown."""
-        found = chain.misfits(tried)
+        found = misfits(tried)
         return [sum(a * g for a, g in zip(row, found, strict=True)) for row in inverse]
 
-    tiny = arb(2) ** -(4 * 1024)
+    tiny = arb(2) ** -LEAST
     widths = [
         2 * sum((abs(a) * abs(g).upper() for a, g in zip(row, value, strict=True)), tiny).upper()
         for row in inverse
@@ -164,10 +193,10 @@ def proved(chain: SeveralChain, near: Sequence[Any]) -> list[Any]:
     widest = max(widths, key=float)
     widths = [widest * size_of(each).upper() if is_ball(each) else widest for each in near]
     widths = [4 * width for width in widths]
-    for _ in range(WIDENED):
+    for _ in range(DOUBLED):
         box = [arb(each, width.upper()) for each, width in zip(near, widths, strict=True)]
         if all(has_two_signs(grown, near, widths, k) for k in sides):
-            if all(bool(each.is_finite()) for each in chain.misfits(box)):
+            if all(bool(each.is_finite()) for each in misfits(box)):
                 return box
             break
         widths = [2 * width for width in widths]

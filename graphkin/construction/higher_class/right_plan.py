@@ -1,18 +1,32 @@
-"""The arrows of the right plans that two trials give: components, and relative velocities."""
+"""The right plan of a group: its points on the lines through their two trials, and its arrows."""
 
 from __future__ import annotations
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
-from graphkin.construction.core.arrows import arrow_between, relative_arrow
+from graphkin.construction.core.arrows import (
+    acceleration_arrow,
+    arrow_between,
+    relative_arrow,
+    velocity_arrows,
+)
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.sliding import slid
+from graphkin.construction.higher_class.divided_point import (
+    VELOCITY,
+    CrossedLine,
+    DividedPoint,
+    DividedRate,
+    PlanQuantity,
+    between,
+)
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Vector
-from graphkin.structure.groups import CoupledTrain, Higher
+from graphkin.structure.groups import CoupledTrain, Higher, Tie
+from graphkin.structure.pairs import Pin
 
 
 @action("to-corner")
@@ -49,6 +63,82 @@ def before_component(start: Point, tip: Point, component: Point) -> Vector:
 def last_component(start: Point, tip: Point, component: Point) -> Vector:
     """A component as the last leg of a way between two points of a plan."""
     return Vector(tip - component, tip)
+
+
+# --- its points ----------------------------------------------------------------------------------
+
+
+def settle(
+    pen: Pen,
+    group: CoupledTrain | Higher,
+    kind: PlanQuantity,
+    layers: list[dict[Target, int]],
+    divided: int,
+    crossed: dict[str, CrossedLine],
+    rims: dict[str, int],
+) -> None:
+    """Every point of the right plan, on the lines through its two trials."""
+    first, second = layers
+    settled: dict[tuple[int, int], str] = {}
+    for (quantity, of), one in first.items():
+        two = second[quantity, of]
+        if quantity == kind.rate and own_rate(pen, of):
+            with pen.on(Part.RESULT, Plane.NUMBERS):
+                value = pen.want(quantity, of, pen.draw(between, one, two, divided, name=of))
+            pen.make(DividedRate(first=one, second=two, share=divided, value=value))
+        elif quantity == kind.quantity and (one == two or of in rims):
+            pen.want(quantity, of, rims.get(of, one))
+        elif quantity == kind.quantity and pen.has(quantity, of):
+            settled[one, two] = of  # of a known link, where the line of a crossing begins
+        elif quantity == kind.quantity and (one, two) in settled:
+            pen.want(quantity, of, pen.the(quantity, settled[one, two]))
+        elif quantity == kind.quantity:
+            line, name = crossed.get(of), kind.named(of)
+            by_hand = line.crossing if line is not None else None
+            with pen.on(kind.part, kind.plane):
+                value = pen.draw(between, one, two, divided, name=name, by_hand=by_hand)
+            pen.want(quantity, of, value)
+            roles = {"first": one, "second": two, "share": divided, "value": value}
+            pen.make(DividedPoint(**roles, point=of, crossed=line))
+            settled[one, two] = of
+    closing: tuple[str, ...] = ()
+    match group.last:
+        case Tie(_, Pin(point=p), Pin(point=q)):
+            closing = in_order((p, q), [*settled.values()])
+    for point in settled.values():
+        if "@" not in point:
+            finish(pen, kind, point, closing)
+        elif kind is VELOCITY:
+            relative_arrows(pen, point)
+    if closing and kind is VELOCITY:
+        velocity_arrows(pen, closing[1], closing[0])
+
+
+def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
+    """The ends of the bar that closes a group, the one that is known or found first before."""
+    return tuple(sorted(ends, key=lambda end: found.index(end) if end in found else -1))
+
+
+def own_rate(pen: Pen, link: str) -> bool:
+    """Whether no two points of a link tell how it turns: the tried link with one pin."""
+    base = pen.bases.get(link)
+    return base is not None and base.end is None and link not in pen.leads and pen.turns(link)
+
+
+def finish(pen: Pen, kind: PlanQuantity, point: str, closing: tuple[str, ...]) -> None:
+    """The arrows to a point of the right plan; none against the end of a bar that is found last."""
+    if kind is VELOCITY:
+        moved = [base for base in pen.bases.values() if pen.has("velocity", base.start)]
+        starts = {b.start for b in moved if point == b.end}
+        starts = starts or {b.start for b in moved if point in b.others}
+        pivots: list[str | None] = [*sorted(starts)]
+        for pivot in pivots or [None]:
+            velocity_arrows(pen, point, None if (point, pivot) == closing else pivot)
+    else:
+        acceleration_arrow(pen, point)
+
+
+# --- its arrows ----------------------------------------------------------------------------------
 
 
 def relative_arrows(pen: Pen, name: str) -> None:

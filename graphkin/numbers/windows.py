@@ -1,15 +1,20 @@
-"""Where a dyad of a trial is stretched flat: at the end of a window its two signs meet.
+"""Windows in which functions of one number are defined: their ends, and roots beside these.
 
-Beside the end the misfit is c ± k·√τ, τ the distance to it and ± the sign of the dyad: one curve,
-smooth in v = ±√τ, which runs on one sign up to the end and on the other back from it.
+Where something only just can be drawn a misfit grows like a root, and a window may be narrower than
+any grid. How far it can be is a smooth function on both sides of the end, so the ends are found by
+it. Where two signs meet there the misfit is c ± k·√τ, τ the distance to the end: one curve, smooth
+in v = ±√τ, which runs on one sign up to the end and on the other back from it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any, NamedTuple
 
-from graphkin.numbers.roots import CLOSE, NEXT, Array, roots_and_touches
+from graphkin.numbers.roots import CLOSE, NEXT, Array, Misfit, roots, roots_and_touches
 
+BESIDE = 0.5
+"""How far from the end of a window its first place lies, in steps of the places before easing."""
 STRAIGHT = 8.0
 """How many times rounding moves what is close enough to a root: nearer the end the curve counts as
 straight, as rounding hides it there."""
@@ -23,6 +28,60 @@ NOISY = 10
 """Places, from a quarter of that distance on, at which they can: rounding lets one of them pass."""
 LEAST = 16.0
 """That distance at least, in parts of how far two neighbouring numbers about one lie apart."""
+
+
+class Windows(NamedTuple):
+    """Whose each window is (W,), and its places from end to end (W, M)."""
+
+    owner: Array
+    places: Array
+
+
+class Ends(NamedTuple):
+    """Whose each end of a window is (E,), where it lies (E,), and the window's place next to it."""
+
+    owner: Array
+    at: Array
+    beside: Array
+
+
+def narrowed(reaches: Misfit, windows: Windows) -> tuple[Windows, Ends]:
+    """The parts of windows in which a smooth function is positive, and their ends where it is zero.
+
+    Places lead up to such an end, not into it.
+    """
+    import numpy as np
+
+    owner, places = windows
+    size, count = places.shape
+    which, at = roots(lambda row, place: reaches(owner[row], place), places)
+    rows = np.concatenate([np.repeat(np.arange(size), 2), which])
+    marks = np.concatenate([places[:, [0, -1]].ravel(), at])
+    order = np.lexsort((marks, rows))
+    rows, marks = rows[order], marks[order]
+    same = (rows[1:] == rows[:-1]) & (marks[1:] > marks[:-1])
+    row, low, high = rows[:-1][same], marks[:-1][same], marks[1:][same]
+    good = reaches(owner[row], (low + high) / 2) > 0
+    row, low, high = row[good], low[good], high[good]
+    begins, ends = low != places[row, 0], high != places[row, -1]
+    eased = low[:, None] + (high - low)[:, None] * ease(np.arange(count) / (count - 1))
+    short = (high - low) * ease(BESIDE / (count - 1))
+    eased[:, 0] = np.where(begins, low + short, low)
+    eased[:, -1] = np.where(ends, high - short, high)
+    found = np.where((begins | ends)[:, None], eased, places[row])
+    sides = ((begins, low, found[:, 0]), (ends, high, found[:, -1]))
+    columns = [[owner[row[cut]], end[cut], beside[cut]] for cut, end, beside in sides]
+    return Windows(owner[row], found), Ends(*map(np.concatenate, zip(*columns, strict=True)))
+
+
+def ease(share: Any) -> Any:
+    """Shares from 0 to 1, closer together near both ends: there a root grows steeply."""
+    import numpy as np
+
+    return (1 - np.cos(np.pi * share)) / 2
+
+
+# --- beside a flat end ---------------------------------------------------------------------------
 
 
 def fits_beside(

@@ -1,0 +1,113 @@
+"""A plugin of pytest that tries mutants: which tests reach each, and which of these it fails.
+
+Every mutant stands in one copy of the program beside the right expression, ``((wrong) if
+__mutant__(7) else (right))``. A first run of the tests keeps which of them come by (``REACHED``
+names the file); a second collects the tests once and forks for each mutant, so that nothing that a
+test keeps is the next one's (``TRIED`` names the mutants with their tests, and is told the fates).
+"""
+
+from __future__ import annotations
+
+import builtins
+import json
+import os
+import resource
+import signal
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pytest
+
+SWITCH = '''"""Says which mutant is at work, in every process; keeps which tests come by."""
+import builtins
+import os
+
+at_work, test, come_by = [int(os.environ.get("MUTANT", -1))], [os.environ.get("TEST", "")], set()
+
+
+def __mutant__(number):
+    if (number, test[0]) not in come_by:
+        come_by.add((number, test[0]))
+        if test[0] and "REACHED" in os.environ:
+            with open(os.environ["REACHED"], "a", encoding="utf-8") as kept:
+                kept.write(f"{number}\\t{test[0]}\\n")
+    return number == at_work[0]
+
+
+builtins.__mutant__, builtins.__switch__ = __mutant__, (at_work, test)
+'''
+"""What stands as ``sitecustomize.py`` in the copy."""
+ENDLESS = 300
+"""Seconds of a processor after which a mutant counts as found: it does not come to an end."""
+WAITS = 4 * ENDLESS
+"""Seconds after which one that only waits counts as found."""
+failed: list[str] = []
+
+
+@pytest.hookimpl(hookwrapper=True, tryfirst=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Tells the switch which test runs."""
+    builtins.__switch__[1][0] = os.environ["TEST"] = item.nodeid  # type: ignore[attr-defined]
+    yield
+    builtins.__switch__[1][0] = os.environ["TEST"] = ""  # type: ignore[attr-defined]
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Keeps how long a test takes, or that it fails."""
+    if report.failed:
+        failed.append(report.nodeid)
+    if "REACHED" in os.environ:
+        with Path(os.environ["REACHED"]).with_suffix(".times").open("a", encoding="utf-8") as kept:
+            kept.write(f"{report.nodeid}\t{report.duration:.3f}\t{report.outcome}\n")
+
+
+def pytest_runtestloop(session: pytest.Session) -> bool | None:
+    """Tries each mutant by its tests, in a process of its own."""
+    if "TRIED" not in os.environ:
+        return None
+    path = Path(os.environ["TRIED"])
+    items = {item.nodeid: item for item in session.items}
+    with path.with_suffix(".fates").open("w", encoding="utf-8") as fates:
+        for number, tests in json.loads(path.read_text(encoding="utf-8")):
+            fate = tried(number, [items[test] for test in tests if test in items])
+            fates.write(f"{number}\t{fate}\n")
+            fates.flush()
+    return True
+
+
+def tried(number: int, items: Sequence[pytest.Item]) -> str:
+    """The first test that a mutant fails; nothing if it survives all."""
+    out, into = os.pipe()
+    if (child := os.fork()) == 0:
+        os.setpgid(0, 0)
+        resource.setrlimit(resource.RLIMIT_CPU, (ENDLESS, ENDLESS))
+        builtins.__switch__[0][0] = number  # type: ignore[attr-defined]
+        os.environ["MUTANT"] = str(number)
+        fate = "breaks the run"
+        try:
+            fate = first_failed(items)
+        finally:
+            os.write(into, b"." + fate.encode()[:4000])
+            os._exit(0)
+    last = time.monotonic() + WAITS
+    while os.waitpid(child, os.WNOHANG) == (0, 0):
+        if time.monotonic() > last:
+            os.killpg(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+            break
+        time.sleep(0.02)
+    os.write(into, b"\n")  # where nothing was told, a process that it left may hold the pipe open
+    told = os.read(out, 5000).decode().strip()
+    os.close(into)
+    os.close(out)
+    return told[1:] if told else "does not come to an end"
+
+
+def first_failed(items: Sequence[pytest.Item]) -> str:
+    """Runs tests until one fails."""
+    for item, after in zip(items, [*items[1:], None], strict=True):
+        item.config.hook.pytest_runtest_protocol(item=item, nextitem=after)
+        if failed:
+            return failed[0]
+    return ""
