@@ -31,7 +31,7 @@ def held(name: str | Path, parameter: str, values: range) -> None:
     mechanism = load(name)
     many = [{parameter: Fraction(value)} for value in values]
     arrays = {**mechanism.scene.values, parameter: np.array(values, dtype=float)}
-    lab = lab_of(mechanism.scene.source)
+    lab = lab_of(Path(mechanism.scene.source))
     found = scaling(mechanism, arrays, len(many), loader(lab, many))
     for i, given in enumerate(many):
         try:
