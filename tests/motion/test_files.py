@@ -8,12 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.curves.over_driver import pictures
-from graphkin.motion.curves.plane_paths import dotted
+from graphkin.motion.curves.plane_paths import box_of, breadth_of, dotted, near_box
 from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
@@ -155,3 +157,24 @@ def test_a_path_has_a_dot_at_every_twelfth_of_a_turn():
     assert dots.real.tolist() == [
         30 * k for k in range(-40, 40) if 0 <= 30 * k - found.at[0] <= 360
     ]
+
+
+@given(st.lists(st.complex_numbers(max_magnitude=1e3), min_size=2, max_size=9))
+def test_a_picture_leaves_the_same_room_on_all_sides(places):
+    """A part of its longer side; what has no place is left out."""
+    z = np.array([*places, complex("nan")])
+    x0, x1, y0, y1 = box_of([z[:1], z[1:]])
+    x, y = np.array(places).real, np.array(places).imag
+    room = 0.09 * max(np.ptp(x), np.ptp(y), 1e-9)
+    found = (x.min() - x0, x1 - x.max(), y.min() - y0, y1 - y.max())
+    assert found == pytest.approx((room,) * 4, abs=1e-9)
+    assert breadth_of((x0, x1, y0, y1)) == pytest.approx(max(np.ptp(x), np.ptp(y)) + 2 * room)
+
+
+def test_of_curves_that_run_far_away_the_picture_shows_what_lies_near():
+    """Within 1.6 breadths of the mechanism; a contact farther off is left out with them."""
+    places, breadth = np.array([0j, 10 + 4j]), 10.0
+    near, far = np.array([20 + 3j, -15 - 9j]), np.array([40 + 3j, 3 + 30j, -30j])
+    for touch, more in ((5 + 12j, [5 + 12j]), (5 + 60j, [])):
+        found = near_box(places, [np.concatenate([near, far])], breadth, touch)
+        assert found == box_of([places, near, np.array(more, dtype=complex)])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pypdfium2 as pdfium
 import pytest
 import zxingcpp as reader
@@ -18,7 +20,7 @@ from graphkin.classroom.printing.qr_code import (
 )
 from graphkin.drawing.areas import A3_AREA, A4_AREA
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
-from graphkin.drawing.marks import Page, Text, reach
+from graphkin.drawing.marks import LineMark, Page, Polyline, Text, reach
 from graphkin.writers.pdf import write_pdf
 
 CODE = "TZHG6MXPZY"
@@ -57,6 +59,15 @@ def stamp(page):
     added = stamped(page, CODE).marks[len(page.marks) :]
     lefts, tops, rights, bottoms = zip(*(reach(mark) for mark in added), strict=True)
     return min(lefts), min(tops), max(rights), max(bottoms)
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_an_outline_takes_up_its_sides_and_nothing_within(closed):
+    corners = ((0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0))
+    sides = [*pairwise(corners), *([(corners[3], corners[0])] * closed)]
+    found = [*boxes(Polyline(corners, "ink", closed=closed))]
+    assert found == [reach(LineMark(*one, *other, "ink")) for one, other in sides]
+    assert not any(overlap(box, (10, 10, 30, 20)) for box in found)
 
 
 @pytest.mark.parametrize(("page", "area"), [(A3, A3_AREA), (A4, A4_AREA)])
