@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
+from graphkin.classroom.printing.qr_code import square
+from graphkin.drawing.marks import LineMark, Page
 from graphkin.reading.drawn_ink import InkLine
 from graphkin.reading.line_crossings import (
     along_way,
@@ -20,6 +22,16 @@ from graphkin.reading.line_crossings import (
     through,
 )
 from graphkin.reading.paper_map import BENDS, COUNT, LENS, PLAIN, PaperMap, bendings, prior
+from graphkin.reading.point_search import AREA, BREAK, in_fields, is_parted, unbroken
+from graphkin.reading.registration import (
+    MeasuredLines,
+    PrintedLines,
+    least_stretch,
+    peaks,
+    printed_lines,
+    square_of,
+    ticks_found,
+)
 
 SIZE = (2000, 1500)
 SHEET = np.stack(np.meshgrid(np.linspace(0, 420, 13), np.linspace(0, 297, 9)), axis=-1)
@@ -173,3 +185,93 @@ def test_a_place_along_a_way_is_known_less_along_it_than_across(angle):
     assert along @ found @ along == pytest.approx(4.0)
     assert across @ found @ across == pytest.approx(0.09 + 0.08**2 / 2)
     assert along @ found @ across == pytest.approx(0.0, abs=1e-12)
+
+
+def test_printed_lines_are_measured_every_3_mm_within_their_ends():
+    """0.8 mm from the ends, at four places at least; each with its normal; short ones are not."""
+    marks = [
+        LineMark(10, 20, 10 + length * x, 20 + length * y, "frame")
+        for length, x, y in ((4.4, 1, 0), (4.6, 1, 0), (16.0, 0.6, 0.8), (62.0, 0, 1))
+    ]
+    found = printed_lines(Page(420, 297, tuple(marks)))
+    for (length, count), (x, y), rows in zip(
+        ((4.6, 4), (16.0, 4), (62.0, 20)),
+        ((1, 0), (0.6, 0.8), (0, 1)),
+        (slice(0, 4), slice(4, 8), slice(8, 28)),
+        strict=True,
+    ):
+        step = (length - 1.6) / count
+        along = (found.places[rows] - (10, 20)) @ (x, y)
+        assert along == pytest.approx(0.8 + step * (np.arange(count) + 0.5))
+        assert abs((found.places[rows] - (10, 20)) @ (-y, x)).max() < 1e-9
+        assert found.normals[rows] == pytest.approx(np.tile((-y, x), (count, 1)))
+    assert len(found.places) == 28 and found.shared.all()
+    assert set(found.dark) == {0.10}
+
+
+def test_the_square_of_a_page_is_the_box_of_its_code():
+    page = Page(420, 297, (LineMark(0, 0, 9, 9, "frame"),))
+    assert square_of(page) is None
+    code = Page(420, 297, square("TZHG6MXPZY", 300.0, 200.0))
+    assert square_of(code) == pytest.approx(
+        np.array([[300, 200], [320, 200], [320, 220], [300, 220]])
+    )
+
+
+@pytest.mark.parametrize("width", [0.25, 0.5, 0.7])
+def test_a_printed_line_is_found_where_its_ink_is(width):
+    """By the middle of what is dark, a few hundredths of a mm near; nothing at the profile's ends
+    nor on an even shade."""
+    across = np.arange(-3.0, 3.05, 0.1)
+    middles = np.array([-1.23, -0.4, 0.0, 0.77, 1.5])
+    dark = 0.4 / (1 + np.exp((abs(across - middles[:, None]) - width / 2) / 0.04))
+    centre, most = peaks((0.1 + dark).astype(np.float32), across, width, 2.0)
+    assert centre == pytest.approx(middles, abs=0.03)
+    assert (most > 0.15).all()
+    _, shade = peaks(np.full((2, len(across)), 0.3, np.float32), across, width, 2.0)
+    assert abs(shade).max() < 1e-6
+    _, outside = peaks((0.1 + dark[3:4]).astype(np.float32), across, width, 0.74)
+    assert outside[0] == 0.0
+
+
+def test_a_side_and_a_stretch_are_as_sure_as_their_least_share_that_is_found():
+    """Of frame and border along each 100 mm of an edge; what is not in the picture counts for
+    nothing, and too few places tell nothing."""
+    x = np.arange(5.0, 415.0, 2.0)
+    places = np.array([(each, 5.0) for each in x] + [(each, 150.0) for each in x])
+    count = len(places)
+    lines = PrintedLines(places, places, np.ones(count), np.ones(count, bool), np.ones(count))
+    found = (places[:, 0] < 200) | (places[:, 0] % 4 < 2)
+    seen = places[:, 0] < 300
+    last = MeasuredLines(lines, np.zeros(count), found, seen)
+    assert least_stretch(last, lines) == pytest.approx(0.5, abs=0.02)
+    assert least_stretch(MeasuredLines(lines, last.off, found, places[:, 0] < 200), lines) == 1.0
+    assert ticks_found(last, places[:, 0] >= 200) == pytest.approx(0.5, abs=0.02)
+    assert ticks_found(last, places[:, 0] >= 300) == 1.0
+
+
+def test_a_ray_goes_on_over_a_gap_that_is_shorter_than_a_break():
+    drawn = np.ones((3, 60), bool)
+    drawn[0, 20 : 20 + BREAK - 1] = drawn[1, 20 : 20 + BREAK] = False
+    drawn[2, :5] = False
+    whole, broken, late = unbroken(drawn)
+    assert whole.all() and late.all()
+    assert broken.sum() == 20 + BREAK - 1
+
+
+@pytest.mark.parametrize("turn", [0.0, 130.0])
+def test_a_ray_beside_another_one_is_its_stroke(turn):
+    """Within 0.6 mm of it as far as that goes, or in about its direction."""
+    way = cmath.rect(1, radians(turn))
+    for far, parted in (
+        (20 + 0.0j, False),
+        (5 + 0.5j, False),
+        (5 - 0.5j, False),
+        (5 + 1.5j, True),
+        (-5 + 0.5j, True),
+        (0.2 - 9j, True),
+    ):
+        assert is_parted(far * way, way, 12.0) is parted
+    assert is_parted(3 + 0.5j, 1 + 0j, 2.0) and not is_parted(3 + 0.5j, 1 + 0j, 4.0)
+    inside = in_fields(np.array([AREA[0] + AREA[1] * 1j, 200 + 150j, AREA[2] + 150j, 200 + 296j]))
+    assert list(inside) == [False, True, False, False]
