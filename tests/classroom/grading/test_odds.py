@@ -17,7 +17,8 @@ import pytest
 
 from graphkin.classroom.grading.graded import Answer, Graded, Taker
 from graphkin.classroom.grading.keys import Keys, distinct
-from graphkin.classroom.grading.likelihood import Key
+from graphkin.classroom.grading.likelihood import Key, scattered
+from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.same_digits import (
     FEW,
     AnswerSheet,
@@ -206,3 +207,33 @@ def test_how_often_two_who_misunderstand_alike_write_the_same_digits(
         expected = np.prod([share for share, is_read in zip(each, read, strict=True) if is_read])
         found = misunderstood(one, other, keys, np.array(read), pencil)
         assert exp(found) == pytest.approx(min(1.0, expected))
+
+
+@pytest.mark.parametrize("count", [3, 6, 11])
+def test_of_a_hundred_careful_drawings_five_are_taken_for_more_than_one(count):
+    """Values that go together are off together; each is rounded besides. Of few nothing is told."""
+    rng = np.random.default_rng(count)
+    way = rng.normal(size=(count, count)) + 2
+    computed, rounded = rng.uniform(0.1, 2, size=(2, count))
+    key = Key(None, way @ way.T, computed, None, None)
+    off = rng.normal(size=(6000, count)) @ way.T + rng.normal(size=(6000, count)) * computed
+    off += rng.uniform(-1, 1, size=(6000, count)) * rounded
+    assert is_one_drawing(off, rounded, key).mean() == pytest.approx(0.95, abs=0.012)
+    assert not is_one_drawing(off + 9 * np.sqrt(np.diag(key.spread)), rounded, key).any()
+    few = Key(None, np.eye(1), np.ones(1), None, None)
+    assert not is_one_drawing(np.zeros((4, 1)), np.ones(1), few).any()
+
+
+def test_mistakes_are_spread_so_that_half_lie_within_a_factor_of_two_or_10_mm():
+    """All of them make one, by the trapezoidal rule."""
+    for places, far, inner in (
+        (False, np.geomspace(1e-5, 1e9, 40001), (25.0, 100.0)),
+        (True, np.sinh(np.linspace(-16, 16, 40001)) + 50.0, (40.0, 60.0)),
+    ):
+        count = len(far)
+        key = Key(np.full(count, 50.0), None, None, None, np.full(count, places))
+        dense = np.exp(scattered(far, key))
+        parts = (dense[1:] + dense[:-1]) / 2 * np.diff(far)
+        within = (far[1:] <= inner[1]) & (far[:-1] >= inner[0])
+        assert parts.sum() == pytest.approx(1.0, abs=0.04)
+        assert parts[within].sum() == pytest.approx(0.5, abs=0.002)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import numpy as np
 import pypdfium2 as pdfium
 import pytest
 import zxingcpp as reader
@@ -13,12 +14,14 @@ from hypothesis import strategies as st
 from graphkin.classroom.printing.qr_code import (
     SIDE,
     boxes,
+    corners_of_a3,
+    corners_of_a4,
     modules,
     overlap,
     rectangles,
     stamped,
 )
-from graphkin.drawing.areas import A3_AREA, A4_AREA
+from graphkin.drawing.areas import A3_AREA, A3_TITLE_BLOCK, A4_AREA, BELOW
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
 from graphkin.drawing.marks import LineMark, Page, Polyline, Text, reach
 from graphkin.writers.pdf import write_pdf
@@ -98,3 +101,30 @@ def test_the_square_on_a_printed_page_can_be_read():
     (read,) = reader.read_barcodes(picture)
     assert read.text == CODE
     assert read.format == reader.BarcodeFormat.QRCode
+
+
+def test_places_of_the_square_lie_4_mm_apart_in_all_the_room_there_is():
+    """On A4 from the right upper corner down, on A3 from beside the title block up; each then
+    further to the left, with its white margin and a millimetre within the area at first."""
+    margin = 3.0
+    beside = (*BELOW[:2], A3_TITLE_BLOCK[0], A3_TITLE_BLOCK[3])
+    for places, area, down in (
+        ([*corners_of_a4(margin)], A4_AREA, 4.0),
+        (
+            [*corners_of_a3(margin)],
+            (BELOW[0], BELOW[1], A3_TITLE_BLOCK[0], A3_TITLE_BLOCK[3]),
+            -4.0,
+        ),
+    ):
+        left, top, right, bottom = area
+        columns = [*dict.fromkeys(x for x, _ in places)]
+        rows = [y for x, y in places if x == columns[0]]
+        assert places == [(x, y) for x in columns for y in rows]
+        assert columns[0] == right - SIDE - margin - 1
+        assert rows[0] == (top + margin + 1 if down > 0 else bottom - SIDE - margin - 1)
+        assert np.diff(columns) == pytest.approx(-4.0) and np.diff(rows) == pytest.approx(down)
+        assert left + margin < columns[-1] <= left + margin + 4
+        if down > 0:
+            assert bottom - SIDE - margin - 4 <= rows[-1] < bottom - SIDE - margin
+        else:
+            assert top + margin < rows[-1] <= top + margin + 4
