@@ -112,7 +112,7 @@ def test_places_of_the_square_lie_4_mm_apart_in_all_the_room_there_is():
         ([*corners_of_a4(margin)], A4_AREA, 4.0),
         (
             [*corners_of_a3(margin)],
-            (BELOW[0], BELOW[1], A3_TITLE_BLOCK[0], A3_TITLE_BLOCK[3]),
+            beside,
             -4.0,
         ),
     ):
