@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion import ends
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.driving import GRID
@@ -175,3 +177,26 @@ O-A = 40
 def test_a_scene_is_shown_for_a_turn_till_its_driver_rests_or_for_once_to_and_fro(driver, seconds):
     found = whole_turn(read_text(DRIVEN.format(driver), "driven.toml"))
     assert found == pytest.approx(seconds, rel=1e-5)
+
+
+@pytest.mark.parametrize("step", [0.5, 1e-4])
+@pytest.mark.parametrize("way", [1, -1])
+def test_the_parts_of_a_long_way_overlap_by_four_steps_in_any_unit(monkeypatch, step, way):
+    """None is longer than a grid and a half; the first event that is none of theirs ends it."""
+    course = SimpleNamespace(sweep=SimpleNamespace(grid_step=step))
+    parts: list[tuple[float, float]] = []
+
+    def looked(_, low, high, dead=7.0):
+        parts.append((low / (way * step), high / (way * step)))
+        return ends.Event("dead" if parts[-1][1] > dead * GRID else "window", high)
+
+    monkeypatch.setattr(ends, "event_between", looked)
+    assert ends.next_event(course, 0.0, way * 4.2 * GRID * step).kind == "window"
+    for k, (low, high) in enumerate(parts[:-1]):
+        assert low == pytest.approx(k * (GRID - 4))
+        assert high - low == pytest.approx(GRID)
+    assert parts[-1][1] == pytest.approx(4.2 * GRID)
+    assert GRID / 2 < parts[-1][1] - parts[-1][0] <= 1.5 * GRID
+    parts.clear()
+    assert ends.next_event(course, 0.0, way * 30 * GRID * step).kind == "dead"
+    assert 7 * GRID < parts[-1][1] < 8 * GRID
