@@ -70,6 +70,7 @@ def test_places_within_a_plate_are_spread_evenly_over_it(corners):
         ([], 0.5, 1),
         ([body(-9 - 3j, 70 - 3j)], 0.5, 1),
         ([body(-9 + 3j, 70 + 3j)], 0.5, -1),
+        ([body(-9 + 4j, 70 + 4j), body(-9 - 4j, 70 - 4j)], 0.5, 1),
         ([body(20 - 9j, 20 + 9j)], 0.3, 1),
         ([body(20 - 9j, 20 + 9j), body(12 + 1j, 12 + 9j)], 0.7, 1),
     ],
