@@ -22,6 +22,8 @@ FAR = 0.09
 """A tried value that leaps so far, in radians or parts of its size, is of another closure."""
 HALVINGS = 60
 """How often an interval is halved."""
+BESIDE_END = 1e-6
+"""So near to the end of the way, in parts of a step, a place is the end."""
 NEAR = 1e-4
 """How near to the last value that can be tried, in radians or parts of its size, a dyad is taken
 for stretched."""
@@ -66,9 +68,9 @@ def followed(solve: Solver, start: float, end: float) -> TrackedBranch:
     first = tuple(number for each in solve.closings for number in each.drawn)
     at, states = [start], [solve(start, first) or first]
     step, halved = (end - start) / PARTS, 0
-    while abs(end - at[-1]) > 1e-9 * abs(end - start):
+    while at[-1] != end:
         place = at[-1] + step / 2**halved
-        place = end if (end - place) * step < 0 else place
+        place = end if (end - place) / step < BESIDE_END else place
         guess = extrapolated(at, states, place)
         found = solve(place, guess)
         if found is None or leaps(solve, guess, found):

@@ -162,6 +162,14 @@ speed = 7
             "",
             "overlap or touch: the frame keeps O-P = 80 mm; expected more than the sum",
         ),
+        (
+            150,
+            24,
+            "",
+            ' }\n[links.4]\nO-T = 9\nwheel = { centre = "T", radius = 9 }\n[links.5]\nQ-U = 9\n'
+            'wheel = { centre = "U", radius = 8 }\nbelt = { on = 4',
+            "links.5.belt: no link carries both centres, T and U; expected an arm: a link with T-U",
+        ),
         (84, 24, "", ", crossed = true", "expected more than the sum of the radii, 84 mm"),
         (150, 24, ", inside = true", "", "links.3.belt: the wheel of link 3 is a ring"),
         (150, 24, "", ", wheels = [2, 1]", "links.3.belt.wheels: wheel 2 of link 3, which has 1"),

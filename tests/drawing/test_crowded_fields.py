@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import ceil
+
 import pytest
 from msgspec.structs import replace
 
@@ -11,7 +13,7 @@ from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent, in_turn
-from graphkin.drawing.marks import LineMark, Page, Text
+from graphkin.drawing.marks import LineMark, Page, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.text import words
 from graphkin.text.errors import PageError
@@ -98,3 +100,21 @@ def test_notes_never_leave_their_field_and_say_that_more_are_left_out():
     assert min(mark.y for mark in foot) > 75
     few = field.footed([f"{i}) *O*_{i}" for i in range(20)])
     assert "…" not in [mark.markup for mark in few]
+
+
+@pytest.mark.parametrize("width", [40.0, 61.0, 200.0])
+def test_a_note_that_would_cross_lines_is_tried_further_to_the_right_every_15_mm(width):
+    """Its lines stand one above the other, the last 2.5 mm above the edge, all within the field."""
+    board = FieldContent((10.0, 20.0, 10.0 + width, 90.0))
+    lines = ["a note", "in two lines"]
+    places = [*board.foot_places(lines)]
+    lefts = [texts[0].x for texts in places]
+    assert lefts == [13.0 + 15 * k for k in range(len(places))]
+    for texts in places:
+        assert [text.markup for text in texts] == lines
+        assert {text.x for text in texts} == {texts[0].x}
+        assert [text.y for text in texts] == pytest.approx([90 - 2.5 - 4.6, 90 - 2.5])
+    widest = max(reach(text)[2] - reach(text)[0] for text in places[0])
+    room = width - 6 - widest
+    assert len(places) == max(1, ceil(int(room) / 15))
+    assert max(reach(text)[2] for text in places[-1]) <= 10 + width - 3 + 0.1

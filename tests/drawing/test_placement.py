@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from shapely import LineString, MultiLineString, Point, box
 
 from graphkin.drawing import candidate_sets, clashes
-from graphkin.drawing.candidates import Blots
+from graphkin.drawing.candidates import Blots, Subjects, distance_cost, tries
 from graphkin.drawing.clashes import PAD
 from graphkin.drawing.placement import CLEAR, Segment, Spot, Wish, place
 from graphkin.drawing.shapes import LOOSE, merged, segments, separation
@@ -278,3 +278,57 @@ def test_no_more_places_are_offered_than_a_page_may_have(monkeypatch):
     assert 0 < sum(spot.free for spot in fewer) <= sum(spot.free for spot in found)
     boxes = [ink(w, spot) for w, spot in zip(crowd(60), fewer, strict=True) if spot.free]
     assert not any(a.intersects(b) for a, b in combinations(boxes, 2))
+
+
+def subject(ends: tuple[float, ...], radius: float = 0.0) -> Subjects:
+    """One label of 6 by 3 mm, 1 mm from what it names, that wishes to stand to the right."""
+    columns = (ends, (3.0, 1.5), 1.0, radius, (1.5, 0.0), ends[:2] != ends[2:])
+    return Subjects(*(np.array([column]) for column in columns))
+
+
+@pytest.mark.parametrize("far", [None, np.array([6.0, 11.0])], ids=["near", "far"])
+@pytest.mark.parametrize("radius", [0.0, 1.3])
+def test_places_around_a_point_keep_its_gap_and_lie_all_around(radius, far):
+    """The box is as far from the point as it is asked, and hardly farther."""
+    steps = np.array([0.0, 2.0])
+    found = tries(subject((40, 30, 40, 30), radius), steps, far)
+    away = [
+        box(x - 3, y - 1.5, x + 3, y + 1.5).distance(Point(40, 30))
+        for x, y in zip(found.x[0], found.y[0], strict=True)
+    ]
+    asked = 1.0 + radius + (steps if far is None else far)
+    count = 20 if far is None else 36
+    more = np.array(away).reshape(2, count) - asked[:, None]
+    assert (more > -1e-9).all() and more.max() < 0.03
+    turns = np.sort(np.arctan2(found.toward_y[0], found.toward_x[0])[:count] % (2 * np.pi))
+    assert np.diff(turns) == pytest.approx(2 * np.pi / count)
+    assert set(found.root_x[0]) == {40.0} and set(found.root_y[0]) == {30.0}
+
+
+@pytest.mark.parametrize("end", [(70.0, 30.0), (61.0, 12.0), (40.0, 3.0)])
+def test_places_beside_a_segment_stand_along_its_middle_two_thirds(end):
+    """On both sides, the near edge of the box as far from the line as it is asked."""
+    steps = np.array([0.0, 2.5])
+    found = tries(subject((40, 30, *end)), steps)
+    line, count = np.subtract(end, (40, 30)), 14
+    endless = LineString([np.array((40, 30)) - 9 * line, np.array((40, 30)) + 9 * line])
+    roots = np.stack([found.root_x[0], found.root_y[0]])[:, : 2 * count] - [[40], [30]]
+    shares = np.unique((roots * line[:, None]).sum(axis=0).round(9) / (line @ line))
+    assert shares == pytest.approx(np.linspace(1 / 6, 5 / 6, 7))
+    away = [
+        box(x - 3, y - 1.5, x + 3, y + 1.5).distance(endless)
+        for x, y in zip(found.x[0][: 2 * count], found.y[0][: 2 * count], strict=True)
+    ]
+    assert sorted(away) == pytest.approx(sorted([*(1 + steps)] * count))
+    side = line[0] * (found.y[0] - 30) - line[1] * (found.x[0] - 40)
+    assert (side[: 2 * count] > 0).sum() == count
+
+
+def test_a_place_costs_its_distance_its_side_and_its_shift_along_a_segment():
+    """1.5 mm more square to the preferred side, twice that opposite; up to 1 mm for a quarter of a
+    segment's length along it, in the square of the shift."""
+    own = subject((40, 30, 60, 30))
+    found = tries(own, np.array([0.0]))
+    cost = distance_cost(found, np.full_like(found.x, 4.0), own)[0]
+    share = np.abs(found.root_x[0] - 50) / 20 + np.abs(found.root_y[0] - 30) / 20
+    assert cost == pytest.approx(4.0 - 1.0 + 1.5 * (1 - found.toward_x[0]) + 4 * share**2)

@@ -12,7 +12,18 @@ import pytest
 import shapely
 
 from graphkin.drawing.marks import LineMark, Mark, Polyline
-from graphkin.drawing.symbols import BLOCK, PIN, SLOT
+from graphkin.drawing.symbols import (
+    BLOCK,
+    PIN,
+    SLOT,
+    bearing,
+    hatched,
+    pivot_ground,
+    sense_head,
+    square_mark,
+    turned_arrow,
+    weld,
+)
 from tests.documents.made_up import board_of, made_up, of_kind
 from tests.scene_files import scene_text
 
@@ -300,3 +311,69 @@ def test_a_relative_angle_is_drawn_from_the_axis_of_the_link_it_is_relative_to()
 
 
 # --- labels --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("angle", [0, 50, 200])
+@pytest.mark.parametrize(("length", "strokes"), [(2.1, 0), (2.3, 1), (10.9, 4), (11.1, 5)])
+def test_a_line_of_the_frame_is_hatched_every_2_2_mm_on_its_right_hand_side(angle, length, strokes):
+    """Strokes of 2 mm both back and away; y runs down the page."""
+    way = rect(1, radians(angle))
+    ground, *found = hatched((5.0, 7.0), (5.0 + length * way.real, 7.0 + length * way.imag))
+    assert (ground.cls, len(found)) == ("guide", strokes)
+    for k, stroke in enumerate(found):
+        foot, end = ((complex(x, y) - (5 + 7j)) / way for x, y in line(stroke).coords)
+        assert foot == pytest.approx(2.2 * (k + 0.8))
+        assert end - foot == pytest.approx(-2 + 2j)
+
+
+@pytest.mark.parametrize("angle", [90, 10, 260])
+def test_a_pivot_stands_on_hatched_ground_square_to_its_way(angle):
+    """5.6 mm from its pin, 6.4 mm wide, the ground 2 mm wider on each side and beyond it."""
+    way = rect(1, radians(angle))
+    triangle, ground, *strokes = pivot_ground((3.0, 4.0), (way.real, way.imag))
+    corners = {
+        complex(round(z.real, 9), round(z.imag, 9))
+        for z in ((complex(*p) - (3 + 4j)) / way for p in triangle.points)
+    }
+    assert corners == {0j, 5.6 + 3.2j, 5.6 - 3.2j}
+    ends = [(complex(*p) - (3 + 4j)) / way for p in line(ground).coords]
+    assert sorted(z.imag for z in ends) == pytest.approx([-5.2, 5.2])
+    assert [z.real for z in ends] == pytest.approx([5.6, 5.6])
+    assert len(strokes) == 4
+    for stroke in strokes:
+        assert max(
+            (complex(*p) - (3 + 4j)).real * way.real + (complex(*p) - (3 + 4j)).imag * way.imag
+            for p in line(stroke).coords
+        ) == pytest.approx(7.6)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("angle", [0, 75, 190])
+def test_the_head_of_a_turning_arrow_lies_along_its_chord(side, angle):
+    """Its tip on the arc; its back at the place of the arc 2.2 mm before, 0.9 mm wide."""
+    centre, radius = 20 + 30j, 8.0
+    way = rect(1, radians(-angle))
+    mark = sense_head((20.0, 30.0), radius, (way.real, way.imag), side, "omega")
+    tip, *back = [complex(*p) - centre for p in mark.points]
+    assert tip == pytest.approx(radius * way)
+    middle = sum(back) / 2
+    assert abs(middle) == pytest.approx(radius)
+    assert phase(middle / tip) == pytest.approx(-side * 2.2 / radius)
+    assert abs(back[0] - back[1]) == pytest.approx(0.9)
+    assert ((back[0] - back[1]) * (tip - middle).conjugate()).real == pytest.approx(0)
+    arc, again = turned_arrow(
+        (20.0, 30.0), radius, (way.real, way.imag), (angle, 70.0 * side), "omega"
+    )
+    assert again == mark
+    assert (arc.start, arc.end) == (angle + 70.0 * side, angle)
+    assert bearing((way.real, way.imag)) % 360 == pytest.approx(angle % 360)
+
+
+@pytest.mark.parametrize("angle", [0, 33, 140])
+def test_a_right_angle_is_marked_by_a_square_of_2_mm_and_a_weld_by_its_corner(angle):
+    first, second = rect(1, radians(angle)), rect(1, radians(angle + 90))
+    ways = [(way.real, way.imag) for way in (first, second)]
+    points = [complex(*p) - (9 + 8j) for p in square_mark((9.0, 8.0), *ways, 3).points]
+    assert points == pytest.approx([2 * first, 2 * first + 2 * second, 2 * second])
+    corners = [complex(*p) - (9 + 8j) for p in weld((9.0, 8.0), *ways, "w").points]
+    assert corners == pytest.approx([0, 2.4 * first, 2.4 * second])

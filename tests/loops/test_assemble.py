@@ -10,6 +10,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.assemble import assemble
 from graphkin.loops.freedom import true_mobility
+from graphkin.loops.rigid_bodies import half_angle
 from graphkin.loops.witness import compare, examine
 from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
@@ -141,3 +142,16 @@ def test_the_number_of_a_closure_is_held_in_a_batch(read):
     found = [by_loops(replace(scene, branches={"2": Closure(n)})).points for n in (1, 2)]
     angles = [np.angle(each["Q"].position - each["P"].position) % (2 * np.pi) for each in found]
     assert angles[0] < angles[1]
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize(("near", "far"), [(3.0, 4.0), (4.9, 9.7), (4.0, 1.2), (2.0, 3.0)])
+def test_the_square_of_half_an_angle_is_the_direction_of_a_side(near, far, side):
+    """By the law of cosines; five is the base. No triangle, no number."""
+    cosine = (near**2 + 25 - far**2) / (10 * near)
+    found = half_angle(near, far, 5.0, side)
+    assert abs(found) == pytest.approx(1.0)
+    assert found**2 == pytest.approx(complex(cosine, side * np.sqrt(1 - cosine**2)))
+    with np.errstate(invalid="ignore"):
+        assert np.isnan(half_angle(near, near + 5.1, 5.0, side))
+        assert np.isnan(half_angle(near, abs(near - 5) - 0.1, 5.0, side))

@@ -8,12 +8,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion.closures_followed import interpolated
+from graphkin.motion.curves.outline import hull
 from graphkin.motion.curves.over_driver import pictures
-from graphkin.motion.curves.plane_paths import dotted
+from graphkin.motion.curves.plane_paths import box_of, breadth_of, dotted, near_box
 from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
@@ -155,3 +160,53 @@ def test_a_path_has_a_dot_at_every_twelfth_of_a_turn():
     assert dots.real.tolist() == [
         30 * k for k in range(-40, 40) if 0 <= 30 * k - found.at[0] <= 360
     ]
+
+
+@given(st.lists(st.complex_numbers(max_magnitude=1e3), min_size=2, max_size=9))
+def test_a_picture_leaves_the_same_room_on_all_sides(places):
+    """A part of its longer side; what has no place is left out."""
+    z = np.array([*places, complex("nan")])
+    x0, x1, y0, y1 = box_of([z[:1], z[1:]])
+    x, y = np.array(places).real, np.array(places).imag
+    room = 0.09 * max(np.ptp(x), np.ptp(y), 1e-9)
+    found = (x.min() - x0, x1 - x.max(), y.min() - y0, y1 - y.max())
+    assert found == pytest.approx((room,) * 4, abs=1e-9)
+    assert breadth_of((x0, x1, y0, y1)) == pytest.approx(max(np.ptp(x), np.ptp(y)) + 2 * room)
+
+
+def test_of_curves_that_run_far_away_the_picture_shows_what_lies_near():
+    """Within 1.6 breadths of the mechanism; a contact farther off is left out with them."""
+    places, breadth = np.array([0j, 10 + 4j]), 10.0
+    near, far = np.array([20 + 3j, -15 - 9j]), np.array([40 + 3j, 3 + 30j, -30j])
+    for touch, more in ((5 + 12j, [5 + 12j]), (5 + 60j, [])):
+        found = near_box(places, [np.concatenate([near, far])], breadth, touch)
+        assert found == box_of([places, near, np.array(more, dtype=complex)])
+
+
+WHOLE = st.integers(-9, 9)
+
+
+@given(st.lists(st.builds(complex, WHOLE, WHOLE), min_size=2, max_size=9, unique=True))
+def test_a_plate_is_drawn_as_the_convex_hull_of_its_points(places):
+    """That of another library; a bar where they lie in line."""
+    expected = shapely.MultiPoint([(z.real, z.imag) for z in places]).convex_hull
+    found = [(z.real, z.imag) for z in hull(places)]
+    if expected.geom_type == "Polygon":
+        assert shapely.Polygon(found).equals(expected)
+        assert len(found) == len(expected.exterior.coords) - 1
+        assert shapely.LinearRing(found).is_ccw
+    else:
+        assert shapely.LineString(found).equals(expected)
+
+
+@given(st.lists(st.floats(0.1, 3.0), min_size=1, max_size=7), st.integers(0, 10**6))
+def test_what_is_followed_runs_between_places_as_the_polynomial_through_the_nearest(steps, seed):
+    """A cubic is met everywhere, whatever the steps are; of fewer places one of lower degree."""
+    at = np.cumsum([1.0, *steps])
+    rng = np.random.default_rng(seed)
+    rows = [np.polynomial.Polynomial(rng.normal(size=min(4, len(at)))) for _ in range(3)]
+    wanted = rng.uniform(at[0], at[-1], 5)
+    after = np.clip(np.searchsorted(at, wanted), 1, len(at) - 1)
+    found = interpolated(at, np.array([row(at) for row in rows]).T, wanted, after)
+    expected = np.array([row(wanted) for row in rows]).T
+    assert np.allclose(found, expected, atol=1e-6 * max(1.0, abs(expected).max()) * 100)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 
@@ -15,8 +16,8 @@ from graphkin.motion.cycle import Cycle, cycle
 from graphkin.motion.driving import stated
 from graphkin.motion.motion_curves import curves_of
 from graphkin.motion.period import strangers, turns_to_return
-from graphkin.scene.read_scene import read_text
-from graphkin.structure.turn_counting import counted_near
+from graphkin.scene.read_scene import read_scene, read_text
+from graphkin.structure.turn_counting import counted_near, counting, place_of_turns
 from graphkin.text.errors import GraphkinError
 from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing
@@ -215,6 +216,20 @@ def test_turns_that_cannot_be_meant_are_refused_at_their_place(turns):
     with pytest.raises(GraphkinError, match=r"links\.4\.rolls\.turns") as caught:
         Mechanism(read_text(text, Path("planet.toml"))).solve()
     assert WRONG[turns] in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["gears-planet", "gears-ravigneaux", "drag-link-planet"])
+def test_the_place_of_turns_is_that_of_what_rolls_and_counts_them(name):
+    """It leads to that table of the scene; numbered where its link rolls several times."""
+    found = read_scene(ROLLING[name])
+    for link, rolling in counting(found).items():
+        keys = re.fullmatch(r"links\.(\w+)\.rolls(?:\[(\d)\])?", place_of_turns(found, link))
+        assert keys is not None
+        rolls = found.links[keys[1]].rolls
+        assert (keys[2] is None) == (len(rolls) == 1)
+        assert rolls[int(keys[2] or 0)] is rolling
+    first = next(each for each in found.every_link if each.rolls)
+    assert place_of_turns(found, "no such link").startswith(f"links.{first.name}.rolls")
 
 
 @pytest.mark.parametrize(("unit", "start"), [("deg", np.pi / 360), ("rad", 0.5)])

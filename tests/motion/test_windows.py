@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,10 +11,11 @@ import pytest
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
 from graphkin.mechanism import Mechanism, load
+from graphkin.motion import ends
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.driving import GRID
-from graphkin.motion.window import window
+from graphkin.motion.window import turn_evenly, whole_turn, window
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
 from tests.motion.linkages import four_bar, slider_crank
@@ -133,3 +135,68 @@ def test_nothing_stops_only_what_no_length_can_stop(case):
         if line.startswith("range")
     ]
     assert line.partition("; ")[2] == expected
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.3, 2.0])
+@pytest.mark.parametrize("push", [-0.4, -0.1, 0.0, 0.7])
+def test_an_even_turn_takes_the_least_time_in_which_its_angle_is_a_whole_turn(speed, push):
+    """2π = ω t + α t² / 2; none where it comes to rest before."""
+    roots = np.roots([push / 2, speed, -2 * np.pi])
+    real = [root.real for root in roots if abs(root.imag) < 1e-9 and root.real > 0]
+    found = turn_evenly(speed, push)
+    assert found == (pytest.approx(min(real)) if real else None)
+
+
+DRIVEN = """graphkin = 1
+title = "Driven by time"
+time = 0
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 40
+[[drivers]]
+{}
+"""
+
+
+@pytest.mark.parametrize(
+    ("driver", "seconds"),
+    [
+        ('turn = 1\nangle = 40\nspeed = "3"', 2 * np.pi / 3),
+        ('turn = 1\nangle = 40\nspeed = "-3"', 2 * np.pi / 3),
+        (
+            "turn = 1\nangle = 40\nspeed = -3\nacceleration = -0.5",
+            6 * (np.sqrt(1 + np.pi * 2 / 9) - 1),
+        ),
+        ("turn = 1\nangle = 40\nspeed = 3\nacceleration = -2", 1.5),
+        ('turn = 1\nangle = "40 + 30*t**2"', np.sqrt(12)),
+        ('turn = 1\nangle = "40 - 20*sin(90*t)"', 4.0),
+    ],
+)
+def test_a_scene_is_shown_for_a_turn_till_its_driver_rests_or_for_once_to_and_fro(driver, seconds):
+    found = whole_turn(read_text(DRIVEN.format(driver), "driven.toml"))
+    assert found == pytest.approx(seconds, rel=1e-5)
+
+
+@pytest.mark.parametrize("step", [0.5, 1e-4])
+@pytest.mark.parametrize("way", [1, -1])
+def test_the_parts_of_a_long_way_overlap_by_four_steps_in_any_unit(monkeypatch, step, way):
+    """None is longer than a grid and a half; the first event that is none of theirs ends it."""
+    course = SimpleNamespace(sweep=SimpleNamespace(grid_step=step))
+    parts: list[tuple[float, float]] = []
+
+    def looked(_, low, high, dead=7.0):
+        parts.append((low / (way * step), high / (way * step)))
+        return ends.Event("dead" if parts[-1][1] > dead * GRID else "window", high)
+
+    monkeypatch.setattr(ends, "event_between", looked)
+    assert ends.next_event(course, 0.0, way * 4.2 * GRID * step).kind == "window"
+    for k, (low, high) in enumerate(parts[:-1]):
+        assert low == pytest.approx(k * (GRID - 4))
+        assert high - low == pytest.approx(GRID)
+    assert parts[-1][1] == pytest.approx(4.2 * GRID)
+    assert GRID / 2 < parts[-1][1] - parts[-1][0] <= 1.5 * GRID
+    parts.clear()
+    assert ends.next_event(course, 0.0, way * 30 * GRID * step).kind == "dead"
+    assert 7 * GRID < parts[-1][1] < 8 * GRID

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from graphkin.numbers.arithmetic import Kind, batch_kind
+from graphkin.scene.evaluate import EvaluationError, rational_ratio
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.measures import quantity
 from graphkin.scene.quantity import Quantity, exact, expression
@@ -285,3 +286,20 @@ def test_the_tree_is_reckoned_again_for_each_setting() -> None:
 )
 def test_numbers_of_every_kind_are_taken_exactly(raw: object, value: Fraction) -> None:
     assert quantity(raw, "", "here").number({}) == value
+
+
+@pytest.mark.parametrize("function", ["sin", "cos", "tan"])
+def test_ratios_of_whole_degrees_are_exact_where_niven_says_that_they_are_rational(function):
+    """Sines 0, ±1/2, ±1; tangents 0, ±1 (Niven, Irrational Numbers, corollary 3.12)."""
+    rational = (0, 1) if function == "tan" else (0, 0.5, 1)
+    for degrees in range(-400, 401):
+        if function == "tan" and degrees % 180 == 90:
+            with pytest.raises(EvaluationError, match="right angle"):
+                rational_ratio(function, Fraction(degrees))
+            continue
+        value = getattr(math, function)(math.radians(degrees))
+        found = rational_ratio(function, Fraction(degrees))
+        near = any(abs(abs(value) - each) < 1e-12 for each in rational)
+        assert (found is not None) == near
+        assert found is None or abs(found - value) < 1e-12
+    assert rational_ratio(function, Fraction(1, 2)) is None

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.drawing.marks import Text, reach
+from graphkin.drawing.scale import Extent
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text import words
@@ -22,8 +24,19 @@ from graphkin.web.fixed_parts import STILL
 from graphkin.web.frame_marks import cut, mechanism_seen, plan_box
 from graphkin.web.frames import GROWN, FrameSequence, motion
 from graphkin.web.gif import PAUSE, gif
-from graphkin.web.moving_labels import crossed, obstacles
-from graphkin.web.panes import AIR, AREA, HELD, PICTURE, aside, leaves, room_in, seated
+from graphkin.web.moving_labels import COVERED, GAP, LETTER, crossed, obstacles, price
+from graphkin.web.panes import (
+    AIR,
+    AREA,
+    HELD,
+    PICTURE,
+    WAYS,
+    aside,
+    leaves,
+    room_in,
+    scale_in,
+    seated,
+)
 from graphkin.web.player import player_page
 from tests.chosen import EVERY
 from tests.cli.conftest import Run, run  # noqa: F401
@@ -387,3 +400,76 @@ def test_a_page_moves_one_of_several_drivers(run: Run, tmp_path: Path):  # noqa:
     assert run(*args, "--format", "html,gif", "--steps", "4").exit_code == 0
     page = (tmp_path / "five-bar-motion.html").read_text(encoding="utf-8")
     assert '<label for="at">Driver <i>φ</i><sub>4</sub></label>' in page
+
+
+@pytest.mark.parametrize("plans", [1, 2, 3])
+@pytest.mark.parametrize("share", [0.4, 0.7])
+def test_panes_part_the_picture_without_rest(share, plans):
+    """The mechanism has its share of it, all plans alike what is left."""
+    for way in WAYS:
+        own, *others = (shapely.box(*rect) for rect in way(share, plans))
+        whole = shapely.box(*AREA)
+        assert own.area == pytest.approx(share * whole.area)
+        assert len(others) == plans
+        assert {round(each.area, 6) for each in others} == {
+            round((1 - share) * whole.area / plans, 6)
+        }
+        assert shapely.union_all([own, *others]).symmetric_difference(whole).area < 1e-6
+    assert [len({rect[1] for rect in way(0.4, 3)}) for way in WAYS] == [3, 2, 1]
+    assert [len({rect[0] for rect in way(0.4, 3)}) for way in WAYS] == [2, 3, 4]
+
+
+def test_a_scale_is_that_of_the_largest_part_of_a_motion_at_which_a_plan_is_half_its_room():
+    """Not that of a peak: boxes of a motion, by twentieths of it; all where nothing is peaked."""
+    room = (0.0, 0.0, 60.0, 30.0)
+
+    def scale(*sizes):
+        return scale_in(room, [Extent(0, 0, size, size / 4) for size in sizes])
+
+    assert scale(*[20.0] * 20) == pytest.approx(3.0)
+    assert scale(*[20.0] * 19, 39.0) == pytest.approx(60 / 39)
+    assert scale(*[20.0] * 19, 41.0) == pytest.approx(3.0)
+    assert scale(*[20.0] * 17, 30.0, 50.0, 60.0) == pytest.approx(2.0)
+    assert scale(*[20.0] * 10, *[90.0] * 10) == pytest.approx(60 / 90)
+    assert scale_in(room, [Extent(0, 0, 10, 20)]) == pytest.approx(1.5)
+    assert scale(0.0) == 1.0
+
+
+PLACES = st.tuples(st.floats(-20, 20), st.floats(-20, 20))
+
+
+@given(st.lists(st.tuples(PLACES, PLACES), min_size=1, max_size=8), PLACES)
+def test_a_box_is_crossed_by_what_meets_it(lines, place):
+    """By another library, for boxes that a hair's breadth decides not about."""
+    half, (x, y) = (3.0, 1.5), place
+    ends = np.array([[*one, *other] for one, other in lines])
+    found = crossed(np.array([place]), half, ends)[0]
+    for line, is_met in zip(map(shapely.LineString, lines), found, strict=True):
+        narrow, wide = (
+            shapely.box(x - 3 - e, y - 1.5 - e, x + 3 + e, y + 1.5 + e) for e in (-1e-9, 1e-9)
+        )
+        assert is_met or not line.intersects(narrow)
+        assert not is_met or line.intersects(wide)
+
+
+def test_a_letter_pays_for_each_thing_that_it_covers():
+    """A line by its price, a point within a millimetre, another letter, and the edge of the pane;
+    what lies beside it costs nothing."""
+    width, half = 4.0, (4.0 / 2 + GAP / 2, LETTER / 2 + GAP / 2)
+    spots = np.array([(20.0, 20.0), (80.0, 20.0), (50.0, 60.0), (100.0 - half[0] + 0.1, 40.0)])
+    none = np.empty((0, 4)), np.empty(0), np.empty((0, 2))
+
+    def cost(lines=none, letters=()):
+        return list(price(spots, width, lines, letters, (0.0, 0.0, 100.0, 80.0)))
+
+    outside, point, letter = (COVERED[key] for key in ("outside", "point", "letter"))
+    assert cost() == [0, 0, 0, outside]
+    lines = np.array([(10.0, 20.0, 30.0, 20.0), (19.0, 10.0, 19.0, 30.0), (0.0, 75.0, 99.0, 75.0)])
+    assert cost((lines, np.array([0.5, 0.25, 9.0]), none[2])) == [0.75, 0, 0, outside]
+    for off, met in ((half[0] + 0.9, True), (half[0] + 1.1, False)):
+        near = np.array([(80 + off, 20.0)])
+        assert cost((*none[:2], near)) == [0, point * met, 0, outside]
+        near = np.array([(80.0, 20 - off + half[0] - half[1])])
+        assert cost((*none[:2], near)) == [0, point * met, 0, outside]
+    beside = ((50.0, 60 + LETTER + GAP - 0.1), 6.0), ((20.0, 20 + LETTER + GAP + 0.1), 6.0)
+    assert cost(letters=beside) == [0, 0, letter, outside]

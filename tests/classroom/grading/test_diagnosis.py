@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import pi
+from math import exp, log, pi
 
 import numpy as np
 import pytest
 
 from graphkin.classroom.grading.graded import Answer, EarnedMark, Status
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.slip_diagnosis import RARER, SHARE, share
+from graphkin.classroom.grading.slip_diagnosis import (
+    RARER,
+    SHARE,
+    by_chance,
+    hit_density,
+    hit_ratio,
+    judged,
+    share,
+)
+from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Standard
 from tests.classroom.grading.students import LABS, drawn, given, marker_of, row, taker
 
@@ -179,3 +188,48 @@ def test_no_slip_is_made_more_often_than_the_common_ones(name):
     shares = {slip.name: share(slip) for slip in marker_of(name, 7).slips}
     assert max(shares.values()) == SHARE
     assert all(shares[rare] <= SHARE / 2 for rare in RARER if rare in shares)
+
+
+@pytest.mark.parametrize("right", [0.04, 1.0, 250.0])
+def test_half_of_all_wrong_answers_lie_within_a_factor_of_two(right):
+    """Spread in logarithms as Cauchy's curve: all of them, and half, by the trapezoidal rule."""
+    for reach, part in ((log(2), 0.5), (3 * log(2), 0.795), (4000.0, 1.0)):
+        angles = np.linspace(-1, 1, 2001) * np.arctan(min(reach, 600.0) / log(2))
+        logs = log(2) * np.tan(angles)
+        dense = [by_chance(right * exp(each), right) for each in logs]
+        assert np.trapezoid(dense, logs) == pytest.approx(part, abs=2e-3)
+    assert by_chance(right * 3, right) == pytest.approx(by_chance(right / 3, right))
+
+
+def test_who_means_a_value_hits_it_within_what_is_allowed():
+    """As a bell whose 95 of 100 are allowed; by a slip so much more densely than by chance."""
+    off = np.linspace(-0.6, 0.6, 12001)
+    dense = np.array([hit_density(each, 0.5) for each in off])
+    assert np.trapezoid(dense, off) == pytest.approx(0.95, abs=2e-3)
+    assert (dense[abs(off) > 0.5] == 0).all() and (dense[abs(off) < 0.499] > 0).all()
+    for size, right in ((40.0, 20.0), (3.0, 90.0)):
+        ratio = hit_density(0.2, 0.5) / (by_chance(size, right) / size)
+        assert hit_ratio(size + 0.2, size, 0.5, right) == pytest.approx(ratio)
+    assert hit_ratio(0.4, 0.5, 0.5, 1.0) == 0.0
+
+
+def test_what_is_computed_from_an_explained_value_is_no_further_evidence():
+    """Odds are multiplied for each answer that is hit, but for those that follow from another."""
+    standard = marker_of("pump", 12).standard
+    fields = tuple(values(standard)[:3])
+    slip = Slip("wrong_scale", False, {field: 1.3 * standard.key[field] for field in fields})
+    answers = given({field: 1.3 * standard.key[field] for field in fields})
+
+    def odds(sources, given=()):
+        found = judged(standard, slip, answers, fields, (), sources, given)
+        assert found.fields == fields
+        return found.odds / share(slip)
+
+    one, other, third = (
+        judged(standard, slip, answers, (field,), ()).odds / share(slip) for field in fields
+    )
+    assert min(one, other, third) > 1
+    assert odds({}) == pytest.approx(one * other * third)
+    assert odds({fields[1]: (fields[0],)}) == pytest.approx(one * third)
+    assert odds({fields[1]: ("elsewhere",)}) == pytest.approx(one * other * third)
+    assert odds({fields[2]: ("elsewhere",)}, ("elsewhere",)) == pytest.approx(one * other)

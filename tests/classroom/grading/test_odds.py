@@ -9,18 +9,23 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations
-from math import comb, exp
+from math import comb, exp, pi, sqrt
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from graphkin.classroom.grading.graded import Answer, Graded, Taker
 from graphkin.classroom.grading.keys import Keys, distinct
+from graphkin.classroom.grading.likelihood import Key, scattered
+from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.same_digits import (
     FEW,
+    AnswerSheet,
     by_oneself,
     chosen,
     copies,
+    misunderstood,
     sheet,
     told,
     with_slips,
@@ -171,3 +176,64 @@ def test_what_may_be_copied_of_a_form_has_a_share_that_adds_up_to_one():
     there = np.ones(5, dtype=bool)
     every = [np.array([bool(n >> i & 1) for i in range(5)]) for n in range(32)]
     assert sum(exp(-chosen(keys, there, each)) for each in every) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("times", "coarse", "less"), [(1, 1, 1), (3, 3, 1), (0.5, 1, 0.5)])
+@pytest.mark.parametrize("apart", [0.0, 7.0])
+@pytest.mark.parametrize("digits", [0.05, 0.9])
+def test_how_often_two_who_misunderstand_alike_write_the_same_digits(
+    times, coarse, less, apart, digits
+):
+    """The difference of two drawings, each rounded, is spread as the sum of their variances (a
+    rounding by up to r has r²/3); digits are the same within twice a rounding about nought."""
+    pencil, least, spread = 0.8, 0.25, np.array([0.3, 0.6])
+    sizes = np.array([[60.0, 80.0], [60.0 + apart, 80.0 - apart]])
+    places, mean = np.zeros(2, dtype=bool), sizes.mean(axis=0)
+
+    def key(variant, read):
+        return Key(
+            sizes[variant][read], np.diag(spread)[np.ix_(read, read)], None, None, places[read]
+        )
+
+    keys = SimpleNamespace(key=key, sizes=sizes)
+    one, other = (
+        AnswerSheet(times * mean, np.full(2, own), np.full(2, least), places, variant, ())
+        for variant, own in ((0, digits), (1, digits / 2))
+    )
+    rounding = max(digits, least * coarse)
+    variances = 2 * (pencil * less) ** 2 * spread + 2 * rounding**2 / 3 + (less * apart) ** 2
+    each = [2 * rounding / sqrt(2 * pi * variance) for variance in variances]
+    for read in ([True, True], [True, False], [False, True], [False, False]):
+        expected = np.prod([share for share, is_read in zip(each, read, strict=True) if is_read])
+        found = misunderstood(one, other, keys, np.array(read), pencil)
+        assert exp(found) == pytest.approx(min(1.0, expected))
+
+
+@pytest.mark.parametrize("count", [3, 6, 11])
+def test_of_a_hundred_careful_drawings_five_are_taken_for_more_than_one(count):
+    """Values that go together are off together; each is rounded besides. Of few nothing is told."""
+    rng = np.random.default_rng(count)
+    way = rng.normal(size=(count, count)) + 2
+    computed, rounded = rng.uniform(0.1, 2, size=(2, count))
+    key = Key(None, way @ way.T, computed, None, None)
+    off = rng.normal(size=(6000, count)) @ way.T + rng.normal(size=(6000, count)) * computed
+    off += rng.uniform(-1, 1, size=(6000, count)) * rounded
+    assert is_one_drawing(off, rounded, key).mean() == pytest.approx(0.95, abs=0.012)
+    assert not is_one_drawing(off + 9 * np.sqrt(np.diag(key.spread)), rounded, key).any()
+    few = Key(None, np.eye(1), np.ones(1), None, None)
+    assert not is_one_drawing(np.zeros((4, 1)), np.ones(1), few).any()
+
+
+def test_mistakes_are_spread_so_that_half_lie_within_a_factor_of_two_or_10_mm():
+    """All of them make one, by the trapezoidal rule."""
+    for places, far, inner in (
+        (False, np.geomspace(1e-5, 1e9, 40001), (25.0, 100.0)),
+        (True, np.sinh(np.linspace(-16, 16, 40001)) + 50.0, (40.0, 60.0)),
+    ):
+        count = len(far)
+        key = Key(np.full(count, 50.0), None, None, None, np.full(count, places))
+        dense = np.exp(scattered(far, key))
+        parts = (dense[1:] + dense[:-1]) / 2 * np.diff(far)
+        within = (far[1:] <= inner[1]) & (far[:-1] >= inner[0])
+        assert parts.sum() == pytest.approx(1.0, abs=0.04)
+        assert parts[within].sum() == pytest.approx(0.5, abs=0.002)

@@ -204,12 +204,28 @@ def test_what_is_proposed_is_read_as_it_was_meant(lab, tmp_path):
         assert told == [values.value(k) for k in range(len(values))]
 
 
-@pytest.mark.parametrize("base", [2, 3])
-def test_the_design_puts_one_draw_into_each_part(base):
-    """Of base^k draws in a row one lies in each of as many parts (van der Corput's law)."""
-    column, count = {2: 0, 3: 1}[base], base**4
-    found = np.sort(halton(2, count, count)[:, column] * count).astype(int)
+@pytest.mark.parametrize(
+    ("column", "base"), [*enumerate(n for n in range(2, 38) if all(n % k for k in range(2, n)))]
+)
+def test_the_design_puts_one_draw_into_each_part(column, base):
+    """Of base^k draws in a row one lies in each of as many parts (van der Corput's law); the bases
+    are the primes, so that no two columns go together (Halton 1960)."""
+    count = base**4 if base < 4 else base**2
+    found = np.sort(halton(column + 1, count, count)[:, column] * count + 1e-6).astype(int)
     assert list(found) == list(range(count))
+
+
+@pytest.mark.parametrize("count", [9, 10, 11, 12])
+def test_all_values_of_a_parameter_are_tried_unless_they_are_many(lab, monkeypatch, count):
+    """Of few each is tried with the box of the others; of more than an eighth of the draws those
+    in the box."""
+    monkeypatch.setattr(module, "DRAWS", 80)
+    good = {1, 2, 5, count - 1}
+    judging(monkeypatch, lambda each: each["a"] in good and each["b"] < 4)
+    space = {"a": Range(0, count - 1, 1), "b": Range(0, 9, 1)}
+    found = module.all_runs(lab, lab, space, [(1, 2), (0, 3)], "a")
+    assert {found.value(k) for k in range(len(found))} == (good if count <= 10 else {1, 2})
+    assert module.all_runs(lab, lab, space, [(1, 2), (4, 9)], "a") is None
 
 
 def test_runs_are_ranges_and_single_values():

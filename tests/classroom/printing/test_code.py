@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
+import numpy as np
 import pypdfium2 as pdfium
 import pytest
 import zxingcpp as reader
@@ -11,14 +14,16 @@ from hypothesis import strategies as st
 from graphkin.classroom.printing.qr_code import (
     SIDE,
     boxes,
+    corners_of_a3,
+    corners_of_a4,
     modules,
     overlap,
     rectangles,
     stamped,
 )
-from graphkin.drawing.areas import A3_AREA, A4_AREA
+from graphkin.drawing.areas import A3_AREA, A3_TITLE_BLOCK, A4_AREA, BELOW
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
-from graphkin.drawing.marks import Page, Text, reach
+from graphkin.drawing.marks import LineMark, Page, Polyline, Text, reach
 from graphkin.writers.pdf import write_pdf
 
 CODE = "TZHG6MXPZY"
@@ -59,6 +64,15 @@ def stamp(page):
     return min(lefts), min(tops), max(rights), max(bottoms)
 
 
+@pytest.mark.parametrize("closed", [False, True])
+def test_an_outline_takes_up_its_sides_and_nothing_within(closed):
+    corners = ((0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0))
+    sides = [*pairwise(corners), *([(corners[3], corners[0])] * closed)]
+    found = [*boxes(Polyline(corners, "ink", closed=closed))]
+    assert found == [reach(LineMark(*one, *other, "ink")) for one, other in sides]
+    assert not any(overlap(box, (10, 10, 30, 20)) for box in found)
+
+
 @pytest.mark.parametrize(("page", "area"), [(A3, A3_AREA), (A4, A4_AREA)])
 def test_four_modules_around_the_square_stay_white(page, area):
     left, top, right, bottom = stamp(page)
@@ -87,3 +101,30 @@ def test_the_square_on_a_printed_page_can_be_read():
     (read,) = reader.read_barcodes(picture)
     assert read.text == CODE
     assert read.format == reader.BarcodeFormat.QRCode
+
+
+def test_places_of_the_square_lie_4_mm_apart_in_all_the_room_there_is():
+    """On A4 from the right upper corner down, on A3 from beside the title block up; each then
+    further to the left, with its white margin and a millimetre within the area at first."""
+    margin = 3.0
+    beside = (*BELOW[:2], A3_TITLE_BLOCK[0], A3_TITLE_BLOCK[3])
+    for places, area, down in (
+        ([*corners_of_a4(margin)], A4_AREA, 4.0),
+        (
+            [*corners_of_a3(margin)],
+            beside,
+            -4.0,
+        ),
+    ):
+        left, top, right, bottom = area
+        columns = [*dict.fromkeys(x for x, _ in places)]
+        rows = [y for x, y in places if x == columns[0]]
+        assert places == [(x, y) for x in columns for y in rows]
+        assert columns[0] == right - SIDE - margin - 1
+        assert rows[0] == (top + margin + 1 if down > 0 else bottom - SIDE - margin - 1)
+        assert np.diff(columns) == pytest.approx(-4.0) and np.diff(rows) == pytest.approx(down)
+        assert left + margin < columns[-1] <= left + margin + 4
+        if down > 0:
+            assert bottom - SIDE - margin - 4 <= rows[-1] < bottom - SIDE - margin
+        else:
+            assert top + margin < rows[-1] <= top + margin + 4

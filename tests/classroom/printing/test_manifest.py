@@ -34,6 +34,15 @@ def test_students_come_in_roster_order_with_their_data_as_text(make):
     assert edition.lab.rubric.points["v_B_mm"] == 2
 
 
+def test_the_format_is_written_and_another_is_refused(make):
+    """Folders of years ago are of format 1, and are read."""
+    folder = make("a", ["1"])
+    assert json.loads((folder / "manifest.json").read_text(encoding="utf-8"))["format"] == 1
+    change(folder, format=2)
+    (line,) = told(folder)
+    assert line.startswith(str(folder / "manifest.json")) and "expected format 1" in line
+
+
 @pytest.mark.parametrize("name", ["scene.toml", "lab.toml"])
 def test_a_lab_that_was_changed_since_is_refused(make, name):
     folder = make("a", ["1"])
