@@ -46,10 +46,11 @@ def with_keepers(
         r.on for link in written.values() for r in link.rolls if r.through and r.on in written
     }
     held = {name: joints_of(written, name, drivers) for name in tracks}
+    turned = {d.link for d in drivers if d.kind == "turn" and d.against == FRAME}
     every = dict(written)
     for name, link in written.items():
         for index, rolling in enumerate(link.rolls):
-            keeper = keeper_of(every, name, index, held, measures)
+            keeper = keeper_of(every, name, index, held, turned, measures)
             if keeper is None:
                 continue
             every[keeper.name] = keeper
@@ -161,9 +162,13 @@ def keeper_of(
     name: str,
     index: int,
     held: Mapping[str, int],
+    turned: Collection[str],
     measures: Measures,
 ) -> Link | None:
-    """The link that keeps a wheel on what it rolls on; None where there is no need of one."""
+    """The link that keeps a wheel on what it rolls on; None where there is no need of one.
+
+    A bar ``turned`` by a driver, on a drum of the frame, is placed by both: all else hangs on it.
+    """
     own, rolling = every[name], every[name].rolls[index]
     on = every.get(rolling.on)
     if on is None or on is own or not own.wheels or rolling.belt is not None:
@@ -174,6 +179,7 @@ def keeper_of(
         made = bar_between(*pair, measures) if pair else None
     else:
         needed = rolling.on != FRAME and (asked or held[rolling.on] < 2)
+        needed = needed or (name == FRAME and rolling.on in turned)
         made = block_on(own.rim, rolling, measures) if needed else None
     place = f"{'frame' if name == FRAME else f'links.{name}'}.rolls"
     place = f"{numbered(place, index, len(own.rolls))}.link"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import degrees
+
 from graphkin.scene.findings import Findings, Table, numbered
 from graphkin.scene.known_names import known_point, named, place_of
 from graphkin.scene.measures import Measures
@@ -11,6 +13,8 @@ from graphkin.scene.read_joints import tables
 
 OTHERWISE = "a profile is an arc: it needs a radius"
 """The hint where the centre of a profile lies on it."""
+FULL = 360
+"""The whole circle of a profile, in degrees."""
 
 
 def read_profiles(table: Table, measures: Measures) -> tuple[Profile, ...]:
@@ -47,6 +51,10 @@ def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
         elif sound and at_one_spot(scene, link, profile):
             found = f"{about} and {through} are written at one spot"
             findings.add(where, found, "a centre and another place", OTHERWISE)
+        over = degrees(float(profile.arc.si(scene.values))) if profile.arc else FULL
+        if not 0 < over <= FULL:
+            expected = "more than 0° and at most 360°, the whole circle"
+            findings.add(f"{where}.arc", f"an arc over {over:g}°", expected)
 
 
 def at_one_spot(scene: Scene, link: Link, profile: Profile) -> bool:

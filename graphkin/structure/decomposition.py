@@ -6,7 +6,7 @@ are joined one after the other. The smallest, two links and three pairs, is the 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.known_names import quoted
@@ -15,7 +15,7 @@ from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Contact, Pin, Sliding
 from graphkin.structure.touching_wheels import asked_of
 from graphkin.structure.wheel_groups import next_coupled, spun_afar, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
@@ -61,18 +61,25 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
-    spun, led = spun_afar(joints, known, links, driven), tuple(reaching(joints, known, links))
+    spun, led = spun_afar(joints, known, links, driven), reaching(joints, known, links)
     return Unresolved(links, driven, held, wedged, spun, led, asked_of(joints.scene, held))
 
 
-def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> Iterator[str]:
-    """The drivers, as written, of those links that a pin or a slide joins to a known one."""
+def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
+    """The drivers, as written, of those links that a pin or a slide joins to a known one.
+
+    Where there are none, of the wheels that roll on a straight track of one.
+    """
+    joined, rolling = list[str](), list[str]()
     for link in links:
         for pair in joints.between(link, known):
             if isinstance(pair, Pin):
-                yield f"turn = {quoted(link)}"
+                joined.append(f"turn = {quoted(link)}")
             elif isinstance(pair, Sliding) and pair.block == link:
-                yield f"slide = {quoted(link)}"
+                joined.append(f"slide = {quoted(link)}")
+            elif isinstance(pair, Contact) and pair.track is None and pair.links[0] == link:
+                rolling.append(f"roll = {quoted(link)}")
+    return tuple(joined or rolling)
 
 
 def refuse_far_guides(scene: Scene) -> None:

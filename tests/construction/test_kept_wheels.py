@@ -173,6 +173,48 @@ def test_a_driven_bar_counts_its_turns_as_written(extra):
     assert place == pytest.approx(-0.06 * (1j + turn) * u)
 
 
+@pytest.mark.parametrize("hung", ["", ", link = 4"])
+def test_what_hangs_on_a_driven_bar_of_a_drum_leaves_it_to_its_driver(hung):
+    """The bar's end goes along an involute of the drum; a rod pulls a lever by it."""
+    text = f"""
+graphkin = 1
+title = "Bar on a drum that pulls a lever"
+units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
+[frame]
+O = [0, 0]
+L = [190, 60]
+wheel = {{ centre = "O", radius = 45 }}
+rolls = {{ on = 1, through = "A", angle = 0, start = {{ 1 = 100 }}{hung} }}
+[links.1]
+A-B = 180
+[links.2]
+B-C = 95
+[links.3]
+L-C = 110
+[[drivers]]
+turn = 1
+angle = 62
+speed = 3
+acceleration = 6
+[branches]
+C = "left of B-L"
+"""
+    one = made(text)
+    found, r, wound, speed = one.solve(), 0.045, radians(62 - 100), 3.0
+    u = exp(1j * radians(62))
+    place, velocity, acceleration = told(found, "B")
+    assert place == pytest.approx((0.18 - r * wound - 1j * r) * u)
+    assert velocity == pytest.approx(1j * speed * (0.18 - r * wound) * u)
+    along = 0.18 - r * wound
+    rise = (1j * 6 * along - speed**2 * along - 1j * r * speed**2) * u
+    assert acceleration == pytest.approx(rise)
+    end, pivot = found.points["C"], 0.19 + 0.06j
+    assert abs(end.position - pivot) == pytest.approx(0.11)
+    rod = end.position - place
+    assert ((end.velocity - velocity) * rod.conjugate()).real == pytest.approx(0, abs=1e-12)
+    assert one.witness(found).agrees
+
+
 @pytest.mark.parametrize("s", [200, 300, 400])
 def test_a_rope_keeps_its_length(s):
     """v·u = ωr along the strand; strand and what is wound up are as long as before."""

@@ -10,10 +10,10 @@ from graphkin.construction.core.layout import lay_out
 from graphkin.construction.links.profile_symbols import HALF, WIDEST
 from graphkin.documents.sheet import left_board
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.marks import Arc
+from graphkin.drawing.marks import Arc, CircleMark
 from graphkin.mechanism import Mechanism, load
 from graphkin.text import words
-from graphkin.text.errors import PageError
+from graphkin.text.errors import PageError, SceneError
 from tests.documents.sheet_tools import FOLDER
 from tests.mechanisms import mechanism_of
 
@@ -44,7 +44,7 @@ MEETING = """
 [frame]
 O = [0, 0]
 P = [1, 0]
-profiles = {{ about = "P", through = "A" }}
+profiles = {{ about = "P", through = "A"{arc} }}
 [links.1]
 O-A = 1
 [[drivers]]
@@ -101,13 +101,30 @@ def test_a_profile_in_the_hollow_of_another_touches_it_from_inside(angle):
 
 
 def test_a_profile_of_the_frame_is_drawn_and_one_without_a_radius_refused():
-    ((places, profiles),) = drawn(mechanism_of(MEETING.format(angle=90)))
+    ((places, profiles),) = drawn(mechanism_of(MEETING.format(angle=90, arc="")))
     arc = profiles["0"]
     assert apart((arc.cx, arc.cy), places["P"]) < 1e-9
     assert isclose(arc.r, apart(places["A"], places["P"]))
     with pytest.raises(PageError, match="P and A stand at one place; expected an arc") as told:
-        list(drawn(mechanism_of(MEETING.format(angle=0))))
+        list(drawn(mechanism_of(MEETING.format(angle=0, arc=""))))
     assert told.value.problems[0].place == "frame.profiles"
+
+
+def test_an_arc_of_360_degrees_is_the_whole_circle():
+    """The disc of an eccentric."""
+    for places, profiles in drawn(mechanism_of(MEETING.format(angle=90, arc=", arc = 360"))):
+        disc = profiles["0"]
+        assert isinstance(disc, CircleMark)
+        assert apart((disc.cx, disc.cy), places["P"]) < 1e-9
+        assert isclose(disc.r, apart(places["A"], places["P"]))
+
+
+@pytest.mark.parametrize("arc", [0, -20, 361])
+def test_an_arc_of_no_degrees_or_of_more_than_a_circle_is_refused(arc):
+    with pytest.raises(SceneError) as told:
+        mechanism_of(MEETING.format(angle=90, arc=f", arc = {arc}"))
+    (problem,) = told.value.problems
+    assert (problem.place, problem.found) == ("frame.profiles.arc", f"an arc over {arc}°")
 
 
 def test_a_disc_lies_in_a_hollow_whose_link_is_not_drawn_to_the_centre():

@@ -17,11 +17,14 @@ from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.refining import refined
 from graphkin.construction.higher_class.two_trials import TwoTrials
+from graphkin.construction.links.idle_links import idle_sentences
 from graphkin.diagnosis.closures import choices
+from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
+from graphkin.text import words
 from tests.construction.rods import rods_of
 from tests.structure.test_unresolved import CYLINDERS
 
@@ -256,3 +259,15 @@ def test_a_closure_that_is_none_is_not_proved():
         away = (closed[0] * cmath.rect(1, 2.0), closed[1] * cmath.rect(1, 2.5), *closed[2:])
         with pytest.raises(ValueError, match=r"ball|drawn"):
             refined(trying, longer, away, kind)
+
+
+@pytest.mark.parametrize(
+    ("name", "idle"),
+    [("plates-coupled", []), ("plates-ring", []), ("mobility-parallel-cranks", ["idle 3"])],
+)
+def test_a_bar_at_which_a_group_within_closes_is_not_idle(name, idle):
+    """It is tried until it fits; the third parallel crank fits by itself."""
+    text = (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")
+    made = Mechanism(read_text(text, name))
+    drawing, *_ = drawings_of(made, proved(made, made.solve()), words("en"))
+    assert [sentence.name for sentence in idle_sentences(drawing)] == idle

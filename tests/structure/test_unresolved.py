@@ -82,6 +82,10 @@ PEDALS = "[[drivers]]\nturn = 3\nangle = -50\nspeed = -6\n"
             BICYCLE + PEDALS,
             "are moved by the driver of link 3 only by way of wheels, about a pin that moves",
         ),
+        (
+            BICYCLE + PEDALS.replace("turn = 3", "turn = 3\nagainst = 1"),
+            "are moved by the driver of link 3 only by way of wheels, about a pin that moves",
+        ),
     ],
 )
 def test_a_limit_is_named(text, found):
@@ -149,3 +153,29 @@ def test_the_driver_that_is_proposed_for_a_bicycle_turns_its_pedals():
     links = Mechanism(read_text(ridden, "limit")).solve().links
     assert links["2"].omega == pytest.approx(-4590 / 340)
     assert links["3"].omega == pytest.approx(-4590 / 340 * 40 / 90) == pytest.approx(-6)
+
+
+FRONT = """
+[links.1]
+C = [0, 0]
+K = [420, -50]
+D = [1000, 0]
+[links.4]
+D-W = 300
+wheel = { centre = "D", radius = 340 }
+rolls = { on = 0, through = "R", angle = 0 }
+"""
+
+
+def test_a_bicycle_on_two_wheels_alone_is_driven_by_one_of_them():
+    guided = BICYCLE[BICYCLE.index("[links.1]") : BICYCLE.index("[links.2]")]
+    free = BICYCLE.replace(guided, FRONT)
+    with pytest.raises(StructureError) as error:
+        Mechanism(read_text(free + PEDALS, "limit")).solve()
+    assert str(error.value).endswith("; write roll = 4 or roll = 2 for it: the radii tell how fast")
+    ridden = free + '[[drivers]]\nroll = 2\nposition = 0\nspeed = 4590\n[branches]\n4 = "forward"\n'
+    found = Mechanism(read_text(ridden, "limit"))
+    moved = found.solve()
+    assert moved.links["3"].omega == pytest.approx(-6)
+    assert moved.links["4"].omega == moved.links["2"].omega == pytest.approx(-4590 / 340)
+    assert found.witness(moved).agrees

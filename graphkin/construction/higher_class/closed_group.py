@@ -51,6 +51,11 @@ class ClosedGroup(Construction, frozen=True):
         return self.group.links
 
     @property
+    def cut_off(self) -> set[str]:
+        """The links that are cut off, in it and in the groups within it."""
+        return {one.last.link for one in self.group.nested if isinstance(one.last, Tie)}
+
+    @property
     def found_link(self) -> str:
         """The link that is tried."""
         return self.group.tried.link

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 
 IDLE = "idle "
@@ -23,6 +24,7 @@ def points_of(step: Step) -> set[str]:
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     """Each bar that no step lays off, because its pins stand without it: an idle link.
 
+    One at which a group is closed is none, though it is tried until it fits.
     With it the block that stands for the contact of a cam with a flat face.
     """
     told = [
@@ -30,13 +32,15 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
         for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS)
         if step.part is Part.POSITION
     ]
+    groups = constructions(drawing.trace.program, ClosedGroup)
+    closing = {link for group in groups for link in group.cut_off}
     for link in drawing.scene.links.values():
         points = set(link.points)
         if link.slides and link.name in drawing.scene.cam_links:
             follower = drawing.scene.cam_links[link.name]
             fields = {"k": escape(link.name), "f": escape(follower), "p": symbol(link.points[0])}
             yield Sentence(-1, IDLE + link.name, drawing.words("step.cam-face", **fields))
-        laid = any(len(points & names) > 1 for names in told)
+        laid = link.name in closing or any(len(points & names) > 1 for names in told)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
             key = "step.cam-link" if link.name in drawing.scene.cam_links else "step.idle"

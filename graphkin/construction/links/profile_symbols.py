@@ -11,7 +11,7 @@ from graphkin.construction.core.link_poses import APART
 from graphkin.drawing.areas import MARGIN
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Arc
+from graphkin.drawing.marks import Arc, CircleMark
 from graphkin.numbers.arithmetic import phase, smaller
 from graphkin.scene.known_names import place_of
 from graphkin.scene.model import Profile
@@ -21,6 +21,8 @@ HALF = MARGIN
 """How far a profile is drawn to each side of its contact, in mm: as far as there is room for."""
 WIDEST = 60.0
 """The same in degrees about its centre, at most."""
+ALL_ROUND = 180.0
+"""The same of a whole circle."""
 
 
 class Edge(NamedTuple):
@@ -58,13 +60,15 @@ def without_radius(edge: Edge) -> Problem:
     return Problem(f"{place_of(edge.link)}.profiles", found, "an arc with a radius", hint)
 
 
-def edge_arc(drawing: Drawing, field: Field, edge: Edge) -> Arc:
-    """The arc of a profile about its contact, as long as it is told to be."""
+def edge_arc(drawing: Drawing, field: Field, edge: Edge) -> Arc | CircleMark:
+    """The arc of a profile about its contact, as long as it is told to be, or its whole circle."""
     radius = abs(edge.contact - edge.centre) * field.mm
     middle = phase(edge.contact - edge.centre) * (180 / pi)
     if edge.profile.arc is None:
         half = smaller(degrees(HALF) / radius, WIDEST)
     else:
         half = degrees(float(edge.profile.arc.si(drawing.scene.values))) / 2
+    if half >= ALL_ROUND:
+        return CircleMark(*field(edge.centre), radius, "profile", edge.link)
     ends = middle - half, middle + half
     return Arc(*field(edge.centre), radius, *ends, "profile", edge.link)
