@@ -37,7 +37,7 @@ from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import extent, flowed
+from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
@@ -332,7 +332,7 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)
     for told in filter(None, (links, plan_at(drawing))):
-        lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
+        lines += ["", *flowed(words_of(told), " ", width, 2.5)]
     return lines
 
 
