@@ -11,6 +11,7 @@ from graphkin.documents.overlay import overlay
 from graphkin.documents.sheet import heading, sheet, title_line
 from graphkin.drawing.areas import WIDTH
 from graphkin.drawing.marks import Text, reach
+from graphkin.drawing.richtext import are_clear
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
 from tests.documents.full_scenes import FLAT, TOGGLE, drawings_from
@@ -74,6 +75,14 @@ def test_titles_of_both_sheets_have_one_height_and_stand_level(language):
         assert len(looks) == 1
         heights |= {height for height, _ in looks}
     assert language != "en" or heights == {3.5, 5.0}
+
+
+def test_data_of_three_lines_keep_the_height_of_letters_where_signs_would_touch():
+    """The square in ω²·kL stands below an index: lines of the acceleration sheet end earlier."""
+    for drawing in drawings("plates-ring"):
+        said = [mark for mark in heading(drawing)[0] if mark.name == DATA]
+        assert [mark.height for mark in said] == [2.5] * 3
+        assert are_clear([mark.markup for mark in said], 2.5, said[1].y - said[0].y)
 
 
 def test_drawings_wider_than_the_sheet_are_refused():
