@@ -17,12 +17,15 @@ BLANK = ". . . . . . . . ."
 """Room to write in what a task does not give away."""
 HEADING = "heading"
 """The name of the lines of captions."""
-HEIGHTS = (3.5, 2.5, 1.8)
-"""Heights of captions in mm; all but the least stand in two lines at most."""
+LOOKS = ((3.5, 1), (2.5, 1), (2.5, 2))
+"""Heights of captions in mm with the lines that they may have, the first that does for both."""
+LEAST = 1.8
+"""Height in mm of the letters where nothing else does."""
 LEADING = 1.4
 """Distance of the lines of a caption, in heights of its letters."""
-FOOT = 3.2
-"""How far above its field the first line of a caption stands, in mm."""
+FOOT = 2.2
+"""How far above its field the first line of a caption stands, in mm: clear of three lines of data;
+a second line of the lower letters ends above what begins 3 mm below the field's edge."""
 
 
 def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
@@ -38,29 +41,31 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     beside = beside_plan(drawing, drawing.kind) if has_plan(drawing) else ""
     kL += f"; {beside}" if beside else ""
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
-    plan = words(f"page.{drawing.kind}_heading", k=k)
-    left, right = layout.mechanism.rect, layout.plan.rect
-    above = caption(mechanism, left)
-    return above, caption(plan, right) if has_plan(drawing) else []
+    said = [(mechanism, layout.mechanism.rect)]
+    if has_plan(drawing):
+        said.append((words(f"page.{drawing.kind}_heading", k=k), layout.plan.rect))
+    height = next((h for h, most in LOOKS if all(len(lines(*x, h)) <= most for x in said)), LEAST)
+    above = [caption(*each, height) for each in said]
+    return above[0], above[1] if len(above) > 1 else []
 
 
-def caption(said: str, rect: Rect) -> list[Mark]:
-    """A field's caption, what stands in brackets in a second line if need be.
-
-    The first lines of both captions stand level, clear of the data above; a second
-    in the field, above what begins 3 mm below its edge.
-    """
+def lines(said: str, rect: Rect, height: float) -> list[str]:
+    """A field's caption, what stands in brackets in a second line if need be."""
     room = rect[2] - rect[0] - 5
-    for height in HEIGHTS:
-        lines = [said] if extent(said, height)[0] <= room else said.split("  ")
-        if max(extent(line, height)[0] for line in lines) > room:
-            lines = flowed(words_of(" ".join(lines)), " ", room, height)
-        if len(lines) <= 2:
-            break
+    if extent(said, height)[0] <= room:
+        return [said]
+    parts = said.split("  ")
+    if max(extent(part, height)[0] for part in parts) <= room:
+        return parts
+    return flowed(words_of(" ".join(parts)), " ", room, height)
+
+
+def caption(said: str, rect: Rect, height: float) -> list[Mark]:
+    """A field's caption in letters of a height; the first lines of both stand level."""
     first = rect[1] - FOOT
     return [
         Text(rect[0] + 3, first + LEADING * height * i, line, "caption", height, name=HEADING)
-        for i, line in enumerate(lines)
+        for i, line in enumerate(lines(said, rect, height))
     ]
 
 

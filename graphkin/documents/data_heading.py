@@ -21,9 +21,11 @@ GAP = 5.0
 """Distance of the words from the table in mm."""
 BESIDE = {1: 4.2, 2: 4.2, 3: 3.6}
 """The distance in mm of so many lines beside the table, of which there are three at most."""
-LINES = ((2.5, 4.2, 2, False), (2.5, 3.75, 3, True), (1.8, 3.2, 3, False), (1.8, 2.6, 4, False))
+LINES = ((2.5, 4.2, 2, False), (2.5, 3.85, 3, True), (1.8, 3.2, 3, False), (1.8, 2.6, 4, False))
 """How data without a table may look: height of letters and distance of lines in mm, lines at most,
 and whether these are so near that signs may touch."""
+SHORTER = (0.0, *range(4, 49, 4))
+"""By how much lines are made shorter, in mm, until no signs touch."""
 
 LOWEST = AREA[1] - 7.4
 """The foot of the lowest line in mm: below it stand the captions, of two lines where they must."""
@@ -80,19 +82,21 @@ def ruled(valued: Sequence[Datum], widths: Sequence[float], x: float, top: float
 def in_lines(drawing: Drawing, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     """All data in two lines, or in three, of smaller lettering only where signs would touch.
 
+    Three lines end where their signs are clear of each other.
     They stay clear of the fields' captions, also where a title of two lines moves them down.
     """
     first, *pieces = (datum.said for datum in found)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
     width = AREA[2] - x - 3
     for height, leading, room, near in LINES:
-        lines = flowed(pieces, "; ", width, height)
-        fits = len(lines) <= room and y + (len(lines) - 1) * leading <= LOWEST
-        if fits and not (near and not are_clear(lines, height, leading)):
-            return [
-                Text(x, y + i * leading, line, "caption", height, name=NAME)
-                for i, line in enumerate(lines)
-            ]
+        for less in SHORTER if near else SHORTER[:1]:
+            lines = flowed(pieces, "; ", width - less, height)
+            fits = len(lines) <= room and y + (len(lines) - 1) * leading <= LOWEST
+            if fits and (not near or are_clear(lines, height, leading)):
+                return [
+                    Text(x, y + i * leading, line, "caption", height, name=NAME)
+                    for i, line in enumerate(lines)
+                ]
     raise PageError(
         Problem(
             "data",

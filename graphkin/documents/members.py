@@ -10,9 +10,11 @@ from graphkin.text import Words
 
 def members(drawing: Drawing) -> str:
     """The links by their numbers and the points that they join, as a task tells them."""
-    words = drawing.words
-    links = drawing.scene.bare.links.items()
-    told = [f"{escape(name)} = {of_link(words, link)}" for name, link in links]
+    words, scene = drawing.words, drawing.scene.bare
+    told = [f"{escape(name)} = {of_link(words, link)}" for name, link in scene.links.items()]
+    for centre, follower in scene.cam_centres.items():
+        cam = escape(scene.cams[follower].on)
+        told.append(words("page.member_centre", point=symbol(centre), g=cam))
     return words("page.members", list=words("list_mark").join(told))
 
 

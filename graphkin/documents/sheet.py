@@ -37,7 +37,7 @@ from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import extent, flowed
+from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
@@ -160,15 +160,20 @@ def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved]
 
 
 def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
-    """The sheet's title and the bar that checks the print; where the data may begin."""
+    """The sheet's title and the bar that checks the print; where the data may begin.
+
+    Velocity and acceleration sheets have titles of one height, with as many lines.
+    """
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
-    name = f"{words('sheet.' + called(drawing))} – {title_of(drawing)}{remark}"
-    lines, height = [escape(name)], 5.0
-    if extent(lines[0], height)[0] > TITLE:
-        height = next((h for h in (3.5, 2.5) if len(wrapped(name, TITLE, h)) <= 2), 1.8)
-        lines = wrapped(name, TITLE, height)
-    low, data = (top + 7.6, top + 12.4) if len(lines) == 1 else (top + 9.4, top + 13.4)
+    kinds = dict.fromkeys((called(drawing), "velocity", "acceleration"))
+    name, *others = (f"{words('sheet.' + k)} – {title_of(drawing)}{remark}" for k in kinds)
+    lines, height, rows = [escape(name)], 5.0, 1
+    longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
+    if extent(escape(longest), height)[0] > TITLE:
+        height = next((h for h in (3.5, 2.5) if len(wrapped(longest, TITLE, h)) <= 2), 1.8)
+        lines, rows = wrapped(name, TITLE, height), len(wrapped(longest, TITLE, height))
+    low, data = (top + 7.6, top + 12.4) if rows == 1 else (top + 9.4, top + 13.4)
     marks: list[Mark] = [
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)
@@ -327,7 +332,7 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)
     for told in filter(None, (links, plan_at(drawing))):
-        lines += ["", *flowed(told.split(" "), " ", width, 2.5)]
+        lines += ["", *flowed(words_of(told), " ", width, 2.5)]
     return lines
 
 

@@ -1,15 +1,17 @@
 """Beside a mechanism that takes the whole breadth the plan keeps its caption and its notes."""
 
-from itertools import product
+from itertools import chain, product
 
 import pytest
 
 from graphkin.construction.core.layout import lay_out, refuse_wide
 from graphkin.documents.captions import headlines
+from graphkin.documents.data_heading import NAME as DATA
 from graphkin.documents.overlay import overlay
-from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet import heading, sheet, title_line
 from graphkin.drawing.areas import WIDTH
 from graphkin.drawing.marks import Text, reach
+from graphkin.drawing.richtext import are_clear
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
 from tests.documents.full_scenes import FLAT, TOGGLE, drawings_from
@@ -38,18 +40,49 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
 
 @pytest.mark.parametrize(("language", "view"), [*product(LANGUAGES, ("key", "task"))], ids=str)
 def test_captions_of_both_fields_stand_level_and_above_all_that_is_drawn(language, view):
-    """Guides and loci begin 3 mm below the field's upper edge; data end 7.3 mm above it."""
-    for drawing in drawings("hart", None, language):
-        first, second = headlines(drawing, lay_out(drawing), view)
-        assert {first[0].y} == {mark.y for mark in second}
-        assert len(first) == 2
-    for name in ("shaper", "rapid-return", "toggle-press"):
+    """Guides and loci begin 3 mm below the field's upper edge; both captions have one height."""
+    for name in ("hart", "shaper", "rapid-return", "toggle-press", "platform-3rpr"):
         for drawing in drawings(name, None, language):
             layout = lay_out(drawing)
-            marks = [mark for some in headlines(drawing, layout, view) for mark in some]
-            top = layout.mechanism.rect[1]
-            assert max(reach(mark)[3] for mark in marks) < top + 3
-            assert min(mark.y - mark.height for mark in marks) > top - 7.3 + 0.5
+            first, second = headlines(drawing, layout, view)
+            marks = [*first, *second]
+            if second:
+                assert first[0].y == second[0].y
+            assert len({mark.height for mark in marks}) == 1
+            assert max(reach(mark)[3] for mark in marks) < layout.mechanism.rect[1] + 2.5
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_captions_stand_clear_of_data_of_three_lines(language):
+    lines = set()
+    for name in ("cam-plate-lever", "hoist-differential", "plates-ring"):
+        for drawing in drawings(name, None, language):
+            said = {mark.y for mark in heading(drawing)[0] if mark.name == DATA}
+            if not said:
+                continue  # on the continuation sheet
+            lines.add(len(said))
+            captions = [*chain(*headlines(drawing, lay_out(drawing), "key"))]
+            assert min(mark.y - mark.height for mark in captions) - max(said) > 2
+    assert lines & {3, 4}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_titles_of_both_sheets_have_one_height_and_stand_level(language):
+    heights = set()
+    for name in ("plates-coupled", "platform-3rpr"):
+        titles = [title_line(drawing) for drawing in drawings(name, None, language)]
+        looks = {(marks[0].height, data) for marks, _, data in titles}
+        assert len(looks) == 1
+        heights |= {height for height, _ in looks}
+    assert language != "en" or heights == {3.5, 5.0}
+
+
+def test_data_of_three_lines_keep_the_height_of_letters_where_signs_would_touch():
+    """The square in ω²·kL stands below an index: lines of the acceleration sheet end earlier."""
+    for drawing in drawings("plates-ring"):
+        said = [mark for mark in heading(drawing)[0] if mark.name == DATA]
+        assert [mark.height for mark in said] == [2.5] * 3
+        assert are_clear([mark.markup for mark in said], 2.5, said[1].y - said[0].y)
 
 
 def test_drawings_wider_than_the_sheet_are_refused():

@@ -2,12 +2,15 @@
 
 import pytest
 
+from graphkin.construction.core.curve_extent import ROOMY
+from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import drafts_of, scales
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.areas import ABOVE, HEIGHT, MARGIN, WIDTH
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
+from graphkin.drawing.scale import extent_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
@@ -20,6 +23,30 @@ OMEGA = 12.0
 FOUR_BAR = OTHERS["four-bar-with-a-coupler-point"]
 """Driven by one crank at 12 rad/s."""
 SLIDE = scene_text("documents/slide")
+CONCHOID = """
+[frame]
+O = [0, 0]
+[links.1]
+A-E = 160
+A-P = 60
+P-A-E = 180
+[links.2]
+O = [0, 0]
+slides = { on = 1, along = "A-E" }
+[links.3]
+A = [0, 0]
+slides = { on = 0, through = [0, 80], angle = 0 }
+[[drivers]]
+slide = 3
+position = 50
+speed = 100
+[branches]
+2 = "forward"
+[ask]
+velocity = ["P"]
+curves = ["P"]
+"""
+"""The point P of a bar through a turning block describes a conchoid."""
 
 
 def scene(sheet="", body=FOUR_BAR, **changes):
@@ -235,6 +262,20 @@ def test_a_path_reaches_no_farther_into_the_margin_than_letters_leave(language, 
     assert max(x for x, _ in places) <= right - MARGIN + 6.8
     assert top + ABOVE - 3.1 <= min(y for _, y in places)
     assert max(y for _, y in places) <= low - ABOVE + 3.1
+
+
+def test_a_path_much_wider_than_the_mechanism_does_not_make_it_small():
+    """Of a bar through a turning block whose pin slides far, the path is cut by the field."""
+    drawing, *_ = drawings_of(*proof(scene(body=CONCHOID)), words("en"))
+    (path,) = (curve for curve in drawing.curves if curve.kind == "trajectory")
+    points = [point for run in path.runs for point in run]
+    body = extent_of([*drawing.positions.values()])
+    most = ROOMY * max(body.width, body.height)
+    assert extent_of(points).width > 2 * most
+    assert max(drawing.bare_extent().width, drawing.bare_extent().height) <= most
+    field = lay_out(drawing).mechanism
+    assert not all(field.holds(point) for point in points)
+    assert "∠*P**A**E* = 180°" in given(drawing)  # as written, not −180°
 
 
 def test_a_straight_path_leaves_the_mechanism_as_large_as_its_ends_in_the_margin_let_it():

@@ -43,6 +43,21 @@ def test_no_sheet_of_a_task_tells_what_its_calculation_asks(name, language):
                 assert not re.search(re.escape(answer) + r"(?![\d.,])", printed), answer
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(
+    ("name", "centres"),
+    [("cam-plate", {"K": "1"}), ("cam-carried", {"K": "2"}), ("cam-lever", {"K": "1"})],
+    ids=str,
+)
+def test_a_task_tells_what_the_centre_of_a_cam_is(name, centres, language):
+    """The data give no place of it: the law of the cam does, at the contact."""
+    said = words(language)
+    for drawing in drawings(name, None, language):
+        page = told(task(drawing))
+        for point, cam in centres.items():
+            assert plain(said("page.member_centre", point=symbol(point), g=cam)) in page
+
+
 @pytest.mark.parametrize("name", SOME, ids=str)
 def test_a_task_has_room_for_a_name_and_no_verdict(name):
     for drawing in drawings(*name):

@@ -9,7 +9,7 @@ from graphkin.drawing.scale import Extent, extent_of
 from graphkin.numbers.plane import cross
 
 ROOMY = 3.5
-"""A centrode so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
+"""A curve so many mechanisms wide, or less, is drawn whole; of a wider one only what fits."""
 INWARD = 0.96
 """What of a path there is room for, in parts: its ends, which bear no letters, may stand in the
 margin that those of the mechanism need."""
@@ -20,8 +20,9 @@ STRAIGHT = 1e-6
 def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
     """The points of curves for which the drawing makes room.
 
-    Paths are drawn whole, and centrodes of the mechanism's size; of wider ones, and of straight
-    ones, where they touch. Of a locus what lies in the field will do.
+    Curves of the mechanism's size are drawn whole; of a wider path what is about the mechanism, of
+    wider centrodes, and of straight ones, where they touch. Of a locus what lies in the field
+    will do.
     """
     found: list[complex] = []
     most = ROOMY * max(mechanism.width, mechanism.height)
@@ -30,11 +31,13 @@ def shown(curves: Sequence[Curve], mechanism: Extent) -> list[complex]:
             continue
         points = [point for run in curve.runs for point in run]
         box = extent_of(points) if points else mechanism
-        whole = max(box.width, box.height) <= most and not is_straight(points)
+        is_wide = max(box.width, box.height) > most
         if curve.kind == "trajectory":
+            if is_wide:
+                points = [each for each in points if abs(each - mechanism.middle) <= most / 2]
             middle = mechanism.grown(points).middle
             found += [middle + INWARD * (point - middle) for point in points]
-        elif whole:
+        elif not is_wide and not is_straight(points):
             found += points
         elif curve.now is not None and abs(curve.now - mechanism.middle) <= most:
             found.append(curve.now)

@@ -288,9 +288,11 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 fields = {"bar": bar(placing.start, placing.point), "axis": axis_of(drawing, link)}
                 yield Datum(words(key, angle=written(scene, words, placing.angle), **fields))
             elif isinstance(placing, Angled):
-                turn = written(scene, words, placing.angle)
-                angle = f"∠{symbol(placing.arm)}{symbol(placing.vertex)}{point}"
-                yield Datum(name=angle, value=turn)
+                arms, angle = [symbol(placing.arm), point], placing.angle
+                if angle.text.startswith("-("):  # written from the point that it places
+                    arms, angle = arms[::-1], angle.negative()
+                name = f"∠{arms[0]}{symbol(placing.vertex)}{arms[1]}"
+                yield Datum(name=name, value=written(scene, words, angle))
 
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:
