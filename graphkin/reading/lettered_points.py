@@ -107,6 +107,24 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         return tuple(number for number in self.exact.order if self.is_read(number))
 
     @cached_property
+    def found_by(self) -> Mapping[int, int]:
+        """The points that are read, by the steps that give them by hand."""
+        hands = {self.exact.by_hand(number): number for number in self.points}
+        return {hand: number for hand, number in hands.items() if hand is not None}
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """The steps that a pencil changes, each point directly after what gives it by hand."""
+        later = set(self.found_by.values())
+        return tuple(
+            number
+            for step in self.exact.order
+            if step not in later
+            for number in (step, self.found_by.get(step))
+            if number is not None
+        )
+
+    @cached_property
     def corners(self) -> tuple[int, ...]:
         """The steps of the corners of the plan that bear no letter of their own: ends of components
         from which lines are drawn, and the points of auxiliary plans.
