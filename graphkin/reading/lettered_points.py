@@ -14,10 +14,12 @@ from msgspec import Struct
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join, similar_point
 from graphkin.construction.guides.guide_line import GuideLine
+from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
@@ -114,12 +116,16 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def order(self) -> tuple[int, ...]:
-        """The steps that a pencil changes, each point directly after what gives it by hand."""
-        later = set(self.found_by.values())
+        """The steps that a pencil changes, each point directly after what gives it by hand; the
+        rates of trial plans are printed, and do not follow from what was read.
+        """
+        apart = set(self.found_by.values())
+        for trials in constructions(self.exact.program, TwoTrials):
+            apart.update(trials.rates)
         return tuple(
             number
             for step in self.exact.order
-            if step not in later
+            if step not in apart
             for number in (step, self.found_by.get(step))
             if number is not None
         )

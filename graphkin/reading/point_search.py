@@ -117,7 +117,7 @@ class PointSearch:
         """Every value in many drawings of the key."""
         found = dict(self.sheet.exact.trace.values)
         with np.errstate(all="ignore"):
-            for number in self.sheet.exact.order:
+            for number in self.sheet.order:
                 found[number] = self.drawn(number, found, DRAWINGS)
         return found
 
@@ -126,7 +126,7 @@ class PointSearch:
         found = dict(self.sheet.exact.trace.values)
         own = {**self.own, **more}
         with np.errstate(all="ignore"):
-            for number in self.sheet.exact.order:
+            for number in self.sheet.order:
                 if number in own:
                     found[number] = self.sheet.value(number, own[number])
                 else:
@@ -392,7 +392,7 @@ class PointSearch:
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
         places = self.candidates(number, ends, crossed)
-        taken = list(self.own.values())
+        taken = [*self.own.values(), *self.tried_points(number)]
         plausible = [
             place
             for place in places
@@ -413,13 +413,25 @@ class PointSearch:
             place = found.place
             if self.agreement(number, place, read=True) < AGREED:
                 continue
-            if any(abs(place - other) < APART for other in taken):
+            if any(abs(place - other) < 2 * APART for other in taken):
                 continue
             led = self.led_to(number, place, ends, crossed)
             score = led + self.follows(number, place, ends) - 0.003 * abs(place - where.middle)
             if score > ENOUGH:
                 tried.append((score, found))
         return max(tried, key=lambda each: each[0])[1] if tried else None
+
+    def tried_points(self, number: int) -> list[complex]:
+        """Where the lettered points of trial plans follow: what leads there is drawn for them."""
+        steps, values = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        return [
+            complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
+            for other, value in values.items()
+            if steps[other].aside is not None
+            and steps[other].name
+            and isinstance(value, complex)
+            and steps[other].plane is steps[number].plane
+        ]
 
     def follows(self, number: int, place: complex, ends: Sequence[complex]) -> float:
         """How well what would follow from a place is drawn; a place to which all ways are drawn
