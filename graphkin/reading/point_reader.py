@@ -293,6 +293,7 @@ class PointReader(PointSearch):
                 )
                 or fresh
                 or doubtful
+                or (best.count == 2 and not self.is_reached(number, best.place))
             )
             ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:

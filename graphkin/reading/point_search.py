@@ -17,7 +17,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
 from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
-from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk, InkLine
+from graphkin.reading.drawn_ink import COVERED, ENDS, PITCH, RUN, DrawnInk, InkLine
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
 from graphkin.reading.line_crossings import (
@@ -218,6 +218,26 @@ class PointSearch:
         cloud = self.sheet.place(leading.far, value.tail if leading.back else value)
         return expected(cloud).radius > GUESSED
 
+    def is_reached(self, number: int, place: complex) -> bool:
+        """Whether lines cross at a place without those from ends nobody knows that only point
+        there, and end before: these lead to another.
+        """
+        ends, ending = list[complex](), False
+        for each in self.sheet.leading[number]:
+            far = self.far_place(each, self.next)
+            if each.bow or each.given:
+                return True
+            found = self.ink.lines(far, place, GUESSED, PASSES) if abs(far - place) > SHORT else []
+            start = max(found, key=lambda line: line.cover).start if found else place
+            if abs(start - place) > SHORT:
+                way = (start - place) / abs(start - place)
+                last = place + way * min(abs(start - place), RUN + 2 * ENDS)
+                if self.ink.cover(last, place, 0.4, hidden=1.0) >= DRAWN:
+                    ends.append(start)
+                else:
+                    ending = ending or not (each.after or self.is_known(each))
+        return not ending or are_crossing(ends, place)
+
     def is_single(self, number: int, place: complex) -> bool:
         """Whether nothing but one line from an end that is known leads to a point."""
         ends = self.known_ends(number)
@@ -392,7 +412,7 @@ class PointSearch:
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
         places = self.candidates(number, ends, crossed)
-        taken = [*self.own.values(), *self.tried_points(number)]
+        taken = [*self.own.values(), *ends, *self.tried_points(number)]
         plausible = [
             place
             for place in places
