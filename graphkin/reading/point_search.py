@@ -17,7 +17,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
 from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
-from graphkin.reading.drawn_ink import COVERED, ENDS, PITCH, RUN, DrawnInk, InkLine
+from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk, InkLine
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
 from graphkin.reading.line_crossings import (
@@ -81,6 +81,8 @@ APART = 1.5
 """Nearer to a known point, in mm, another cannot be told from it."""
 SAME = 0.7
 """Nearer to each other, in mm, two points are one on paper."""
+LAST = 6.0
+"""The last piece of a line up to a point, in mm."""
 TRIED = 10
 """Places that are tried with what would follow from them."""
 
@@ -231,7 +233,7 @@ class PointSearch:
             start = max(found, key=lambda line: line.cover).start if found else place
             if abs(start - place) > SHORT:
                 way = (start - place) / abs(start - place)
-                last = place + way * min(abs(start - place), RUN + 2 * ENDS)
+                last = place + way * min(abs(start - place), LAST)
                 if self.ink.cover(last, place, 0.4, hidden=1.0) >= DRAWN:
                     ends.append(start)
                 else:
