@@ -311,6 +311,8 @@ class PointReader(PointSearch):
                     or not self.bad & behind & self.readings.keys()
                 )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
+                ways = self.covers(number, best.place, False)
+                ask = ask or (len(ways) < 2 and bool(self.bad & self.doubted & behind))
             else:
                 verdict, ask = "wrong", True
         if doubtful:

@@ -703,6 +703,24 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     assert reader.told(number, key, own, read).ask
 
 
+@pytest.mark.parametrize(("ways", "asked"), [(2, False), (1, True)])
+def test_what_hangs_on_a_doubtful_mistake_waits_for_its_own_lines(
+    a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, ways: int, *, asked: bool
+) -> None:
+    """A single way from a place that may be none tells nothing of what follows from it."""
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    a, b = (next(n for n in values if steps[n].name == name) for name in "ab")
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    reader.next = reader.drawings = reader.ahead({})
+    reader.bad, reader.doubted, reader.readings = {a}, {a}, {a: point(a)}
+    monkeypatch.setattr(reader, "covers", lambda *_: [1.0] * ways)
+    own = ExpectedPlace(300 + 100j, np.eye(2) * 0.2)
+    key = ExpectedPlace(330 + 100j, np.eye(2) * 0.2)
+    told = reader.told(b, key, own, LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0))
+    assert (told.verdict, told.ask) == ("follows", asked)
+
+
 def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: Path) -> None:
     (code,) = read_order(open_class(rack), Grid()).variants
     sheet = velocity_of(rack, code)
