@@ -14,10 +14,12 @@ from msgspec import Struct
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join, similar_point
 from graphkin.construction.guides.guide_line import GuideLine
+from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
@@ -105,6 +107,28 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     def points(self) -> tuple[int, ...]:
         """The steps of the points that are read, in the order of the construction."""
         return tuple(number for number in self.exact.order if self.is_read(number))
+
+    @cached_property
+    def found_by(self) -> Mapping[int, int]:
+        """The points that are read, by the steps that give them by hand."""
+        hands = {self.exact.by_hand(number): number for number in self.points}
+        return {hand: number for hand, number in hands.items() if hand is not None}
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """The steps that a pencil changes, each point directly after what gives it by hand; the
+        rates of trial plans are printed, and do not follow from what was read.
+        """
+        apart = set(self.found_by.values())
+        for trials in constructions(self.exact.program, TwoTrials):
+            apart.update(trials.rates)
+        return tuple(
+            number
+            for step in self.exact.order
+            if step not in apart
+            for number in (step, self.found_by.get(step))
+            if number is not None
+        )
 
     @cached_property
     def corners(self) -> tuple[int, ...]:

@@ -7,9 +7,14 @@ and all doubts, are asked.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.construction.core.program import Plane
+from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import SHORT, LetteredSheet
@@ -49,6 +54,8 @@ NEARLY = 0.85
 """The share of the ways to a point that must be there for the same."""
 WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
+LEVER = 15.0
+"""Two points so many mm apart tell the direction of the line that is drawn through them."""
 
 
 class PointReader(PointSearch):
@@ -71,7 +78,7 @@ class PointReader(PointSearch):
         wanted, corners = set(self.sheet.points), set(self.sheet.corners)
         stale = True
         with np.errstate(all="ignore"):
-            for number in exact.order:
+            for number in self.sheet.order:
                 found[number] = self.drawn(number, found, DRAWINGS)
                 if number not in wanted and number not in corners:
                     continue
@@ -96,7 +103,31 @@ class PointReader(PointSearch):
                 if reading.at is not None:
                     self.own[number] = complex(*reading.at)
                     found[number] = self.sheet.value(number, self.own[number])
-        return tuple(self.readings.values())
+                    hand = exact.by_hand(number)
+                    if hand is not None:
+                        found[hand] = self.sheet.value(hand, self.own[number])
+                    found.update(self.lines_through(number, found))
+        return tuple(self.readings[number] for number in self.sheet.points)
+
+    def lines_through(self, number: int, found: Mapping[int, Any]) -> dict[int, Line]:
+        """The drawn lines of the mechanism that lead to a point that was read, as they were drawn:
+        from where they begin to the point. What is drawn along them takes this direction, and not
+        that which a shorter bar before gave them.
+        """
+        drawn = dict[int, Line]()
+        for each in self.sheet.leading[number]:
+            line = found[each.far]
+            plane = self.sheet.exact.program.steps[each.far].plane
+            led = each.given or each.after or plane is not Plane.MECHANISM
+            pivot = isinstance(found[number], complex)
+            if not isinstance(line, Line) or led or not (pivot and self.is_known(each)):
+                continue
+            start, tip = self.far_place(each, found), self.own[number]
+            if abs(tip - start) > LEVER:
+                way = found[number] - line.point
+                same = (np.conj(way) * line.along).real > 0
+                drawn[each.far] = Line(line.point, np.where(same, way, -way))
+        return drawn
 
     def read_corner(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
         """A corner without a letter: taken where lines cross there; what is off is a mistake."""
@@ -262,6 +293,7 @@ class PointReader(PointSearch):
                 )
                 or fresh
                 or doubtful
+                or (best.count == 2 and not self.is_reached(number, best.place))
             )
             ask = ask or vague or odd
             if away <= FITS and fresh and from_key > FITS:
@@ -279,6 +311,8 @@ class PointReader(PointSearch):
                     or not self.bad & behind & self.readings.keys()
                 )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
+                ways = self.covers(number, best.place, False)
+                ask = ask or (len(ways) < 2 and bool(self.bad & self.doubted & behind))
             else:
                 verdict, ask = "wrong", True
         if doubtful:
@@ -341,7 +375,8 @@ class PointReader(PointSearch):
                 if arg not in found:
                     found.add(arg)
                     pending.append(arg)
-        return frozenset(found)
+        by_hand = {self.sheet.found_by[arg] for arg in found & self.sheet.found_by.keys()}
+        return frozenset(found | by_hand - {number})
 
 
 def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:

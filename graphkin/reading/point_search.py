@@ -81,6 +81,8 @@ APART = 1.5
 """Nearer to a known point, in mm, another cannot be told from it."""
 SAME = 0.7
 """Nearer to each other, in mm, two points are one on paper."""
+LAST = 6.0
+"""The last piece of a line up to a point, in mm."""
 TRIED = 10
 """Places that are tried with what would follow from them."""
 
@@ -117,7 +119,7 @@ class PointSearch:
         """Every value in many drawings of the key."""
         found = dict(self.sheet.exact.trace.values)
         with np.errstate(all="ignore"):
-            for number in self.sheet.exact.order:
+            for number in self.sheet.order:
                 found[number] = self.drawn(number, found, DRAWINGS)
         return found
 
@@ -126,7 +128,7 @@ class PointSearch:
         found = dict(self.sheet.exact.trace.values)
         own = {**self.own, **more}
         with np.errstate(all="ignore"):
-            for number in self.sheet.exact.order:
+            for number in self.sheet.order:
                 if number in own:
                     found[number] = self.sheet.value(number, own[number])
                 else:
@@ -217,6 +219,26 @@ class PointSearch:
             return False
         cloud = self.sheet.place(leading.far, value.tail if leading.back else value)
         return expected(cloud).radius > GUESSED
+
+    def is_reached(self, number: int, place: complex) -> bool:
+        """Whether lines cross at a place without those from ends nobody knows that only point
+        there, and end before: these lead to another.
+        """
+        ends, ending = list[complex](), False
+        for each in self.sheet.leading[number]:
+            far = self.far_place(each, self.next)
+            if each.bow or each.given:
+                return True
+            found = self.ink.lines(far, place, GUESSED, PASSES) if abs(far - place) > SHORT else []
+            start = max(found, key=lambda line: line.cover).start if found else place
+            if abs(start - place) > SHORT:
+                way = (start - place) / abs(start - place)
+                last = place + way * min(abs(start - place), LAST)
+                if self.ink.cover(last, place, 0.4, hidden=1.0) >= DRAWN:
+                    ends.append(start)
+                else:
+                    ending = ending or not (each.after or self.is_known(each))
+        return not ending or are_crossing(ends, place)
 
     def is_single(self, number: int, place: complex) -> bool:
         """Whether nothing but one line from an end that is known leads to a point."""
@@ -392,7 +414,7 @@ class PointSearch:
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
         places = self.candidates(number, ends, crossed)
-        taken = list(self.own.values())
+        taken = [*self.own.values(), *ends, *self.tried_points(number)]
         plausible = [
             place
             for place in places
@@ -413,13 +435,25 @@ class PointSearch:
             place = found.place
             if self.agreement(number, place, read=True) < AGREED:
                 continue
-            if any(abs(place - other) < APART for other in taken):
+            if any(abs(place - other) < 2 * APART for other in taken):
                 continue
             led = self.led_to(number, place, ends, crossed)
             score = led + self.follows(number, place, ends) - 0.003 * abs(place - where.middle)
             if score > ENOUGH:
                 tried.append((score, found))
         return max(tried, key=lambda each: each[0])[1] if tried else None
+
+    def tried_points(self, number: int) -> list[complex]:
+        """Where the lettered points of trial plans follow: what leads there is drawn for them."""
+        steps, values = self.sheet.exact.program.steps, self.sheet.exact.trace.values
+        return [
+            complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
+            for other, value in values.items()
+            if steps[other].aside is not None
+            and steps[other].name
+            and isinstance(value, complex)
+            and steps[other].plane is steps[number].plane
+        ]
 
     def follows(self, number: int, place: complex, ends: Sequence[complex]) -> float:
         """How well what would follow from a place is drawn; a place to which all ways are drawn

@@ -23,6 +23,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.cli.main import app
+from graphkin.construction.core.program import Plane
 from graphkin.drawing.areas import AREA
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
@@ -539,12 +540,137 @@ def test_a_line_that_ends_before_a_place_does_not_arrive_there() -> None:
     assert ink.cover(200 + 100j, 266 + 100j, hidden=1.0, arrives=True) < 0.8
 
 
-def velocity_of(folder: Path, code: str) -> LetteredSheet:
-    """A student's sheet of velocities as it should be drawn."""
+def velocity_of(folder: Path, code: str, kind: str = "velocity") -> LetteredSheet:
+    """A student's sheet of velocities, or of another kind, as it should be drawn."""
     sheets = sheets_of(folder, code)
-    drawing = next(each for each in sheets.drawings if each.kind == "velocity")
-    page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
+    drawing = next(each for each in sheets.drawings if each.kind == kind)
+    page = next(each for each in sheets.of("task") if each.kind == kind).pages[0]
     return LetteredSheet(drawing, page)
+
+
+@pytest.fixture(scope="module")
+def levers(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A class whose lab is a rapid return of class III, drawn with two trial plans."""
+    folder = tmp_path_factory.mktemp("levers")
+    (folder / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
+    scene = Path("examples/scenes/rapid-return.toml").read_text(encoding="utf-8")
+    turned = "n = { value = 7, min = 1, max = 30, step = 1 }"
+    scene = scene.replace("[frame]", f"[parameters]\n{turned}\n\n[frame]", 1)
+    (folder / "rapid-return.toml").write_text(
+        scene.replace("angle = 35\n", 'angle = "25 + n"\n'), encoding="utf-8"
+    )
+    lab = lab_of(folder / "rapid-return.toml", folder)
+    call("variants", lab, folder / "class.csv", "-o", folder / "class")
+    return folder / "class"
+
+
+def alone(drawn: object) -> complex:
+    """The value of a single drawing."""
+    return complex(np.ravel(drawn)[0])
+
+
+def lever_sheet(
+    levers: Path, kind: str
+) -> tuple[LetteredSheet, dict[str, int], dict[str, complex]]:
+    """A sheet of the rapid return, the steps of its letters in the plan and on the mechanism, and
+    where they lie.
+    """
+    (code,) = read_order(open_class(levers), Grid()).variants
+    sheet = velocity_of(levers, code, kind)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    planes = Plane.MECHANISM, sheet.drawing.plane
+    numbers = {
+        str(steps[n].name): n
+        for n, value in values.items()
+        if steps[n].name and isinstance(value, complex) and steps[n].plane in planes
+    }
+    return sheet, numbers, {name: complex(sheet.place(n, values[n])) for name, n in numbers.items()}
+
+
+@pytest.mark.parametrize("kind", ["velocity", "acceleration"])
+def test_what_is_expected_where_nothing_is_read_is_the_key(levers: Path, kind: str) -> None:
+    """The rates of trial plans are chosen and printed: they do not follow from what is drawn."""
+    sheet, numbers, places = lever_sheet(levers, kind)
+    expects = PointSearch(sheet, ink_of(), Pencil(0.4, 0.4)).ahead({})
+    for name, number in numbers.items():
+        assert abs(alone(sheet.place(number, expects[number])) - places[name]) < 0.01, name
+
+
+def test_a_point_is_read_when_a_hand_finds_it(levers: Path) -> None:
+    """Of a divided plan q is found first, and the share by which the others follow."""
+    sheet, numbers, _ = lever_sheet(levers, "acceleration")
+    q, others = numbers["q′"], [numbers["p′"], numbers["p′_2"]]
+    assert sheet.found_by[sheet.exact.program.steps[q].by_hand] == q
+    assert all(sheet.order.index(q) < sheet.order.index(each) for each in others)
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    assert all(q in reader.behind(each) for each in others)
+    assert q not in reader.behind(q)
+    assert [each.step for each in reader.read()] == [*sheet.points]
+
+
+def test_a_drawn_line_runs_through_the_point_that_was_read_on_it(levers: Path) -> None:
+    sheet, numbers, places = lever_sheet(levers, "acceleration")
+    a, p = numbers["A"], numbers["P"]
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    for shift, turned in ((1 + 2j, True), (0.8 * (places["A"] - places["P"]), False)):
+        reader.own = {a: places["A"], p: places["P"] + shift}
+        found = reader.ahead({})
+        lines = reader.lines_through(p, found)
+        assert bool(lines) is turned  # from near by nobody tells a direction
+        for number, line in lines.items():
+            way, along = alone(found[p]) - alone(found[a]), alone(line.along)
+            assert abs((along * way.conjugate()).imag) < 1e-9 * abs(along) * abs(way)
+            assert (along * alone(found[number].along).conjugate()).real > 0
+
+
+def test_where_known_points_and_those_of_trial_plans_lie_is_no_place_of_another(
+    levers: Path, a_class: Path, code: str
+) -> None:
+    """The vectors that come to the pole end there: they are no point's that was misplaced."""
+    sheet, numbers, places = lever_sheet(levers, "velocity")
+    o, a, p, tried = (places[name] for name in ("o", "a", "p", "p¹"))
+    search = PointSearch(sheet, ink_of((o, tried), (a, tried), (p, tried)), Pencil(0.4, 0.4))
+    search.own = {numbers[name]: places[name] for name in ("a", "p")}
+    search.next = search.drawings = search.ahead({})
+    assert any(abs(place - tried) < 0.01 for place in search.tried_points(numbers["a_3"]))
+    found = search.best_far(numbers["a_3"], ExpectedPlace(places["a_3"], np.eye(2) * 0.2))
+    assert found is None or abs(found.place - tried) > 3
+
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    steps_of = {name: next(n for n in values if steps[n].name == name) for name in "oabc"}
+    at = {name: complex(sheet.place(n, values[n])) for name, n in steps_of.items()}
+    search = PointSearch(
+        sheet, ink_of((at["o"], at["a"]), (at["o"], at["b"]), (at["a"], at["b"])), Pencil(0.4, 0.4)
+    )
+    search.own = {steps_of[name]: at[name] for name in "ab"}
+    search.next = search.drawings = search.ahead({})
+    found = search.best_far(steps_of["c"], ExpectedPlace(at["c"], np.eye(2) * 0.2))
+    assert found is None or abs(found.place - at["o"]) > 3
+
+
+@pytest.mark.parametrize(("short", "reached"), [(0.0, True), (4.0, False)])
+def test_a_line_that_ends_before_a_point_does_not_lead_to_it(
+    tmp_path: Path, short: float, *, reached: bool
+) -> None:
+    """A bar may point to where a point is expected on another, and begin at the student's own."""
+    (tmp_path / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
+    call("variants", "pump-collinear", tmp_path / "class.csv", "-o", tmp_path / "class")
+    (code,) = read_order(open_class(tmp_path / "class"), Grid()).variants
+    sheet = velocity_of(tmp_path / "class", code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    named = {name: next(n for n in values if steps[n].name == name) for name in "ACD"}
+    at = {name: complex(sheet.place(n, values[n])) for name, n in named.items()}
+    begins = at["C"] + short * (at["D"] - at["C"]) / abs(at["D"] - at["C"])
+    bar = at["A"], at["C"] + 20 * (at["C"] - at["A"]) / abs(at["C"] - at["A"])
+    reader = PointReader(sheet, ink_of(bar, (begins, at["D"])), Pencil(0.4, 0.4))
+    reader.own = {named["A"]: at["A"]}
+    reader.next = reader.drawings = reader.ahead({})
+    assert reader.is_reached(named["C"], at["C"]) is reached
+    there = ExpectedPlace(at["C"], np.eye(2) * 0.05)
+    told = reader.told(named["C"], there, there, LinesCrossing(at["C"], np.eye(2) * 0.01, 2, 1.0))
+    assert told.verdict == "right"
+    assert told.ask is not reached
 
 
 def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) -> None:
@@ -575,6 +701,24 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     some = next(iter(behind & {*sheet.points}))
     reader.readings[some] = point(some)
     assert reader.told(number, key, own, read).ask
+
+
+@pytest.mark.parametrize(("ways", "asked"), [(2, False), (1, True)])
+def test_what_hangs_on_a_doubtful_mistake_waits_for_its_own_lines(
+    a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, ways: int, *, asked: bool
+) -> None:
+    """A single way from a place that may be none tells nothing of what follows from it."""
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    a, b = (next(n for n in values if steps[n].name == name) for name in "ab")
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    reader.next = reader.drawings = reader.ahead({})
+    reader.bad, reader.doubted, reader.readings = {a}, {a}, {a: point(a)}
+    monkeypatch.setattr(reader, "covers", lambda *_: [1.0] * ways)
+    own = ExpectedPlace(300 + 100j, np.eye(2) * 0.2)
+    key = ExpectedPlace(330 + 100j, np.eye(2) * 0.2)
+    told = reader.told(b, key, own, LinesCrossing(300 + 100j, np.eye(2) * 0.01, 3, 1.0))
+    assert (told.verdict, told.ask) == ("follows", asked)
 
 
 def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: Path) -> None:
