@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.construction.core.program import Plane
@@ -18,9 +19,10 @@ from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import SHORT, LetteredSheet
-from graphkin.reading.line_crossings import LinesCrossing
+from graphkin.reading.line_crossings import LinesCrossing, are_crossing
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
+    AGREED,
     AS_EXPECTED,
     CLOSE_BY,
     DRAWINGS,
@@ -107,7 +109,21 @@ class PointReader(PointSearch):
                     if hand is not None:
                         found[hand] = self.sheet.value(hand, self.own[number])
                     found.update(self.lines_through(number, found))
+        for number in self.sheet.found_by.values():
+            if number in self.own and not self.is_joined(number):
+                self.readings[number] = replace(self.readings[number], ask=True)
         return tuple(self.readings[number] for number in self.sheet.points)
+
+    def is_joined(self, number: int) -> bool:
+        """Whether the vectors are drawn that join a point with those read after it."""
+        order = self.sheet.order
+        later = (
+            each
+            for each in self.sheet.leading[number]
+            if each.arrow and each.far in self.own and order.index(each.far) > order.index(number)
+        )
+        covers = (self.cover_of(number, each, self.own[number]) for each in later)
+        return all(cover is None or cover >= AGREED for cover in covers)
 
     def lines_through(self, number: int, found: Mapping[int, Any]) -> dict[int, Line]:
         """The drawn lines of the mechanism that lead to a point that was read, as they were drawn:
@@ -311,8 +327,8 @@ class PointReader(PointSearch):
                     or not self.bad & behind & self.readings.keys()
                 )
                 ask = ask or bool(self.vaguely & behind)  # the mistake itself may not be there
-                ways = self.covers(number, best.place, False)
-                ask = ask or (len(ways) < 2 and bool(self.bad & self.doubted & behind))
+                hangs = bool(self.bad & self.doubted & behind)
+                ask = ask or (hangs and not self.is_met(number, best.place))
             else:
                 verdict, ask = "wrong", True
         if doubtful:
@@ -333,6 +349,16 @@ class PointReader(PointSearch):
             round(own.radius, 3),
             *self.tail(number),
         )
+
+    def is_met(self, number: int, place: complex) -> bool:
+        """Whether ways to a place that are drawn cross there, and its vectors do not run on."""
+        ways = [
+            self.far_place(each, self.next)
+            for each in self.sheet.leading[number]
+            if (self.cover_of(number, each, place) or 0.0) >= DRAWN
+        ]
+        beyond = max(self.beyond(number, place), default=0.0)
+        return are_crossing(ways, place) and beyond < DRAWN
 
     def is_checked(self, behind: frozenset[int]) -> bool:
         """Whether all points behind one are read, and nobody is asked of any of them: then no
