@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphkin.numbers.common_roots import Cells, common_roots, solutions
+from graphkin.numbers.common_roots import Cells, common_roots, roots_beside, solutions
 from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
 from graphkin.numbers.refined_roots import (
     by_newton,
@@ -49,6 +49,20 @@ def test_an_ellipse_and_a_parabola_cross_in_four_points():
     squares = [(11 + way * 41**0.5) / 8 for way in (-1, 1)]
     right = sorted((0, way * r**0.5, r - 1.5) for r in squares for way in (-1, 1))
     assert np.array(found) == pytest.approx(np.array(right), abs=1e-8)
+
+
+def test_from_a_start_beside_it_a_crossing_is_reached_and_none_where_there_is_none():
+    """Of x² + y² = r² and y = x, beside (1, 1): x = r/√2 for r² = 2 and 2.2; no real x for -1."""
+    squares = np.array([2.0, 2.2, -1.0])
+
+    def missed(row, share):
+        x, y = share.T
+        return np.stack([x * x + y * y - squares[row], y - x], axis=1)
+
+    found = roots_beside(missed, np.array([[1.05, 0.9]] * 3))
+    right = [[(square / 2) ** 0.5] * 2 for square in squares[:2]]
+    assert found[:2] == pytest.approx(np.array(right), abs=1e-12)
+    assert np.isnan(found[2]).all()
 
 
 @pytest.mark.parametrize("far", [1e-4, 1e-8])
