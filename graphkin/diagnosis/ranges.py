@@ -161,7 +161,8 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     start = TURN * (sweep.start // TURN) if sweep.whole else sweep.low
     step = (sweep.high - sweep.low) / count
     grid = start + np.arange(count + (not sweep.whole)) * step
-    course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]))
+    least = step if course.closing_work else 0.0
+    course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]), least)
     margins = course.margins(grid)
     closed = np.isfinite(margins).all(axis=0)
     if len(margins) > 1 and np.nanmin(margins[:-1], axis=0, initial=1.0).max(initial=0.0) < NOISE:

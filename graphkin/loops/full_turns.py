@@ -57,15 +57,18 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
 def unrolled(loops: Equations, part: Mask) -> Mask:
     """The coordinates along bars of a group that touch a wheel which is known before.
 
-    A wheel is as far on its track as it has come; a bar touches its wheel where the bar's angle
-    says, and that is counted within half a turn as one that only pins tell.
+    A wheel is as far on its track as it has come, also one that rolls on a known track and leads a
+    bar; a bar touches its wheel where the bar's angle says, and that is counted within half a turn
+    as one that only pins tell.
     """
-    found = np.zeros_like(part)
-    free = {0} | {int(k) + 1 for k in np.flatnonzero(part[: loops.turning_count])}
+    found, of = np.zeros_like(part), loops.turned.of
+    free = {int(k) + 1 for k in np.flatnonzero(part[: loops.turning_count])}
+    tracks = [(of[g.block], of[g.on]) for g in loops.guides if not g.turns_alike]
+    led = {wheel for wheel, track in tracks if track not in free}
     for j, guide in enumerate(loops.guides):
-        wheel, bar = loops.turned.of[guide.block], loops.turned.of[guide.on]
-        known = wheel == 0 or wheel not in free
-        found[loops.turning_count + j] = not guide.turns_alike and known and bar in free - {0}
+        wheel, bar = of[guide.block], of[guide.on]
+        known = wheel not in free or wheel in led
+        found[loops.turning_count + j] = not guide.turns_alike and known and bar in free
     return found
 
 

@@ -61,16 +61,17 @@ def following(course: Course, start: float) -> Followed:
     return Followed(start, near)
 
 
-def led(course: Course, start: float, stop: float) -> Course:
+def led(course: Course, start: float, stop: float, step: float = 0.0) -> Course:
     """The course with the angles near which links count followed from one place to another.
 
     At the start they count as the course says so far. Where nothing closes they stay. Between two
-    places of the grid a link is taken to turn by less than a turn but for a largest step.
+    places of the grid, or of one of a larger ``step``, a link is taken to turn by less than a turn
+    but for a largest step.
     """
     if not course.counting or start == stop:
         return course
     way = abs(stop - start)
-    count = max(int(np.ceil(way / abs(course.sweep.grid_step))), 1)
+    count = max(int(np.ceil(way / max(abs(course.sweep.grid_step), step))), 1)
     ahead = np.linspace(start, stop, count + 1).tolist()[::-1]
     followed, passed = following(course, start), start
     last: dict[str, float] = {}
@@ -92,9 +93,9 @@ def led(course: Course, start: float, stop: float) -> Course:
     return replace(course, turned=followed.turned(stop))
 
 
-def led_both(course: Course, start: float, low: float, high: float) -> Course:
+def led_both(course: Course, start: float, low: float, high: float, step: float = 0.0) -> Course:
     """The course with these angles followed from one place forth and back."""
-    before, after = led(course, start, low).turned, led(course, start, high).turned
+    before, after = (led(course, start, end, step).turned for end in (low, high))
     turned = before.joined(after) if before is not None else after
     return replace(course, turned=turned)
 

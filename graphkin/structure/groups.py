@@ -8,7 +8,7 @@ from graphkin.scene.findings import natural
 from graphkin.scene.model import Driver, joined_words
 from graphkin.structure.assur import assur_class
 from graphkin.structure.one_link import Crank, Driven, Tie, TriedLink, other_of
-from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
 from graphkin.structure.wheel_groups import CoupledTrain, Geared, PinnedWheel, Spun, Train
 from graphkin.text.plain_table import listed
 
@@ -153,15 +153,16 @@ class Stretched(Struct, frozen=True):
 class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
-    What closes it at last is a link between two known points, or a driver's given motion. Where
-    dyads alone do not do the rest, its chain holds groups within it that are tried in their turn.
+    What closes it at last is a link between two known points, a driver's given motion, or a wheel
+    that does not slip on what it touches. Where dyads alone do not do the rest, its chain holds
+    groups within it that are tried in their turn.
     Where its ``wheels``, pinned to known tracks, leave groups of which nothing is tried, those
     move it ``at_instant``.
     """
 
     tried: TriedLink
     chain: tuple[Group, ...]
-    last: Tie | Driver
+    last: Tie | Driver | Contact
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
     wheels: tuple[PinnedWheel, ...] = ()
     at_instant: tuple[Group, ...] = ()
@@ -176,6 +177,12 @@ class Higher(Struct, frozen=True):
     def parts(self) -> tuple[TriedLink | Group, ...]:
         """The link that is tried, its chain, and the link that closes it, if one does."""
         return (self.tried, *self.chain, *((self.last,) if isinstance(self.last, Tie) else ()))
+
+    @property
+    def closing(self) -> str:
+        """The link, or the first of two, that a last contact makes roll."""
+        assert isinstance(self.last, Contact)
+        return next(link for link in self.last.links if link in self.links)
 
     @property
     def placing(self) -> list[Joint]:
@@ -206,6 +213,8 @@ class Higher(Struct, frozen=True):
         """What it is called."""
         if isinstance(self.last, Driver):
             return "group closed by a driver within it"
+        if isinstance(self.last, Contact):
+            return "group closed by a wheel within it"
         rank, order = self.order
         return f"group of class {ROMAN[min(rank, 8)]}, order {order}"
 
@@ -213,7 +222,13 @@ class Higher(Struct, frozen=True):
     def words(self) -> str:
         """Its class, its links, where it is tried, and what closes it."""
         names, last = listed(sorted(self.links, key=natural)), self.last
-        end = f"link {last.link}" if isinstance(last, Tie) else f"the driver of link {last.link}"
+        match last:
+            case Tie():
+                end = f"link {last.link}"
+            case Driver():
+                end = f"the driver of link {last.link}"
+            case Contact():
+                end = f"the {last.brief}"
         return f"{self.title} (links {names}): {self.tried.words}, closed by {end}"
 
 

@@ -80,6 +80,15 @@ class Joints:
         pinned.owners = self.owners | {pin.point: pin.links for _, pin in pins}
         return pinned
 
+    def without(self, pairs: Collection[Joint]) -> Joints:
+        """The same pairs but some."""
+        fewer = copy(self)
+        fewer.found = {}
+        fewer.others = {
+            link: [pair for pair in own if pair not in pairs] for link, own in self.others.items()
+        }
+        return fewer
+
     def apart(self, known: Collection[str], tied: Iterable[set[str]]) -> Iterator[set[str]]:
         """The unknown links in parts that neither pairs nor the sets ``tied`` join, as written."""
         left = set(self.unknown(known))

@@ -102,6 +102,12 @@ class ContactName(str):
     __slots__ = ()
 
 
+class SlippingName(ContactName):
+    """The name of a point of contact at which trials slip: of either link it has its own image."""
+
+    __slots__ = ()
+
+
 def is_in_scene(point: str) -> bool:
     """Whether a scene names a point: it may ask for it, and a solution has it."""
     return not isinstance(point, ContactName)

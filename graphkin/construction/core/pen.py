@@ -31,7 +31,7 @@ from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import turned
 from graphkin.structure.groups import Dyad
-from graphkin.structure.pairs import Sliding, is_in_scene, turns
+from graphkin.structure.pairs import Sliding, SlippingName, is_in_scene, turns
 from graphkin.structure.turn_counting import counted_near
 from graphkin.text.errors import ClosureError
 
@@ -300,10 +300,11 @@ def is_input(step: Step) -> bool:
 def image(point: str) -> str:
     """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3.
 
-    Both points where links touch have one image there, for nothing slips.
+    Both points where links touch have one image there, for nothing slips but in trials.
     """
     name, link = ends_of(point)
-    small, indexed = name.lower(), bool(link and is_in_scene(point))
+    own = is_in_scene(point) or isinstance(point, SlippingName)
+    small, indexed = name.lower(), bool(link and own)
     if small == name or (small == "o" and not indexed):  # the letter of a point, or of the pole
         small += "_v"
     return f"{small}_{link}" if indexed else small

@@ -11,7 +11,7 @@ from graphkin.construction.core.naming import angle_symbol, way_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Higher, Tie
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Contact, Pin, Sliding
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -68,6 +68,11 @@ class ClosedGroup(Construction, frozen=True):
         return self.group.last if isinstance(self.group.last, Driver) else None
 
     @property
+    def contact(self) -> Contact | None:
+        """The contact at which the group closes where nothing slips; None for others."""
+        return self.group.last if isinstance(self.group.last, Contact) else None
+
+    @property
     def guide(self) -> str:
         """The block that is cut off its guide, or off the pin on it; nothing for others."""
         match self.group.last:
@@ -119,6 +124,11 @@ class ClosedGroup(Construction, frozen=True):
         listed = escape(", ".join(seen(drawing, self.closes)))
         (tried,) = seen(drawing, [self.group.tried.link])
         fields = {"k": escape(tried), "n": str(self.number), "list": listed}
+        if self.contact is not None:
+            fields |= {"c": symbol(self.contact.wheel.centre), "t": symbol(self.contact.letter)}
+            whole = drawing.words("step.close-contact", **fields)
+            within = drawing.words("list_mark").join(self.tried_within(drawing))
+            return f"{whole}; {within}" if within else whole
         if self.driver is not None:
             fields["what"] = angle_symbol(drawing.scene, self.driver)
             whole = drawing.words("step.close-driver", **fields)
@@ -148,6 +158,8 @@ class ClosedGroup(Construction, frozen=True):
             match one.last:
                 case Driver() as driver:
                     cut = angle_symbol(drawing.scene, driver)
+                case Contact(letter=letter):
+                    cut = symbol(letter)
                 case Tie(first=Pin(point=p), second=Pin(point=q)):
                     cut = bar(p, q)
                 case Tie(first=Pin(point=p)):

@@ -32,7 +32,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.structure.groups import CoupledTrain
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact
+from graphkin.structure.pairs import Contact, ContactName
 from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:
@@ -166,13 +166,14 @@ def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
     return {under(contact_name(group.last), group.closing): rim}
 
 
-def missed(pen: Pen, group: CoupledTrain, quantity: str, part: Part) -> ContactMisclosure:
-    """What a plan misses where the last wheel touches a known one: across the radius.
+def missed(
+    pen: Pen, contact: Contact, own: str, quantity: str, part: Part, name: ContactName
+) -> ContactMisclosure:
+    """What a plan misses where a link touches another at last, in ``name``: across the radius.
 
     They must not slip.
     """
-    contact, own = group.last, group.closing
-    name, wheel = contact_name(contact), contact.wheel_of(own)
+    wheel = contact.wheel if contact.track is None else contact.wheel_of(own)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radius = (pen.the("position", point) for point in (wheel.centre, name))
         normal = pen.draw(line_through, *radius)

@@ -22,12 +22,20 @@ from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import plate_points
+from graphkin.construction.rolling.rolling import (
+    angle_of,
+    radius_of,
+    rolled_to,
+    touch,
+    touch_track,
+    turned_along,
+)
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, TriedLink
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Contact, Pin, Sliding
 
 Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
@@ -170,6 +178,8 @@ def build(
             each(pen, shapes, member, bases(pen.scene, member))
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
+    if isinstance(group.last, Contact):
+        touch(pen, shapes, group.last)
     closed(group)
 
 
@@ -237,7 +247,7 @@ def unknown(pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher, tri
     return Unknown(tried, False, *fit, far, led_by(pair).rim(pen))
 
 
-def traced_points(pen: Pen, last: Tie | Driver) -> list[str]:
+def traced_points(pen: Pen, last: Tie | Driver | Contact) -> list[str]:
     """The points whose loci the hand draws: the ends of the last link that do not stand already.
 
     None where none shows the fit: what guides the last link must stand.
@@ -287,10 +297,23 @@ def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
                 difference, pen.draw(coordinate, guide, first), pen.drive(driver).position
             )
             return Misfit(found, tried_point(pen, group.tried))
+        case Contact() as contact:
+            return Misfit(slip(pen, shapes, contact), tried_point(pen, group.tried))
         case Driver() as driver:
             found = pen.draw(difference, pen.the("rolled", driver.link), pen.drive(driver).position)
             return Misfit(found, tried_point(pen, group.tried))
     raise AssertionError(group.last)
+
+
+def slip(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+    """By how much a wheel has rolled farther than it has turned, along what it touches."""
+    own = contact.links[0]
+    if contact.track is None:
+        rolled = turned_along(pen, shapes, contact, touch_track(pen, shapes, contact))
+    else:
+        rolled = rolled_to(pen, shapes, contact, own)
+    turn = pen.draw(difference, angle_of(pen, shapes, own), rolled)
+    return pen.draw(product, turn, radius_of(pen, contact))
 
 
 def tried_point(pen: Pen, trial: TriedLink) -> int:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.amounts import OnPaper
-from graphkin.construction.core.bases import bases, ending
+from graphkin.construction.core.bases import bases, contact_name, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
@@ -56,7 +56,7 @@ from graphkin.numbers.plane import dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Contact, Pin, Sliding, SlippingName
 
 TAGS = tuple(MARKED)
 """What the points of the two plans bear behind their names."""
@@ -438,10 +438,15 @@ def missed(
     pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity
 ) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
-    if isinstance(group, CoupledTrain):
-        return coupled_train.missed(pen, group, kind.quantity, kind.part)
     last = group.last
     match last:
+        case Contact():
+            name = contact_name(last)
+            if isinstance(group, Higher):
+                name = SlippingName(name)
+            return coupled_train.missed(
+                pen, last, group.closing, kind.quantity, kind.part, name
+            )
         case Tie(link, Pin(point=p), Pin(point=q)):
             p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]

@@ -133,14 +133,14 @@ def two_guides(
     pen: Pen, shapes: LinkShapes, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]
 ) -> None:
     """A point that two guides lead: where their lines cross."""
-    paths = [
-        led_by(pair).path(pen, shapes, link, point)
-        for pair, link in zip(pairs, links, strict=True)
-        if not isinstance(pair, Pin)
-    ]
+    sides = zip(pairs, links, strict=True)
+    leading = [(led_by(pair), link) for pair, link in sides if not isinstance(pair, Pin)]
+    paths = [led.path(pen, shapes, link, point) for led, link in leading]
     with pen.on(Part.POSITION, Plane.MECHANISM):
         found = cross_guides(pen, point, *paths)
     pen.want("position", point, found)
+    for led, _ in leading:
+        led.finish(pen, shapes)
 
 
 def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:

@@ -197,21 +197,43 @@ def set_on_track(pen: Pen, shapes: LinkShapes, contact: Contact, centre: str, wa
 
 
 @by_contact
+def touch(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
+    """Where a wheel touches that stands, with what it rolls on."""
+    if contact.track is not None:
+        touch_wheels(pen, contact, contact.links[0])
+    else:
+        touch_track(pen, shapes, contact)
+
+
+@by_contact
+def touch_track(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+    """Where a wheel touches its straight track, as far along that."""
+    line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
+    touching = mark_contact(pen, contact, ContactOnTrack, contact_on_track, line, centre)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        return pen.draw(coordinate, line, touching)
+
+
+@by_contact
 def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
     """A wheel whose centre stands: its contact with the straight track, and its axis."""
-    wheel, on = contact.links
-    line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
-    touch = mark_contact(pen, contact, ContactOnTrack, contact_on_track, line, centre)
-    with pen.on(Part.POSITION, Plane.NUMBERS):
-        way = pen.draw(coordinate, line, touch)
+    wheel, _ = contact.links
+    way = touch_track(pen, shapes, contact)
     pen.want("rolled", wheel, way)
     if pen.has("axis", wheel):
         return
     with pen.on(Part.POSITION, Plane.NUMBERS):
+        settle_turn(pen, wheel, turned_along(pen, shapes, contact, way))
+    pen.want("turned from", wheel, start_turn(pen, contact, wheel))
+
+
+@by_contact
+def turned_along(pen: Pen, shapes: LinkShapes, contact: Contact, way: int) -> int:
+    """The angle of a wheel that touches its straight track so far along it."""
+    wheel, on = contact.links
+    with pen.on(Part.POSITION, Plane.NUMBERS):
         lead, start = angle_of(pen, shapes, on), start_turn(pen, contact, wheel)
-        turn = pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
-        settle_turn(pen, wheel, turn)
-    pen.want("turned from", wheel, start)
+        return pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
 
 
 def mark_contact(
