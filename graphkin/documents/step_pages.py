@@ -16,11 +16,10 @@ from graphkin.documents.flattest import crossings_on, group_closed, is_gap, lett
 from graphkin.documents.inset import insets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import (
+    boards,
     heading,
-    left_board,
     page_title,
     panels,
-    right_board,
     title_block,
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
@@ -47,8 +46,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     layout = lay_out(drawing)
     said = sentences(drawing)
     staged = stages(drawing, said)
-    boards = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
-    (left, detail), (right, other) = parted(*boards)
+    (left, detail), (right, other) = parted(*boards(drawing, layout, "key", said))
     telling = when_told(drawing, staged)
     given = 0 if drawing.again else BEFORE
     field = layout.mechanism
