@@ -41,7 +41,11 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     room = A3_AREA[2] - A3_AREA[0] - 24 - extent(rest, 2.5)[0]
     (first,), height = fitting("title", name, room, 2.5, 2.5)
     marks = (
-        *(untinted(mark) for mark in with_detail(*boards(drawing, layout, "key")) if not is_letter(mark, known)),
+        *(
+            untinted(mark)
+            for mark in with_detail(*boards(drawing, layout, "key"))
+            if not is_letter(mark, known)
+        ),
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )

@@ -42,7 +42,7 @@ from graphkin.drawing.label import segment_of
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
-from graphkin.drawing.style import VECTORS
+from graphkin.drawing.style import OWN_LINES, VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
 
@@ -52,6 +52,8 @@ LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
 """So many triangles at one pin are shown enlarged."""
+TRIALS = 24
+"""So many named points of trial plans have their names on a continuation sheet."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -64,6 +66,7 @@ class Moved(Enum):
     MEMBERS = "members"
     CONSTRUCTION = "construction"
     TABLES = "tables"
+    TRIALS = "trials"
 
 
 class Writing(Struct, frozen=True):
@@ -87,7 +90,11 @@ def sheet(
 ) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout, written = layout or lay_out(drawing), written or writing(drawing, view)
-    (left, detail), (right, other) = parted(*boards(drawing, layout, view))
+    both = boards(drawing, layout, view)
+    if Moved.TRIALS in written.moved:
+        both[1].labels = [label for label in both[1].labels if label.cls != OWN_LINES]
+        both[1].notes.append(drawing.words("page.trials_moved"))
+    (left, detail), (right, other) = parted(*both)
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
@@ -202,6 +209,9 @@ def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
     head, moved = heading(drawing, view)
     foot, more, said = below(drawing, view)
+    trials = sum(bool(drawing.trace.program.steps[n].name) for n in drawing.auxiliary)
+    if view == "key" and trials >= TRIALS:
+        moved.add(Moved.TRIALS)
     return Writing(head, foot, frozenset(moved | more), said)
 
 
