@@ -81,31 +81,31 @@ def with_trials(drawing: Drawing, sheets: list[list[Mark]]) -> list[list[Mark]]:
     """
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     top = y + GAP
-    beside, alone = (MIDDLE + 6, top + HEAD, AREA[2], LOW), (x, top + HEAD, AREA[2], LOW)
-    if sheets and all(reach(mark)[2] < beside[0] or reach(mark)[3] < top for mark in sheets[-1]):
-        if marks := plan_with_trials(drawing, beside):
-            return [*sheets[:-1], [*sheets[-1], *marks]]
-    return [*sheets, [*head, *plan_with_trials(drawing, alone)]]
+    beside: Rect = (MIDDLE + 6, top + HEAD, AREA[2], LOW)
+    last = sheets[-1] if sheets else head
+    is_free = all(reach(mark)[2] < beside[0] or reach(mark)[3] < top for mark in last)
+    marks = plan_with_trials(drawing, beside) if sheets and is_free else []
+    if marks:
+        return [*sheets[:-1], [*last, *marks]]
+    return [*sheets, [*head, *plan_with_trials(drawing, (x, *beside[1:]))]]
 
 
 def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
     """The plan in a field, with the letters of its points; nothing where it has no room."""
-    layout, box, metres = (
-        lay_out(drawing),
-        drawing.plan_extent(),
-        drawing.scales.metres(drawing.kind),
-    )
+    layout, box, mm = lay_out(drawing), drawing.plan_extent(), 1000 / drawing.scales.kL
     room = rect[2] - rect[0] - 2 * MARGIN, rect[3] - rect[1] - 2 * ABOVE
-    sizes = 1000 / drawing.scales.kL * box.width, 1000 / drawing.scales.kL * box.height
-    for times in TIMES:
-        if all(times * size <= each for size, each in zip(sizes, room, strict=True)):
-            plan = Field(rect, layout.plan.mm * times, layout.plan.middle, centre(rect))
-            large = Layout(layout.mechanism, plan, {})
-            board = right_board(drawing, replace(large, spans=spans(drawing, large)), "key")
-            board.marks = [mark for mark in board.marks if mark.name != HEADING]
-            board.labels = [label for label in board.labels if not label.spare]
-            return [*plan_enlarged(drawing, rect, times), *board.finish()]
-    return []
+    times = min(
+        side / size for side, size in zip(room, (box.width * mm, box.height * mm), strict=True)
+    )
+    fits = next((each for each in TIMES if each <= times), None)
+    if fits is None:
+        return []
+    plan = Field(rect, layout.plan.mm * fits, layout.plan.middle, centre(rect))
+    large = Layout(layout.mechanism, plan, {})
+    board = right_board(drawing, replace(large, spans=spans(drawing, large)), "key")
+    board.marks = [mark for mark in board.marks if mark.name != HEADING]
+    board.labels = [label for label in board.labels if not label.spare]
+    return [*plan_enlarged(drawing, rect, fits), *board.finish()]
 
 
 def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[list[Mark]]:

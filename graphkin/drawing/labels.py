@@ -117,7 +117,7 @@ class FieldContent(Struct):
         return [*self.marks, *foot, *named, *self.beside([*foot, *named])]
 
     def beside(self, named: Sequence[Mark]) -> list[Mark]:
-        """The dispensable labels, those that have a place near what they name, clear of the rest."""
+        """The dispensable labels that have a place near what they name, clear of the rest."""
         if not self.dispensable:
             return []
         some = [replace(label, optional=True) for label in self.dispensable]
