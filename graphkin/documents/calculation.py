@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import takewhile
 
 from msgspec import Struct
 
@@ -145,35 +146,52 @@ def laid_out(
 ) -> list[list[tuple[float, CalculationRow]]]:
     """The lines on as few pages as hold them, and on each of these about as many.
 
-    Those to be filled in stand as far apart as takes no more pages.
+    Pages begin with a heading where it takes no more of them. Those to be filled in stand as far
+    apart as takes no more pages.
     """
-    count = len(list(paged(rows, LINE, BOTTOM)))
-    wider = (line for line in BY_HAND if len(list(paged(rows, line, BOTTOM))) == count)
+    count = len(paged(rows, LINE, BOTTOM))
+    wider = (line for line in BY_HAND if len(paged(rows, line, BOTTOM)) == count)
     line = LINE if solved else next(wider, LINE)
+
+    def held(bottom: float, *, whole: bool) -> list[list[tuple[float, CalculationRow]]] | None:
+        pages = paged(rows, line, bottom, whole=whole)
+        parted = whole and not all(page[0][1].heading for page in pages)
+        return None if parted or len(pages) > count else pages
+
+    whole = held(BOTTOM, whole=True) is not None
     low, high = TOP, BOTTOM
     while count > 1 and high - low > LINE:
         middle = (low + high) / 2
-        fits = len(list(paged(rows, line, middle))) == count
-        low, high = (low, middle) if fits else (middle, high)
-    return list(paged(rows, line, high))
+        low, high = (low, middle) if held(middle, whole=whole) else (middle, high)
+    return paged(rows, line, high, whole=whole)
 
 
 def paged(
-    rows: Sequence[CalculationRow], line: float, bottom: float
-) -> Iterator[list[tuple[float, CalculationRow]]]:
-    """The lines with their places, page by page; no heading stands last on a page."""
-    page: list[tuple[float, CalculationRow]] = []
+    rows: Sequence[CalculationRow], line: float, bottom: float, *, whole: bool = False
+) -> list[list[tuple[float, CalculationRow]]]:
+    """The lines with their places, page by page; no heading stands last on a page.
+
+    Those below a heading stand on its page if they are to stay ``whole`` and one page holds them.
+    """
+    pages: list[list[tuple[float, CalculationRow]]] = [[]]
     y = TOP
-    for row in rows:
+    for i, row in enumerate(rows):
+        page = pages[-1]
         step = line + (GAP if row.heading and page else 0) + (page[-1][1].depth if page else 0)
-        need = step + (line if row.heading else 0)
-        if page and y + need + row.depth > bottom:
-            yield page
-            page, y, step = [], TOP, line
+        below = line if row.heading else 0.0
+        if row.heading and whole:
+            below = sum(line + each.depth for each in takewhile(is_below, rows[i + 1 :]))
+        if page and y + step + below + row.depth > bottom:
+            pages.append([])
+            page, y, step = pages[-1], TOP, line
         y = y + step if page else y
         page.append((y, row))
-    if page:
-        yield page
+    return pages
+
+
+def is_below(row: CalculationRow) -> bool:
+    """Whether a line stands below a heading, and is none."""
+    return not row.heading
 
 
 def page_of(

@@ -49,6 +49,14 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     return above[0], above[1] if len(above) > 1 else []
 
 
+def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:
+    """The caption of a plan that is drawn again, so many times as large, for its trial plans."""
+    words, factor = drawing.words, scale_of(drawing, drawing.plane) / 1000
+    said = words(f"page.{drawing.kind}_heading", k=figure(drawing, factor / times))
+    larger = "" if times == 1 else words("page.as_large", m=figure(drawing, times))
+    return caption(f"{said}  {words('page.with_trials')}{larger}", rect, LOOKS[1][0])
+
+
 def lines(said: str, rect: Rect, height: float) -> list[str]:
     """A field's caption, what stands in brackets in a second line if need be."""
     room = rect[2] - rect[0] - 5

@@ -1,12 +1,17 @@
-"""The sheets on which goes on what has no room beside the drawings: data, sentences, tables."""
+"""The sheets on which goes on what has no room beside the drawings: data, sentences, tables, and
+the points of trial plans with their names."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Set
 
+from msgspec.structs import replace
+
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
+from graphkin.construction.core.layout import Layout, centre, lay_out, spans
 from graphkin.construction.result_tables import tables, tables_on_sheets
+from graphkin.documents.captions import HEADING, plan_enlarged
 from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.members import members
 from graphkin.documents.sheet import (
@@ -14,12 +19,14 @@ from graphkin.documents.sheet import (
     asked,
     construction_head,
     page_title,
+    right_board,
     title_block,
     title_line,
 )
-from graphkin.drawing.areas import A3_TITLE_BLOCK, AREA, BELOW, MARKED, Rect
+from graphkin.drawing.areas import A3_TITLE_BLOCK, ABOVE, AREA, BELOW, MARGIN, MARKED, Rect
+from graphkin.drawing.field import Field
 from graphkin.drawing.frame import sheet_frame
-from graphkin.drawing.marks import Mark, Page, Text
+from graphkin.drawing.marks import Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, narrow_words
 from graphkin.text.errors import PageError, Problem
 
@@ -33,6 +40,8 @@ MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
 LOW = A3_TITLE_BLOCK[1] - 4
 """Where the right column ends, above the title block, in mm."""
+TIMES = (2.0, 1.5, 1.25, 1.0)
+"""How many times as large as on its sheet a plan may be that is drawn again."""
 LEAST = 60.0
 """Room below the data in which tables begin that go on to more sheets, in mm."""
 
@@ -43,6 +52,8 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[
     So many sentences as are said before are left out there.
     Raises PageError where a sentence or a row of a table is longer than a sheet is wide.
     """
+    if Moved.TRIALS in moved:
+        return with_trials(drawing, rest(drawing, view, moved - {Moved.TRIALS}, said))
     if not moved:
         return []
     try:
@@ -61,6 +72,40 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[
     right: Rect = (MIDDLE + 6, top + HEAD, AREA[2], LOW)
     head = [*head, construction_head(drawing, x, top)]
     return [*sheets, *([*head, *marks] for marks in on_sheets(drawing, [left, right], said))]
+
+
+def with_trials(drawing: Drawing, sheets: list[list[Mark]]) -> list[list[Mark]]:
+    """The sheets with the plan beside the words of the last, or on a sheet of its own.
+
+    It is drawn again as large as there is room for, and the points of its trials have names.
+    """
+    head, x, y = title_line(drawing, drawing.words("page.continued"))
+    top = y + GAP
+    beside: Rect = (MIDDLE + 6, top + HEAD, AREA[2], LOW)
+    last = sheets[-1] if sheets else head
+    is_free = all(reach(mark)[2] < beside[0] or reach(mark)[3] < top for mark in last)
+    marks = plan_with_trials(drawing, beside) if sheets and is_free else []
+    if marks:
+        return [*sheets[:-1], [*last, *marks]]
+    return [*sheets, [*head, *plan_with_trials(drawing, (x, *beside[1:]))]]
+
+
+def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
+    """The plan in a field, with the letters of its points; nothing where it has no room."""
+    layout, box, mm = lay_out(drawing), drawing.plan_extent(), 1000 / drawing.scales.kL
+    room = rect[2] - rect[0] - 2 * MARGIN, rect[3] - rect[1] - 2 * ABOVE
+    times = min(
+        side / size for side, size in zip(room, (box.width * mm, box.height * mm), strict=True)
+    )
+    fits = next((each for each in TIMES if each <= times), None)
+    if fits is None:
+        return []
+    plan = Field(rect, layout.plan.mm * fits, layout.plan.middle, centre(rect))
+    large = Layout(layout.mechanism, plan, {})
+    board = right_board(drawing, replace(large, spans=spans(drawing, large)), "key")
+    board.marks = [mark for mark in board.marks if mark.name != HEADING]
+    board.labels = [label for label in board.labels if not label.spare]
+    return [*plan_enlarged(drawing, rect, fits), *board.finish()]
 
 
 def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[list[Mark]]:

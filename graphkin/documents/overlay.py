@@ -11,7 +11,7 @@ from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.parameter_words import variant
 from graphkin.documents.detail import with_detail
-from graphkin.documents.sheet import left_board, right_board, title_of
+from graphkin.documents.sheet import boards, title_of
 from graphkin.drawing.areas import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -33,10 +33,7 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     """
     layout = layout or lay_out(drawing)
     words = drawing.words
-    boards, tasks = (
-        [board(drawing, layout, view) for board in (left_board, right_board)]
-        for view in ("key", "task")
-    )
+    tasks = boards(drawing, layout, "task")
     known = {(label.name, label.cls) for task in tasks for label in task.labels}
     name = f"{title_of(drawing)} – {words('sheet.' + called(drawing))}"
     set_to = "".join(f", {each}" for each in variant(drawing.scene, words))
@@ -44,7 +41,11 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     room = A3_AREA[2] - A3_AREA[0] - 24 - extent(rest, 2.5)[0]
     (first,), height = fitting("title", name, room, 2.5, 2.5)
     marks = (
-        *(untinted(mark) for mark in with_detail(*boards) if not is_letter(mark, known)),
+        *(
+            untinted(mark)
+            for mark in with_detail(*boards(drawing, layout, "key"))
+            if not is_letter(mark, known)
+        ),
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )

@@ -25,16 +25,20 @@ from graphkin.construction.links.mechanism_symbols import (
     draw_plates,
 )
 from graphkin.drawing.areas import SCHEME
-from graphkin.drawing.field import Field
+from graphkin.drawing.field import XY, Field
+from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Mark, Text, reach
+from graphkin.drawing.marks import Mark, Text, reach, scaled
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.text.errors import PageError
 
 SCHEMATIC = "scheme"
 """The class that tells marks of the scheme from those that are drawn to scale."""
-SIZE = (58.0, 45.0)
+SIZE = (60.0, 50.0)
 """Width and height of the mechanism in its scheme at most, in mm."""
+SMALLER = 0.7
+"""How large symbols are, as a part of those of a sheet, so that they hide little of the small
+mechanism."""
 TURNS = (35.0, -35.0, 25.0, -25.0, 15.0, -15.0)
 """By how much drivers are turned from the student's position, in degrees, in the order tried."""
 WAY = 1 / 200
@@ -83,7 +87,33 @@ def drawn(drawing: Drawing, *, numbered: bool) -> FieldContent:
 
 def symbols(drawing: Drawing, field: Field) -> FieldContent:
     """The symbols of links, guides, pins and drivers, with the letters that they wish for."""
-    board = FieldContent(SCHEME)
+    left, top, right, low = (side / SMALLER for side in field.rect)
+    at = field.at[0] / SMALLER, field.at[1] / SMALLER
+    board = full_size(drawing, Field((left, top, right, low), field.mm / SMALLER, field.middle, at))
+    board.rect = field.rect
+    board.marks = [scaled(mark, SMALLER) for mark in board.marks]
+    board.labels = [smaller(label) for label in board.labels]
+    sides = [[SMALLER * side for side in box] for box in board.taken]
+    board.taken = [(a, b, c, d) for a, b, c, d in sides]
+    return board
+
+
+def smaller(label: Label) -> Label:
+    """A label, of its height, at what it names where that is drawn smaller."""
+    ends = segment_of(label)
+    x, y = label.subject
+    if ends is None:
+        assert isinstance(x, float) and isinstance(y, float)
+        at: XY | tuple[XY, XY] = SMALLER * x, SMALLER * y
+    else:
+        (x0, y0), (x1, y1) = ends
+        at = (SMALLER * x0, SMALLER * y0), (SMALLER * x1, SMALLER * y1)
+    return replace(label, subject=at, radius=SMALLER * label.radius)
+
+
+def full_size(drawing: Drawing, field: Field) -> FieldContent:
+    """The same with symbols as large as on a sheet."""
+    board = FieldContent(field.rect)
     draw_plates(board, drawing, field)
     draw_ground(board, drawing, field)
     draw_bars(board, drawing, field)

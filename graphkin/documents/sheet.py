@@ -19,6 +19,7 @@ from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.quantities import ASKED
+from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
@@ -31,14 +32,17 @@ from graphkin.documents.inset import insets
 from graphkin.documents.listing import first_part, listed
 from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
+from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
+from graphkin.drawing.bare_stretches import at_bare_stretches
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
+from graphkin.drawing.label import segment_of
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
-from graphkin.drawing.style import VECTORS
+from graphkin.drawing.style import OWN_LINES, VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
 
@@ -48,6 +52,8 @@ LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
 """So many triangles at one pin are shown enlarged."""
+TRIALS = 24
+"""So many named points of trial plans have their names on a continuation sheet."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -60,6 +66,7 @@ class Moved(Enum):
     MEMBERS = "members"
     CONSTRUCTION = "construction"
     TABLES = "tables"
+    TRIALS = "trials"
 
 
 class Writing(Struct, frozen=True):
@@ -83,8 +90,11 @@ def sheet(
 ) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout, written = layout or lay_out(drawing), written or writing(drawing, view)
-    boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
-    (left, detail), (right, other) = parted(*boards)
+    both = boards(drawing, layout, view)
+    if Moved.TRIALS in written.moved:
+        both[1].labels = [label for label in both[1].labels if label.cls != OWN_LINES]
+        both[1].notes.append(drawing.words("page.trials_moved"))
+    (left, detail), (right, other) = parted(*both)
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
@@ -199,6 +209,9 @@ def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
     head, moved = heading(drawing, view)
     foot, more, said = below(drawing, view)
+    trials = sum(bool(drawing.trace.program.steps[n].name) for n in drawing.auxiliary)
+    if view == "key" and trials >= TRIALS:
+        moved.add(Moved.TRIALS)
     return Writing(head, foot, frozenset(moved | more), said)
 
 
@@ -230,8 +243,22 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
         driver_symbols.draw_drivers(board, drawing, field)
     mechanism_symbols.draw_pins(board, drawing, field)
     board.crowds += [field(pin) for pin in crowded_pins(drawing, CROWD)]
+    board.labels = at_bare_stretches(board.labels, board.marks)
     raise_marks(board, vectors(board.marks))
     return board
+
+
+def boards(
+    drawing: Drawing, layout: Layout, view: str, said: Sequence[Sentence] | None = None
+) -> tuple[FieldContent, FieldContent]:
+    """Both fields; the letters of the construction that no sentence says are dispensable there."""
+    both = left_board(drawing, layout, view), right_board(drawing, layout, view)
+    letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
+    if letters:
+        told = " ".join(each.markup for each in said or sentences(drawing))
+        both[0].dispensable = [label for label in letters if label.markup not in told]
+        both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
+    return both
 
 
 def is_thin(mark: Mark) -> bool:
@@ -263,6 +290,7 @@ def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
                 draw_part(PaperCanvas(plot, number), pole)
         return board
     step_marks.draw_plan_steps(plot)
+    board.labels = at_bare_stretches(board.labels, board.marks)
     return board
 
 

@@ -16,11 +16,10 @@ from graphkin.documents.flattest import crossings_on, group_closed, is_gap, lett
 from graphkin.documents.inset import insets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import (
+    boards,
     heading,
-    left_board,
     page_title,
     panels,
-    right_board,
     title_block,
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
@@ -29,7 +28,7 @@ from graphkin.documents.step_visibility import appearing, grown, when_told
 from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
-from graphkin.drawing.richtext import flowed
+from graphkin.drawing.richtext import flowed, words_of
 from graphkin.drawing.symbol_markup import symbol
 
 LEADING, SMALL_LEADING = 6.2, 4.6
@@ -47,8 +46,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     layout = lay_out(drawing)
     said = sentences(drawing)
     staged = stages(drawing, said)
-    boards = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
-    (left, detail), (right, other) = parted(*boards)
+    (left, detail), (right, other) = parted(*boards(drawing, layout, "key", said))
     telling = when_told(drawing, staged)
     given = 0 if drawing.again else BEFORE
     field = layout.mechanism
@@ -120,7 +118,7 @@ def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mar
     caption = words("page.step_of", number=stage + 1, all=len(said))
     yield Text(left, top, caption, "caption", 3.5, name="step")
     y = top + 8
-    for line in flowed(said[stage].markup.split(" "), " ", right - left, 3.5):
+    for line in flowed(words_of(said[stage].markup), " ", right - left, 3.5):
         yield Text(left, y, line, "caption", 3.5, name="sentence")
         y += LEADING
     yield LineMark(left, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
@@ -128,7 +126,7 @@ def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mar
     done = [
         (f"{number}." if i == 0 else "", line)
         for number, sentence in enumerate(said[:stage], 1)
-        for i, line in enumerate(flowed(sentence.markup.split(" "), " ", width, 2.5))
+        for i, line in enumerate(flowed(words_of(sentence.markup), " ", width, 2.5))
     ]
     room = max(int((BELOW[3] - y - 3.5) // SMALL_LEADING) + 1, 0)
     shown = done

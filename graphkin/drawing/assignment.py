@@ -46,7 +46,11 @@ class Assignment:
 
     def seeking(self) -> list[int]:
         """Return the labels without a place that must have one."""
-        return [i for i in self.unplaced() if self.fine[i] >= LEAST]
+        return [i for i in self.unplaced() if not self.is_given_up(i)]
+
+    def is_given_up(self, i: int) -> bool:
+        """Tell whether a label has no place and may stay so."""
+        return self.pick[i] < 0 and self.fine[i] < LEAST
 
     def settle(self, which: Iterable[int]) -> None:
         """Give each of the labels the cheapest place that is left, if there is one."""

@@ -52,7 +52,7 @@ class FieldContent(Struct):
     ``taken`` are boxes that labels keep clear of, ``notes`` what is said at the field's foot,
     ``lettered`` the places of the labels that are letters of points; ``unnamed`` begins the note
     that lists the vectors for whose names there is no room. At ``crowds`` so much meets that it is
-    shown enlarged.
+    shown enlarged. Labels that are ``dispensable`` are drawn where the others leave room near.
     """
 
     rect: Rect
@@ -63,6 +63,7 @@ class FieldContent(Struct):
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
     crowds: list[XY] = field(default_factory=list)
+    dispensable: list[Label] = field(default_factory=list)
 
     @property
     def lettering(self) -> Rect:
@@ -112,8 +113,16 @@ class FieldContent(Struct):
                 foot, spots = in_turn(self, self.notes, wished)
                 break
             spots = self.spots_of_new(foot, before, spots) or self.spots(foot)
-        clear = with_leaders(self.labels, spots, self.marks)
-        return [*self.marks, *foot, *marks_of(self.labels, clear)]
+        named = marks_of(self.labels, with_leaders(self.labels, spots, self.marks))
+        return [*self.marks, *foot, *named, *self.beside([*foot, *named])]
+
+    def beside(self, named: Sequence[Mark]) -> list[Mark]:
+        """The dispensable labels that have a place near what they name, clear of the rest."""
+        if not self.dispensable:
+            return []
+        some = [replace(label, optional=True) for label in self.dispensable]
+        both = zip(some, self.spots(named, some), strict=True)
+        return [mark for label, spot in both if spot.free for mark in label.marks(spot)]
 
     def without_helpers(self, spots: Sequence[Spot]) -> list[Spot]:
         """Leave out the letters of the construction that find no place; the rest is drawn."""

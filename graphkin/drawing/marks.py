@@ -149,6 +149,18 @@ def moved(mark: Mark, right: float, down: float) -> Mark:
     return replace(mark, cx=mark.cx + right, cy=mark.cy + down)
 
 
+def scaled(mark: Mark, times: float) -> Mark:
+    """Give the same mark so many times as large about the page's corner; text keeps its height."""
+    if isinstance(mark, LineMark):
+        x1, y1, x2, y2 = (times * each for each in (mark.x1, mark.y1, mark.x2, mark.y2))
+        return replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
+    if isinstance(mark, Polyline):
+        return replace(mark, points=tuple((times * x, times * y) for x, y in mark.points))
+    if isinstance(mark, Text):
+        return replace(mark, x=times * mark.x, y=times * mark.y)
+    return replace(mark, cx=times * mark.cx, cy=times * mark.cy, r=times * mark.r)
+
+
 def reach(mark: Mark) -> tuple[float, float, float, float]:
     """Tell the upright box (left, top, right, bottom) that a mark takes up, without line widths."""
     if isinstance(mark, LineMark):

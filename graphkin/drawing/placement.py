@@ -108,12 +108,13 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
 def _widen(seats: Assignment) -> None:
     """Let labels without a place, or with a dear one, look further, and those around them too."""
     offers = seats.offers
-    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR]
+    dear = [i for i, paid in enumerate(seats.paid) if paid > DEAR and not seats.is_given_up(i)]
     more = dict.fromkeys(dear, CLOSE) | _round_about(seats, CLOSE, Level(32, 12))
     if offers.widen(more):
         seats.settle(i for i in seats.order() if i in more)
         seats.improve(seats.regretted(BAD), SHORT)
-    struck = dict.fromkeys((i for i, paid in enumerate(seats.paid) if paid > STRUCK), WIDE)
+    paying = (i for i, paid in enumerate(seats.paid) if paid > STRUCK)
+    struck = dict.fromkeys((i for i in paying if not seats.is_given_up(i)), WIDE)
     if offers.widen(struck):
         seats.settle(i for i in seats.order() if i in struck)
     before = [*seats.pick]

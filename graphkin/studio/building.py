@@ -73,7 +73,15 @@ def built(text: str, act: Act) -> Built:
     after = tomlkit.dumps(work.document)
     if act.kind != "close":
         after = drawn_closed(after, work.places)
-    return Built(spaced(after, text), work.places)
+    return Built(spaced(without_empty(after, "branches"), text), work.places)
+
+
+def without_empty(text: str, table: str) -> str:
+    """A text without the heading of a table in which nothing stands."""
+    document = tomlkit.parse(text)
+    if document.get(table) == {}:
+        document.pop(table)
+    return tomlkit.dumps(document)
 
 
 def spaced(text: str, before: str) -> str:
@@ -534,8 +542,6 @@ def forget(work: Builder) -> None:
     for key in list(branches):
         if key not in known or not set(str(branches[key]).replace("-", " ").split()[2:]) <= known:
             branches.pop(key)
-    if "branches" in work.document and not branches:
-        work.document.pop("branches")
     for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
         for n in reversed(range(len(ask[key]))):
             if not {str(ask[key][n]).partition("@")[0]} <= known:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from graphkin.construction.core.layout import GROUND, POLES, held_beside, room_below
-from graphkin.drawing.areas import ABOVE, HEIGHT, LEAST_FIELD
+from graphkin.construction.core.layout import GROUND, POLES, SPARE, held_beside, room_below
+from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN
 from graphkin.drawing.scale import Extent
 
 DRAWN = np.random.default_rng(19)
@@ -27,10 +27,19 @@ def test_many_sheets_at_once_hold_what_each_holds_by_itself():
 
 def test_a_pole_is_held_only_where_the_field_has_room_for_it():
     box = Extent(0.0, 0.0, 0.1, 0.1)
-    near, far = held_beside(box, [0.2 + 0.1j], 500.0, 50.0), held_beside(box, [9j], 500.0, 50.0)
+    near, far = held_beside(box, [0.2 + 0.1j], 500.0, 200.0), held_beside(box, [9j], 500.0, 50.0)
     assert near.box == Extent(0.0, 0.0, 0.2, 0.1)
     assert near.width == max(0.2 * 500 + POLES, LEAST_FIELD)
     assert far.box == box
+
+
+@pytest.mark.parametrize("plan", [50.0, 150.0, 200.0, 240.0, 280.0])
+def test_what_a_wide_field_of_the_plan_has_too_much_of_is_shared_equally(plan):
+    width = held_beside(Extent(0.0, 0.0, 0.1, 0.1), [], 500.0, plan).width
+    beside = AREA[2] - AREA[0] - width
+    more = width - LEAST_FIELD, beside - max(plan + 2 * MARGIN, LEAST_FIELD) - SPARE
+    assert more[0] == pytest.approx(max(more[1], 0.0))
+    assert min(more) <= 0 or more[0] == pytest.approx(more[1])
 
 
 def test_a_pole_at_infinity_leaves_the_box_of_its_sheet_alone():

@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.rate_relations import of_gears
-from graphkin.documents.calculation import calculation
+from graphkin.documents.calculation import CalculationRow, calculation, laid_out
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
 from graphkin.text import LANGUAGES, words
@@ -217,3 +217,16 @@ def test_each_wheel_that_another_turns_has_willis_relation(name, wheels):
     (drawing, *_) = drawings(name)
     told = [relation.left for relation in of_gears(drawing)]
     assert [left for left in told if left.startswith("*ω*")] == [f"*ω*_{{{n}}}" for n in wheels]
+
+
+@pytest.mark.parametrize(
+    ("lines", "begin"),
+    [([20, 20, 20], [True, True]), ([38, 10], [True, True]), ([60], [True, False])],
+    ids=str,
+)
+def test_pages_begin_with_a_heading_where_that_takes_no_more_of_them(lines, begin):
+    """Of sections that a page holds none is parted; of a longer one, as few pages as hold it."""
+    rows = [CalculationRow("", heading=nth == 0) for count in lines for nth in range(count)]
+    pages = laid_out(rows, solved=True)
+    assert [page[0][1].heading for page in pages] == begin
+    assert [row for page in pages for _, row in page] == rows

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from cmath import rect
 from math import radians
+from pathlib import Path
 from tomllib import loads
 
 import pytest
@@ -15,6 +16,8 @@ from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.sketch import sketch
 from graphkin.text.errors import SceneError
 from tests.studio.pump import PUMP
+
+SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
 
 def places_of(text: str) -> dict[str, complex]:
@@ -113,6 +116,13 @@ def test_no_branch_names_a_point_that_is_deleted(point):
     for told in after.get("branches", {}).items():
         assert point not in re.findall(r"\w+", " ".join(told))
     assert ("B" in after.get("branches", {})) is (point in "CD")
+
+
+@pytest.mark.parametrize(("scene", "link"), [("watt-2", "2"), ("toggle-press", "3")])
+def test_no_heading_of_branches_is_left_where_a_deletion_leaves_none(scene, link):
+    text = (SCENES / f"{scene}.toml").read_text(encoding="utf-8")
+    assert loads(text)["branches"]
+    assert "[branches]" not in done(text, "delete", link, words="link")
 
 
 def test_a_pin_on_the_line_of_a_bar_is_written_so():

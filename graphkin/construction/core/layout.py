@@ -28,6 +28,8 @@ BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
 POLES = 1.4 * MARGIN
 """Room beside centres and poles, left and right or above and below together, in mm."""
+SPARE = 40.0
+"""How much wider than it must be the plan's field is before it shares with the mechanism's, mm."""
 GROUND = 15.0
 """Room below a mechanism for the ground of its pivots and a line of notes, in mm."""
 FAR = 100.0
@@ -59,7 +61,8 @@ def lay_out(drawing: Drawing) -> Layout:
 def placed(drawings: Sequence[Drawing]) -> Field:
     """Where the mechanism stands on all its sheets, with poles and centres where there is room.
 
-    Its field is as wide as it needs; the plans have the rest. Raises PageError where they lack it.
+    Its field is as wide as it needs; the plans have the rest, as long as that is not much wider
+    than they need. Raises PageError where they lack it.
     """
     mm = 1000 / drawings[0].scales.kL
     box = reduce(Extent.joined, (each.mechanism_extent() for each in drawings))
@@ -83,7 +86,8 @@ def held_beside(box: Extent, poles: Iterable[Point], mm: Real, plan: Real) -> He
     most = larger(whole - larger(plan + 2 * MARGIN, LEAST_FIELD), LEAST_FIELD)
     wider = with_poles(box, poles, mm, most)
     needed = larger(box.width * mm + 2 * MARGIN, wider.width * mm + POLES)
-    return Held(wider, smaller(larger(needed, LEAST_FIELD), most))
+    width = smaller(larger(needed, LEAST_FIELD), most)
+    return Held(wider, width + larger(most - width - SPARE, 0.0) / 2)
 
 
 def with_poles(box: Extent, poles: Iterable[Point], mm: Real, width: Real) -> Extent:
