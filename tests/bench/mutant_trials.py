@@ -48,9 +48,9 @@ failed: list[str] = []
 @pytest.hookimpl(hookwrapper=True, tryfirst=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
     """Tells the switch which test runs."""
-    builtins.__switch__[1][0] = os.environ["TEST"] = item.nodeid  # type: ignore[attr-defined]
+    builtins.__switch__[1][0] = os.environ["TEST"] = item.nodeid
     yield
-    builtins.__switch__[1][0] = os.environ["TEST"] = ""  # type: ignore[attr-defined]
+    builtins.__switch__[1][0] = os.environ["TEST"] = ""
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
@@ -82,7 +82,7 @@ def tried(number: int, items: Sequence[pytest.Item]) -> str:
     if (child := os.fork()) == 0:
         os.setpgid(0, 0)
         resource.setrlimit(resource.RLIMIT_CPU, (ENDLESS, ENDLESS))
-        builtins.__switch__[0][0] = number  # type: ignore[attr-defined]
+        builtins.__switch__[0][0] = number
         os.environ["MUTANT"] = str(number)
         fate = "breaks the run"
         try:

@@ -38,6 +38,12 @@ def chromium() -> Iterator[Any]:
         browser.close()
 
 
+@pytest.fixture(scope="module")
+def page(chromium: Any) -> Any:
+    """An empty page."""
+    return chromium.new_page()
+
+
 def missing(reason: str) -> NoReturn:
     """Skip, or fail where browsers are a must."""
     if os.environ.get(MUST):
