@@ -110,8 +110,10 @@ def keep(room: str, reached: Path, names: Sequence[str]) -> None:
     (KEPT / f"{room}.json").write_text(found, encoding="utf-8")
 
 
-def kept(room: str) -> Come | None:
-    """What the tests of a room come by; None where it is not known as they are."""
+def kept(room: str, as_known: bool) -> Come | None:
+    """What the tests of a room come by; None where it is not known as they are, or at all."""
     path = KEPT / f"{room}.json"
-    as_they_were, *found = json.loads(path.read_text("utf-8")) if path.is_file() else ("",)
-    return Come(*found) if as_they_were == summed(room) else None
+    if not path.is_file():
+        return None
+    as_they_were, *found = json.loads(path.read_text(encoding="utf-8"))
+    return Come(*found) if as_known or as_they_were == summed(room) else None

@@ -104,7 +104,7 @@ def free_port() -> int:
     return port
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def started_firefox() -> Iterator[Firefox]:
     """Debian's firefox-esr."""
     path = shutil.which("firefox-esr") or shutil.which("firefox")
