@@ -21,6 +21,7 @@ if sys.dont_write_bytecode:  # workers and commands compile once, beside the tre
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     os.environ["PYTHONPYCACHEPREFIX"] = str(Path(__file__).parents[1] / ".pytest_cache/compiled")
 
+pytest_plugins = ["tests.browser.opening", "tests.browser.firefox", "tests.running"]
 WAITING = ("browser",)
 """The rooms whose tests wait for a browser most of their time."""
 LONG = ("reading", "golden", "laws", "classroom", "documents", "construction", "web")

@@ -105,7 +105,7 @@ class Composition(Struct, frozen=True):
     """
 
     size: float
-    kL: float  # noqa: N815
+    kL: float
     times: Mapping[str, float]
     lack: float
 

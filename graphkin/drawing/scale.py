@@ -36,7 +36,7 @@ class Scales(Struct, frozen=True):
     computed.
     """
 
-    kL: float  # noqa: N815
+    kL: float
     seconds: float
     larger: float = 1.0
     larger_still: float = 1.0

@@ -50,7 +50,7 @@ def centrodes(cycle: Cycle, link: str) -> Centrodes | None:
 
 def base(link: Link) -> tuple[str, str] | None:
     """The first two points of a link."""
-    return link.points[:2] if len(link.points) > 1 else None  # type: ignore[return-value]
+    return (link.points[0], link.points[1]) if len(link.points) > 1 else None
 
 
 def links_with_centrodes(scene: Scene) -> tuple[str, ...]:

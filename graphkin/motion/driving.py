@@ -60,7 +60,8 @@ def timed(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any, An
         place, speed = place + (speed + push * at / 2) * at, speed + push * at
     if driver.kind == "turn":
         place = np.degrees(place)
-    return tuple(np.broadcast_to(each, np.shape(at)) for each in (place, speed, push))  # type: ignore[return-value]
+    place, speed, push = (np.broadcast_to(each, np.shape(at)) for each in (place, speed, push))
+    return place, speed, push
 
 
 def reach_of(scene: Scene) -> float:

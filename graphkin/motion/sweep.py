@@ -195,4 +195,4 @@ def bounds_in_si(
     if number is None or scene.drivers[number - 1].kind == "turn":
         return low, high
     factor = float(LENGTHS[scene.units["length"]])
-    return tuple(None if each is None else each * factor for each in (low, high))  # type: ignore[return-value]
+    return None if low is None else low * factor, None if high is None else high * factor

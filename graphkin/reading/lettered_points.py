@@ -183,8 +183,8 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                 start = complex(self.place(each.far, values[each.far]))
                 far = each.given or each.bow or each.after or abs(end - start) < SHORT
                 if not far and abs(end - start) < LONGEST:
-                    ends = start.real, start.imag, end.real, end.imag
-                    found[tuple(round(part, 2) for part in ends)] = None  # type: ignore[index]
+                    x, y = round(start.real, 2), round(start.imag, 2)
+                    found[x, y, round(end.real, 2), round(end.imag, 2)] = None
         return tuple(found)
 
     def led(self, number: int) -> Iterator[Leading]:

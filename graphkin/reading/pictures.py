@@ -50,7 +50,7 @@ class Photograph(Struct, frozen=True):
         return whole if file_part(whole) == self.name else self.name
 
 
-class Unreadable(Exception):  # noqa: N818
+class Unreadable(Exception):
     """Why a picture cannot be read, in one line."""
 
 

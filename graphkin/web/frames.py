@@ -139,7 +139,7 @@ def place_in(cycle: Cycle, low: float, high: float) -> float:
     """Where the scene stands, whole turns apart, within a range; the time for which it is drawn."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
-        return float(cycle.scene.values.get(TIME, start))  # type: ignore[arg-type]
+        return float(cycle.scene.values.get(TIME, start))
     turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
     return next((start + turn for turn in turns if low <= start + turn <= high), start)
 

@@ -26,7 +26,7 @@ from graphkin.cli.report.accuracy_report import (
 )
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
-from tests.cli.conftest import Run, run  # noqa: F401
+from tests.running import Run
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 FOUR_BAR = str(SCENES / "four-bar-double-rocker.toml")
@@ -171,7 +171,7 @@ def test_the_csv_holds_what_was_found():
     assert rows[-1]["median_seconds_per_position"] == ""
 
 
-def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):  # noqa: F811
+def test_the_command_writes_table_and_pictures(run: Run, tmp_path: Path):
     args = ("accuracy", "pump", "--set", "n=7", "--quick", "--format", "svg", "-o", tmp_path)
     result = run(*args)
     assert result.exit_code == 0, result.stderr

@@ -1,9 +1,9 @@
-"""A plugin of pytest that tries mutants: which tests reach each, and which of these it fails.
+"""A plugin of pytest that tries mutants: what each test comes by, and which mutants it fails.
 
-Every mutant stands in one copy of the program beside the right expression, ``((wrong) if
-__mutant__(7) else (right))``. A first run of the tests keeps which of them come by (``REACHED``
-names the file); a second collects the tests once and forks for each mutant, so that nothing that a
-test keeps is the next one's (``TRIED`` names the mutants with their tests, and is told the fates).
+In one copy of the program blocks say that a test comes by (``COME`` names the file that keeps it).
+In another every mutant stands beside what is right, ``((wrong) if __mutant__(7) else (right))``:
+the tests are collected once, and a process forks for each mutant, so that nothing that a test
+keeps is the next one's (``TRIED`` names the mutants with their tests, and is told the fates).
 """
 
 from __future__ import annotations
@@ -19,25 +19,20 @@ from pathlib import Path
 
 import pytest
 
-SWITCH = '''"""Says which mutant is at work, in every process; keeps which tests come by."""
+SWITCH = '''"""Says which mutant is at work, in every process."""
 import builtins
 import os
 
-at_work, test, come_by = [int(os.environ.get("MUTANT", -1))], [os.environ.get("TEST", "")], set()
-
-
-def __mutant__(number):
-    if (number, test[0]) not in come_by:
-        come_by.add((number, test[0]))
-        if test[0] and "REACHED" in os.environ:
-            with open(os.environ["REACHED"], "a", encoding="utf-8") as kept:
-                kept.write(f"{number}\\t{test[0]}\\n")
-    return number == at_work[0]
-
-
-builtins.__mutant__, builtins.__switch__ = __mutant__, (at_work, test)
+at_work = [int(os.environ.get("MUTANT", -1))]
+builtins.__mutant__, builtins.__switch__ = (lambda number: number == at_work[0]), at_work
 '''
-"""What stands as ``sitecustomize.py`` in the copy."""
+"""What stands as ``sitecustomize.py`` in the copy with mutants."""
+SAYS = '''"""Takes what a block says."""
+import builtins
+
+builtins.__come__ = set().add
+'''
+"""The same in the copy whose blocks say that a test comes by."""
 ENDLESS = 300
 """Seconds of a processor after which a mutant counts as found: it does not come to an end."""
 WAITS = 4 * ENDLESS
@@ -47,19 +42,28 @@ failed: list[str] = []
 
 @pytest.hookimpl(hookwrapper=True, tryfirst=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Tells the switch which test runs."""
-    builtins.__switch__[1][0] = os.environ["TEST"] = item.nodeid  # type: ignore[attr-defined]
+    """Keeps which blocks a test comes by, and its seconds of a processor."""
+    come, before = set[int](), used()
+    builtins.__come__ = come.add
+    failed.clear()
     yield
-    builtins.__switch__[1][0] = os.environ["TEST"] = ""  # type: ignore[attr-defined]
+    builtins.__come__ = set().add
+    if "COME" in os.environ:
+        fate, own = "failed" if failed else "passed", " ".join(map(str, sorted(come)))
+        with Path(os.environ["COME"]).open("a", encoding="utf-8") as kept:
+            kept.write(f"{item.nodeid}\t{used() - before:.3f}\t{fate}\t{own}\n")
+
+
+def used() -> float:
+    """Seconds of a processor that this process and those it waited for took."""
+    every = map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(each.ru_utime + each.ru_stime for each in every)
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    """Keeps how long a test takes, or that it fails."""
+    """Keeps that a test fails."""
     if report.failed:
         failed.append(report.nodeid)
-    if "REACHED" in os.environ:
-        with Path(os.environ["REACHED"]).with_suffix(".times").open("a", encoding="utf-8") as kept:
-            kept.write(f"{report.nodeid}\t{report.duration:.3f}\t{report.outcome}\n")
 
 
 def pytest_runtestloop(session: pytest.Session) -> bool | None:
@@ -82,7 +86,7 @@ def tried(number: int, items: Sequence[pytest.Item]) -> str:
     if (child := os.fork()) == 0:
         os.setpgid(0, 0)
         resource.setrlimit(resource.RLIMIT_CPU, (ENDLESS, ENDLESS))
-        builtins.__switch__[0][0] = number  # type: ignore[attr-defined]
+        builtins.__switch__[0] = number
         os.environ["MUTANT"] = str(number)
         fate = "breaks the run"
         try:

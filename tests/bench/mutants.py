@@ -1,14 +1,15 @@
-"""Which small mistakes no test finds: ``python -m tests.bench.mutants 12 --seed 1``.
+"""Which small mistakes no test finds: ``python -m tests.bench.mutants 60 --seed 1``.
 
 A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
-All tests run once in a copy in which every mutant stands beside what is right, which keeps which of
-them come by it, and in what time (``--rooms`` for some rooms of them); then each mutant is tried by
-these, the quickest first, for at most ``--seconds``, until the first that fails
-(``mutant_trials``). What no test comes by, for it stands outside of all functions, is tried in a
-copy of its own by the tests that import its module, those of its room and what is kept of all
-outputs. ``-j`` says how many processes run at once, ``--only PATH…`` takes the mutants from some
-modules, ``--from`` goes on in the list. What survives is printed with its line; a survivor wants a
-test, or is equivalent: ``survivors.txt`` keeps those of the last run with a word each.
+It is tried by the tests that come by its block (``blocks``; what stands outside of all functions by
+those that come by a block with its name), the quickest first for at most ``--seconds``, then by the
+others of their files for as long again, until the first that fails (``mutant_trials``).
+``-j`` says how many processes run at once, ``--only PATH…`` takes the mutants from some modules,
+``--from`` goes on in the list. Where it is not known which blocks the tests of a room come by, they
+run first, which takes as long as the tests do; ``--known`` goes by what is known, as it was.
+
+What survives is printed with its line and in how many tests; a survivor wants a test, or is
+equivalent: ``survivors.txt`` keeps those of the last runs with a word each.
 """
 
 from __future__ import annotations
@@ -34,9 +35,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from tests.bench.mutant_trials import SWITCH
+from tests.bench.blocks import ROOT, Block, Come, blocks, called, keep, kept, told
+from tests.bench.mutant_trials import SAYS, SWITCH
 
-ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = 900
 """Seconds of a processor after which a mutant counts as found: it does not come to an end."""
 PATIENCE = 4 * 3600
@@ -126,22 +127,6 @@ def mutants(path: Path) -> Iterator[Mutant]:
         yield Mutant(path.relative_to(ROOT), node.lineno, node.col_offset, before, after)
 
 
-def nearest(path: Path) -> Iterator[list[str]]:
-    """What tries a module: the tests that import it, those of its own name first, those of its
-    room, what is kept of all."""
-    *packages, name = path.with_suffix("").parts
-    told = re.compile(
-        rf"\b{'.'.join((*packages, name))}\b|from {'.'.join(packages)} import [^\n]*\b{name}\b"
-    )
-    texts = {each: each.read_text(encoding="utf-8") for each in ROOT.glob("tests/**/test_*.py")}
-    found = [each for each, text in texts.items() if told.search(text)]
-    found.sort(key=lambda each: (name not in each.stem, path.parts[1] not in each.parts))
-    yield [str(each.relative_to(ROOT)) for each in found]
-    room = Path("tests") / path.parts[1]
-    yield [str(room)] if (ROOT / room).is_dir() else []
-    yield ["tests/golden"]
-
-
 def copy_of(folder: Path) -> Path:
     """A copy of the program and its tests."""
     copy = folder / "copy"
@@ -152,10 +137,12 @@ def copy_of(folder: Path) -> Path:
     return copy
 
 
-def switched(copy: Path, chosen: Sequence[Mutant]) -> None:
-    """Put every mutant that can stand there into its place in a copy, beside what is right."""
+def switched(copy: Path, chosen: Sequence[Mutant]) -> list[int]:
+    """Put every mutant that can stand there into its place in a copy, beside what is right; those
+    of them that stand in a function, so that they can be switched."""
     (copy / "sitecustomize.py").write_text(SWITCH, encoding="utf-8")
     ends: dict[tuple[Path, int], int] = {}
+    inside = []
     for number, mutant in sorted(enumerate(chosen), key=lambda each: each[1], reverse=True):
         place, before = (mutant.path, mutant.line), mutant.before
         module = copy / mutant.path
@@ -167,6 +154,10 @@ def switched(copy: Path, chosen: Sequence[Mutant]) -> None:
             compile(source, str(module), "exec")
             module.write_bytes(source)
             ends[place] = mutant.column
+            around = blocks((ROOT / mutant.path).read_text(encoding="utf-8"))
+            if any(each.first <= mutant.line <= each.last for each in around):
+                inside.append(number)
+    return inside
 
 
 def written(source: bytes, mutant: Mutant, after: str) -> bytes:
@@ -177,43 +168,85 @@ def written(source: bytes, mutant: Mutant, after: str) -> bytes:
     return b"".join(lines)
 
 
-def reached(copy: Path, rooms: Sequence[str], jobs: int) -> dict[int, list[tuple[float, str]]]:
-    """The tests that come by each mutant, the quickest first; without those that fail anyway."""
-    found: dict[int, list[tuple[float, str]]] = defaultdict(list)
-    files = [copy.parent / f"{room}.reached" for room in rooms]
-    with ThreadPoolExecutor(jobs) as pool:
-        runs = [
-            pool.submit(run, copy, [f"tests/{room}"], REACHED=str(kept))
-            for room, kept in zip(rooms, files, strict=True)
-        ]
-    assert all(each.result() >= 0 for each in runs)
-    for kept in files:
-        times: dict[str, float] = defaultdict(float)
-        for line in lines_of(kept.with_suffix(".times")):
-            test, seconds, outcome = line.rsplit("\t", 2)
-            times[test] += float(seconds) if outcome == "passed" else inf
-        for line in lines_of(kept):
-            number, _, test = line.partition("\t")
-            if times.get(test, inf) < inf:
-                found[int(number)].append((times[test], test))
-    return {number: sorted({*tests}) for number, tests in found.items()}
+def come_by(rooms: Sequence[str], jobs: int, as_known: bool) -> list[Come]:
+    """Which tests come by which blocks, of each room; rooms where it is not known run now."""
+    missing = [room for room in rooms if kept(room, as_known) is None]
+    if missing:
+        with TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
+            copy = copy_of(Path(folder))
+            names = told(copy)
+            (copy / "sitecustomize.py").write_text(SAYS, encoding="utf-8")
+            files = {room: Path(folder) / f"{room}.come" for room in missing}
+            runs = {
+                room: pool.submit(run, copy, [f"tests/{room}"], COME=str(path))
+                for room, path in files.items()
+            }
+            for room, ran in runs.items():
+                assert ran.result() >= 0
+                keep(room, files[room], names)
+    return [found for room in rooms if (found := kept(room, True))]
 
 
-def lines_of(path: Path) -> list[str]:
-    """The lines of a file, none where it is not there."""
-    return path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
+def tests_of(mutant: Mutant, come: Sequence[Come], most: float) -> list[str]:
+    """The tests that try a mutant, those that come by it first, the quickest of them first."""
+    names = {called(*each) for each in blocks_of(mutant)}
+    seconds = {test: took for own in come for test, took in own.seconds.items() if took < inf}
+    found = {test for own in come for name in names for test in own.tests.get(name, ())}
+    files = defaultdict[str, list[str]](list)
+    for test in seconds:
+        files[test.partition("::")[0]].append(test)
+    near = sorted(found & {*seconds}, key=lambda test: (seconds[test], test))
+    beside = sorted(
+        {test.partition("::")[0] for test in near},
+        key=lambda path: sum(seconds[test] for test in files[path]),
+    )
+    others = [test for path in beside for test in files[path] if test not in found]
+    return [*within(near, seconds, most), *within(others, seconds, most)]
 
 
-def tried(
-    copy: Path, tests: Mapping[int, Sequence[tuple[float, str]]], most: float, jobs: int
-) -> set[int]:
-    """Those of some mutants that a test finds which comes by, in at most so many seconds."""
-    trials = []
-    for number, timed in tests.items():
-        sums = accumulate(seconds for seconds, _ in timed)
-        within = [test for whole, (_, test) in zip(sums, timed, strict=True) if whole <= most]
-        trials.append((number, within or [timed[0][1]]))
-    found = set[int]()
+def within(tests: Sequence[str], seconds: Mapping[str, float], most: float) -> list[str]:
+    """The first of some tests that take so many seconds together; one at least."""
+    sums = accumulate(seconds[test] for test in tests)
+    return [test for test, whole in zip(tests, sums, strict=True) if whole <= most] or [*tests[:1]]
+
+
+def blocks_of(mutant: Mutant) -> list[tuple[Path, Block]]:
+    """The innermost block that a mutant stands in; outside of all, those with its name."""
+    source = (ROOT / mutant.path).read_text(encoding="utf-8")
+    around = [each for each in blocks(source) if each.first <= mutant.line <= each.last]
+    if around:
+        return [(mutant.path, max(around, key=lambda each: each.first))]
+    names = re.compile(rf"\b({'|'.join(names_at(ast.parse(source), mutant.line)) or '$'})\b")
+    found = []
+    for path in sorted((ROOT / "graphkin").rglob("*.py")):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for each in blocks("\n".join(lines)) if names.search("\n".join(lines)) else ():
+            if names.search("\n".join(lines[each.first - 1 : each.last])):
+                found.append((path.relative_to(ROOT), each))
+    return found
+
+
+def names_at(tree: ast.AST, line: int) -> set[str]:
+    """What a statement outside of all functions gives a name to."""
+    found = set[str]()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.stmt) and node.lineno <= line <= (node.end_lineno or 0):
+            if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+                found = {node.name}
+            elif isinstance(node, (ast.Assign, ast.AnnAssign)):
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                found = {
+                    each.id
+                    for target in targets
+                    for each in ast.walk(target)
+                    if isinstance(each, ast.Name)
+                }
+    return found
+
+
+def tried(copy: Path, tests: Mapping[int, Sequence[str]], jobs: int) -> dict[int, str]:
+    """The first test that finds each of some mutants; empty for one that survives."""
+    trials = [*tests.items()]
     shares = {copy.parent / f"{k}.tried": trials[k::jobs] for k in range(jobs) if trials[k::jobs]}
     runs = []
     with ThreadPoolExecutor(jobs) as pool:
@@ -222,19 +255,23 @@ def tried(
             files = sorted({test.partition("::")[0] for _, own in some for test in own})
             runs.append(pool.submit(run, copy, files, TRIED=str(path)))
     assert not any(each.result() for each in runs), "the tests could not be tried"
+    found = {}
     for path in shares:
-        fates = (line.split("\t", 1) for line in lines_of(path.with_suffix(".fates")))
-        found |= {int(number) for number, fate in fates if fate}
+        for line in path.with_suffix(".fates").read_text(encoding="utf-8").splitlines():
+            number, _, fate = line.partition("\t")
+            found[int(number)] = fate
     return found
 
 
-def survives(copy: Path, mutant: Mutant) -> bool:
-    """Whether no test near a mutant, and no kept output, changes where it alone is written."""
+def alone(copy: Path, mutant: Mutant, tests: Sequence[str]) -> str:
+    """Whether a test fails where one mutant alone is written."""
     module = copy / mutant.path
     right = module.read_bytes()
+    if not tests:
+        return ""
     try:
         put(module, written(right, mutant, mutant.after))
-        return all(run(copy, tests) in (0, NOTHING) for tests in nearest(mutant.path) if tests)
+        return "alone" if run(copy, tests) not in (0, NOTHING) else ""
     finally:
         put(module, right)
 
@@ -277,20 +314,25 @@ def main(words: Sequence[str] | None = None) -> None:
     parser.add_argument("--only", nargs="+", type=Path, metavar="PATH")
     parser.add_argument("--rooms", nargs="+", default=ROOMS, choices=ROOMS, metavar="ROOM")
     parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--known", action="store_true")
     given = parser.parse_args(words)
     paths = given.only or sorted((ROOT / "graphkin").rglob("*.py"))
     every = [mutant for path in paths for mutant in mutants(path.resolve())]
     chosen = random.Random(given.seed).sample(every, min(given.count, len(every)))[given.first :]
+    come = come_by(given.rooms, given.jobs, given.known)
+    tests = [tests_of(mutant, come, given.seconds) for mutant in chosen]
     with TemporaryDirectory() as one, TemporaryDirectory() as other:
-        copy, alone = copy_of(Path(one)), copy_of(Path(other))
-        switched(copy, chosen)
-        tests = reached(copy, given.rooms, given.jobs)
-        found = tried(copy, tests, given.seconds, given.jobs)
+        copy, single = copy_of(Path(one)), copy_of(Path(other))
+        inside = switched(copy, chosen)
+        fates = tried(
+            copy, {number: tests[number] for number in inside if tests[number]}, given.jobs
+        )
         for number, mutant in enumerate(chosen):
-            alive = number not in found and (number in tests or survives(alone, mutant))
-            fate = "SURVIVES" if alive else "found"
-            place = f"{mutant.path}:{mutant.line}"
-            print(f"{fate:8} {place}: {mutant.before} → {mutant.after}", flush=True)
+            own = tests[number]
+            fate = fates[number] if number in fates else alone(single, mutant, own)
+            end = f"found by {fate}" if fate else f"SURVIVES {len(own)} tests"
+            change = f"{mutant.before} → {mutant.after}"
+            print(f"{mutant.path}:{mutant.line}: {change}: {end}", flush=True)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from graphkin.studio.server import Served, serve
-from tests.browser.opening import chromium, opened, tabs  # noqa: F401
 from tests.studio.pump import desk_in, running
 
 

@@ -104,8 +104,8 @@ def free_port() -> int:
     return port
 
 
-@pytest.fixture(scope="module")
-def firefox() -> Iterator[Firefox]:
+@pytest.fixture(scope="session")
+def started_firefox() -> Iterator[Firefox]:
     """Debian's firefox-esr."""
     path = shutil.which("firefox-esr") or shutil.which("firefox")
     if not path:
@@ -126,9 +126,8 @@ def firefox() -> Iterator[Firefox]:
         client.cleanup()
 
 
-@pytest.fixture(autouse=True)
-def _no_errors(request: pytest.FixtureRequest) -> Iterator[None]:
-    """No test in Firefox leaves an error behind."""
-    yield
-    if "firefox" in request.fixturenames:
-        assert request.getfixturevalue("firefox").errors() == []
+@pytest.fixture
+def firefox(started_firefox: Firefox) -> Iterator[Firefox]:
+    """Firefox, in which no test leaves an error behind."""
+    yield started_firefox
+    assert started_firefox.errors() == []

@@ -22,9 +22,9 @@ HOUR = 3600
 """Seconds after which the clock of a page stands still, for every page that a tab opens."""
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def chromium() -> Iterator[Any]:
-    """Debian's chromium, driven by Playwright."""
+    """Debian's chromium, driven by Playwright; it is started once, which takes seconds."""
     path = shutil.which("chromium") or shutil.which("chromium-browser")
     if not path:
         missing("no chromium is installed")
@@ -36,6 +36,14 @@ def chromium() -> Iterator[Any]:
         browser = driver.chromium.launch(executable_path=path, args=ARGS)
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Any) -> Iterator[Any]:
+    """An empty page."""
+    found = chromium.new_page()
+    yield found
+    found.close()
 
 
 def missing(reason: str) -> NoReturn:
@@ -124,9 +132,9 @@ class Tab:
         page.goto("about:blank")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def tabs(chromium: Any) -> Iterator[dict[str, Tab]]:
-    """The tabs of a module, by what they were opened with: a new one costs more than a page."""
+    """The tabs, by what they were opened with: a new one costs more than a page."""
     found: dict[str, Tab] = {}
     yield found
     for tab in found.values():

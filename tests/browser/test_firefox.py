@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.web.step_page import step_page
-from tests.browser.firefox import LOOKS, Firefox, _no_errors, firefox  # noqa: F401
+from tests.browser.firefox import LOOKS, Firefox
 from tests.browser.opening import missing
 from tests.chosen import EVERY
 from tests.documents.sheet_tools import mechanism_named
@@ -60,7 +60,7 @@ def barred(window: Firefox) -> list[Any]:
 
 
 @pytest.mark.parametrize(("size", "look"), SHOWN, ids=str)
-def test_it_shows_every_step_with_nothing_against_it(firefox, pump, size, look):  # noqa: F811
+def test_it_shows_every_step_with_nothing_against_it(firefox, pump, size, look):
     firefox.open(pump, "#step=9", size, look)
     assert firefox.run("return matchMedia(arguments[0]).matches", QUERIES[look])
     assert firefox.run(COUNT) == "Step 9 of 42"
@@ -73,7 +73,7 @@ def test_it_shows_every_step_with_nothing_against_it(firefox, pump, size, look):
 
 
 @pytest.mark.parametrize("kind", ["mouse", "touch"])
-def test_the_crank_is_dragged(firefox, pump, kind):  # noqa: F811
+def test_the_crank_is_dragged(firefox, pump, kind):
     firefox.open(pump, "#step=9", (1440, 900), "still")
     before = firefox.run(DRIVER)
     x, y = firefox.run(PLACE, GRIP)
@@ -81,7 +81,7 @@ def test_the_crank_is_dragged(firefox, pump, kind):  # noqa: F811
     assert firefox.run(DRIVER) > before + 3
 
 
-def test_pins_and_figures_are_led_by_keys(firefox, pump):  # noqa: F811
+def test_pins_and_figures_are_led_by_keys(firefox, pump):
     firefox.open(pump, "#step=9", (1440, 900), "still")
     before = firefox.run(DRIVER)
     firefox.run("document.querySelector(arguments[0]).focus()", GRIP)
@@ -95,7 +95,7 @@ def test_pins_and_figures_are_led_by_keys(firefox, pump):  # noqa: F811
     assert firefox.run("return document.querySelector('#figures .figure').textContent") == "1"
 
 
-def test_a_figure_is_dragged_and_all_goes_back(firefox, pump):  # noqa: F811
+def test_a_figure_is_dragged_and_all_goes_back(firefox, pump):
     firefox.open(pump, "#step=20", (1440, 900), "still")
     x, y = firefox.run(PLACE, "#figures .figure")
     firefox.drag((x, y), (x + 25, y))
@@ -105,7 +105,7 @@ def test_a_figure_is_dragged_and_all_goes_back(firefox, pump):  # noqa: F811
     assert firefox.run("return document.getElementById('driven').textContent") == "44.0°"
 
 
-def test_a_turn_begins_and_helps_itself(firefox, pump):  # noqa: F811
+def test_a_turn_begins_and_helps_itself(firefox, pump):
     firefox.open(pump, "#step=5", (1440, 900), "still")
     firefox.run("document.getElementById('turn').click()")
     for _ in range(3):
@@ -160,7 +160,7 @@ def others(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ("name", "look"),
     [*(product(OTHERS, LOOKS) if EVERY else zip(OTHERS, [*LOOKS][1:], strict=True))],
 )
-def test_other_pages_go_through_every_step(firefox, others, name, look):  # noqa: F811
+def test_other_pages_go_through_every_step(firefox, others, name, look):
     size = OTHERS[name]
     firefox.open(others / f"{name}.html", "", size, look)
     steps = firefox.run("return document.querySelectorAll('#steps li').length")
@@ -173,7 +173,7 @@ def test_other_pages_go_through_every_step(firefox, others, name, look):  # noqa
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_a_whole_turn_on_other_pages(firefox, others, name):  # noqa: F811
+def test_a_whole_turn_on_other_pages(firefox, others, name):
     for look, size in zip(LOOKS, SIZES if EVERY else [OTHERS[name]], strict=False):
         firefox.open(others / f"{name}.html", "#step=1", size, look)
         left = firefox.run(TURN)
@@ -186,7 +186,7 @@ def test_a_whole_turn_on_other_pages(firefox, others, name):  # noqa: F811
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_the_pin_of_the_driver_is_dragged_on_other_pages(firefox, others, name):  # noqa: F811
+def test_the_pin_of_the_driver_is_dragged_on_other_pages(firefox, others, name):
     firefox.open(others / f"{name}.html", "#step=6", (1440, 900), "still")
     before = firefox.run(DRIVER)
     x, y = firefox.run(PLACE, GRIP)
@@ -194,7 +194,7 @@ def test_the_pin_of_the_driver_is_dragged_on_other_pages(firefox, others, name):
     assert abs(firefox.run(DRIVER) - before) > 3
 
 
-def test_each_of_two_drivers_has_its_handle(firefox, tmp_path):  # noqa: F811
+def test_each_of_two_drivers_has_its_handle(firefox, tmp_path):
     path = tmp_path / "five-bar.html"
     path.write_text(step_page(mechanism_named("five-bar"), "en"), encoding="utf-8")
     firefox.open(path, "#step=9", (1440, 900), "still")

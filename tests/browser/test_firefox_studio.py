@@ -10,7 +10,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.server import Served
 from tests.browser.building_hand import LONG, Hand, build_slotted_lever, four_bar
-from tests.browser.firefox import Firefox, _no_errors, firefox  # noqa: F401
+from tests.browser.firefox import Firefox
 
 FIELD = """const svg = document.querySelector("#canvas svg"), box = svg.getBoundingClientRect();
 return [box.x, box.y, box.width, box.height, svg.getAttribute("viewBox")];"""
@@ -74,7 +74,7 @@ class FirefoxHand(Hand):
 
 
 @pytest.fixture
-def hand(firefox: Firefox, served: Served) -> Hand:  # noqa: F811
+def hand(firefox: Firefox, served: Served) -> Hand:
     """A hand at an empty field."""
     firefox.open_address(f"{served.address}?empty=yes", (1440, 900))
     found = FirefoxHand(firefox)

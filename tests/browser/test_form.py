@@ -22,7 +22,7 @@ from graphkin.text import words
 from graphkin.web.offline_page import offline_page
 from tests.browser.opening import Opened
 from tests.classroom.grading.students import book_of
-from tests.cli.conftest import Run, run  # noqa: F401
+from tests.running import Run
 
 ROSTER = 'Nr.;Matricol;Nume;Grupa\n7;0042;Ștefănescu Ana;A\n9;0043;"O\'Neil, Jr. Pat";A\n'
 LABS = ("pump", "slotted-lever")
@@ -101,7 +101,7 @@ def cells(path: Path, separator: str) -> dict[str, str]:
 def test_the_key_filled_in_saved_and_graded_earns_every_point(
     opened: Opened,
     any_folder: Path,
-    run: Run,  # noqa: F811
+    run: Run,
     tmp_path: Path,
 ):
     page = opened(page_of(any_folder))

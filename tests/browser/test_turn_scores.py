@@ -13,7 +13,7 @@ from graphkin.cli.main import app
 from tests.browser.opening import Opened
 from tests.browser.test_form import ROSTER
 from tests.browser.test_your_turn import by_lists
-from tests.cli.conftest import Run, run  # noqa: F401
+from tests.running import Run
 
 TOLD = '{"graphkin_turn":1,"id":"%s","from":6,"steps":%s,"left":2,"seal":"%s"}'
 
@@ -42,7 +42,7 @@ def answers(tmp_path) -> Path:
     return found
 
 
-def graded(run: Run, folder: Path, answers: Path, report: Path) -> tuple[str, list[dict[str, str]]]:  # noqa: F811
+def graded(run: Run, folder: Path, answers: Path, report: Path) -> tuple[str, list[dict[str, str]]]:
     """What grading says, and the score sheets that it lists."""
     result = run("grade", folder, answers, "-o", report, "--format", "none")
     assert result.exit_code == 0, result.output
@@ -54,7 +54,7 @@ def test_a_saved_score_sheet_is_listed_beside_answers(
     opened: Opened,
     folder: Path,
     answers: Path,
-    run: Run,  # noqa: F811
+    run: Run,
     tmp_path: Path,
 ):
     page = opened(
@@ -103,7 +103,7 @@ def test_a_saved_score_sheet_is_listed_beside_answers(
         (TOLD % ("9999", "[]", ""), '"9999" is no student of this class'),
     ],
 )
-def test_what_is_no_score_sheet_is_told(run, folder, answers, tmp_path, text, words_found):  # noqa: F811
+def test_what_is_no_score_sheet_is_told(run, folder, answers, tmp_path, text, words_found):
     (answers / "0042-turn.json").write_text(text, encoding="utf-8")
     result = run("grade", folder, answers, "-o", tmp_path / "report", "--format", "none")
     assert result.exit_code == 2
@@ -112,7 +112,7 @@ def test_what_is_no_score_sheet_is_told(run, folder, answers, tmp_path, text, wo
     assert not (tmp_path / "report").exists()
 
 
-def test_without_an_id_the_name_of_the_file_tells_whose_it_is(run, folder, answers, tmp_path):  # noqa: F811
+def test_without_an_id_the_name_of_the_file_tells_whose_it_is(run, folder, answers, tmp_path):
     (answers / "0043-turn.json").write_text(TOLD % ("", "[]", ""), encoding="utf-8")
     _, (row,) = graded(run, folder, answers, tmp_path / "report")
     assert (row["id"], row["seal"], row["left"]) == ("0043", "none", "2")

@@ -20,7 +20,6 @@ from graphkin.classroom.roster.student_signs import signs
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
 from tests.classroom.grading.students import LABS
-from tests.cli.conftest import Run, run  # noqa: F401
 
 WHOSE = Identity("0042", "pump CODE", "0042", "Ștefănescu Ana")
 

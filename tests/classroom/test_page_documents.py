@@ -10,7 +10,7 @@ from graphkin.mechanism import load
 from graphkin.text import words
 from graphkin.web import step_page as pages
 from graphkin.web.slider import Slider
-from tests.cli.conftest import Run, run  # noqa: F401
+from tests.running import Run
 
 
 def written(folder: Path) -> list[str]:
@@ -19,7 +19,7 @@ def written(folder: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("view", ["key", "steps"])
-def test_one_page_is_written_with_every_step(run: Run, tmp_path: Path, view):  # noqa: F811
+def test_one_page_is_written_with_every_step(run: Run, tmp_path: Path, view):
     args = ("sheet", "pump", "--set", "n=7", "-o", tmp_path, "--format", "html", "--view", view)
     result = run(*args, "--lang", "en")
     assert result.exit_code == 0, result.stderr
@@ -30,7 +30,7 @@ def test_one_page_is_written_with_every_step(run: Run, tmp_path: Path, view):  #
     assert run(*args).exit_code == 2  # it is there already
 
 
-def test_the_task_of_a_lab_holds_its_form(run: Run, tmp_path: Path):  # noqa: F811
+def test_the_task_of_a_lab_holds_its_form(run: Run, tmp_path: Path):
     args = ("sheet", "pump", "-o", tmp_path, "--format", "html", "--view", "task", "--lang", "en")
     assert run(*args).exit_code == 0
     page = (tmp_path / "pump-task.html").read_text(encoding="utf-8")

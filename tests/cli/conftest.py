@@ -1,19 +1,12 @@
-"""Running the commands, in this process or in one of their own."""
+"""A four-bar with numbers of one's own."""
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from graphkin.cli.main import app
-
-ROOT = Path(__file__).resolve().parents[2]
 FOUR_BAR = """
 graphkin = 1
 title = "Four-bar"
@@ -41,18 +34,6 @@ B = "left of A-O2"
 """
 USUAL = {"rocker": 60, "base": 80, "crank": 30, "coupler": 70, "angle": 60, "speed": 2}
 
-Run = Callable[..., Result]
-
-
-@pytest.fixture
-def run() -> Run:
-    """Run a command in this process: run("solve", "pump")."""
-
-    def ran(*args: object) -> Result:
-        return CliRunner().invoke(app, [str(arg) for arg in args])
-
-    return ran
-
 
 @pytest.fixture
 def four_bar(tmp_path: Path) -> Callable[..., Path]:
@@ -65,16 +46,3 @@ def four_bar(tmp_path: Path) -> Callable[..., Path]:
         return path
 
     return written
-
-
-def command(*args: str, **env: str) -> subprocess.CompletedProcess[bytes]:
-    """Run the command line in a process of its own, its output as bytes."""
-    return python("-m", "graphkin", *args, **env)
-
-
-def python(*args: str, **env: str) -> subprocess.CompletedProcess[bytes]:
-    """Run Python in a process of its own on this checkout."""
-    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), **env}
-    return subprocess.run(
-        [sys.executable, *args], env=surroundings, capture_output=True, check=False
-    )

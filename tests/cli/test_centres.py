@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.cli.conftest import Run
+from tests.running import Run
 
 
 def solved(run: Run, *args: object) -> Any:

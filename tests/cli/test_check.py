@@ -10,7 +10,7 @@ import pytest
 
 from graphkin import load
 from graphkin.diagnosis.closures import choices
-from tests.cli.conftest import ROOT, Run
+from tests.running import ROOT, Run
 from tests.scene_files import scene_text
 
 

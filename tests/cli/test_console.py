@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.cli.console import BROKEN_PIPE
-from tests.cli.conftest import ROOT, Run, command
+from tests.running import ROOT, Run, command
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import pytest
 from graphkin import load
 from graphkin.construction.core.effect import Effect
 from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, NAMES, EffectRow, effects
-from tests.cli.conftest import ROOT, Run
+from tests.running import ROOT, Run
 
 SCENES = ROOT / "examples" / "scenes"
 

@@ -10,7 +10,7 @@ import pytest
 from graphkin.accuracy.pencil import Pencil, drawn
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
-from tests.cli.conftest import Run
+from tests.running import Run
 
 
 def by_pencil(run: Run, *args: object) -> Any:

@@ -10,7 +10,7 @@ import pytest
 import graphkin.documents.sheet_documents
 from graphkin.drawing.marks import Page
 from graphkin.text.errors import PageError, Problem, WitnessError
-from tests.cli.conftest import Run
+from tests.running import Run
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.cli.conftest import ROOT, Run
+from tests.running import ROOT, Run
 from tests.scene_files import scene_text
 
 

@@ -139,14 +139,14 @@ class Hand:
         """A length of the mechanism on paper: given, or measured where it is drawn."""
         for symbol in (p + q, q + p):
             try:
-                value, unit = re.match(rf"({NUMBER}) (mm|cm|m)\b", self.given(symbol)).groups()  # type: ignore[union-attr]
+                value, unit = re.match(rf"({NUMBER}) (mm|cm|m)\b", self.given(symbol)).groups()
             except DefectError:
                 continue
             return number(value) * MILLIMETRES[unit] / self.scale
         for item in self.items:
             own = dict(re.findall(rf"({NAME}) \(({NUMBER}[;,] {NUMBER})\)", item))
             if "in the axes of link" in item and p in own and q in own:
-                unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
+                unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]
                 ends = (complex(*map(number, re.split("[;,] ", own[end]))) for end in (p, q))
                 one, two = ends
                 return abs(two - one) * unit / self.scale
@@ -313,7 +313,7 @@ class Hand:
     def centre(self, link: str) -> complex:
         """The centre of a wheel."""
         item = self.told_of(rf"(?:inner )?(?:gear|wheel|ring) {link}: centre")
-        return self.at(re.search(rf"centre ({NAME})", item)[1])  # type: ignore[index]
+        return self.at(re.search(rf"centre ({NAME})", item)[1])
 
     def driven_way(self, of: str, symbol: str) -> complex:
         """The sense in which a block or wheel is driven along its guide or track."""

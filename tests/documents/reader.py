@@ -200,7 +200,7 @@ class Reader(Trials):
         item = next((i for i in self.items if i.endswith(f"in the axes of link {k}")), None)
         if item is None:
             raise DefectError(f"the points of link {k} are not given")
-        unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]  # type: ignore[index]
+        unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]
         return {
             one: complex(number(x), number(y)) * unit / self.scale
             for one, x, y in re.findall(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\)", item)
@@ -355,7 +355,7 @@ class Reader(Trials):
         track = self.positive(track, rolls) if "(positive" in rolls else track
         laid = Line.of(
             track.point, cmath.rect(1, self.angle(re.search(rf"at ({NUMBER}°)", rolls)[1]))
-        )  # type: ignore[index]
+        )
         away = laid.along * (1j if side[1] == "left" else -1j)
         radius = number(size[1]) * MILLIMETRES[size[2]] / self.scale
         self.ray = Line(track.point + away * radius, track.along)
@@ -745,7 +745,7 @@ class Reader(Trials):
     )
     def rack(self, k: str, arc: str, name: str) -> None:
         item = self.told_of(rf"gear \d+ meshes in {NAME} with a rack along the line of link {k}")
-        gear = re.match(r"gear (\d+)", item)[1]  # type: ignore[index]
+        gear = re.match(r"gear (\d+)", item)[1]
         start = re.search(
             rf"touching it at {re.escape(name)} when {NAME}{NAME} is at ({NUMBER}°)", item
         )
@@ -876,7 +876,7 @@ class Reader(Trials):
         middle, length = (self.at(c) + self.at(p)) / 2, abs(self.at(p) - self.at(c))
         ends = crossings(Circle(self.at(c), abs(foot - self.at(c))), Circle(middle, length / 2))
         chord = Line.of(ends[0], ends[1] - ends[0])
-        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]
         (meets,), (far,) = crossings(chord, rod), crossings(chord, Line.of(self.at(o), guide))
         for name, where in ((tip, foot), (cut, meets), (end, far)):
             self.put_triangle(canonical(name) + index, where)
@@ -943,7 +943,7 @@ class Reader(Trials):
     def triangle(self, a: str, v: str, p: str, q: str, letter: str) -> None:
         """The right triangle: its height on the bar is the velocity."""
         centre, point = self.at(p), self.at(q)
-        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]
         tip = point + self.set_off(v) / self.shorter
         bar = Line.of(centre, point - centre)
         (cut,) = crossings(Line.of(tip, (tip - centre) * 1j), bar)
@@ -988,12 +988,12 @@ class Reader(Trials):
         self.longer = times(more)
         plan = self.velocity
         factor, ends = factored(xy)
-        x, y = re.fullmatch(rf"({NAME})({NAME})", ends).groups()  # type: ignore[union-attr]
+        x, y = re.fullmatch(rf"({NAME})({NAME})", ends).groups()
         slide = factor * (plan[canonical(y)] - plan[canonical(x)])
         foot = self.at(p)
         tip = foot + slide
         (cut,) = crossings(Line.of(tip, slide * 1j), Line.of(foot, self.line_of(line, p, tip)))
-        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]  # type: ignore[index]
+        index = "_" + re.match(r"a_\{(.*?)\}", a)[1]
         e, f = e[0], f[0]
         self.place[canonical(e) + index], self.place[canonical(f) + index] = tip, cut
         self.vectors[a] = slide / abs(slide) * 1j * self.sense(w) * self.longer * abs(cut - tip)

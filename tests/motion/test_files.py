@@ -23,8 +23,8 @@ from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
 from graphkin.writers.plot_style import look
-from tests.cli.conftest import Run, run  # noqa: F401
 from tests.motion.linkages import five_bar, four_bar, slider_crank
+from tests.running import Run
 from tests.scene_files import scene_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -65,7 +65,7 @@ def test_a_centre_at_infinity_leaves_its_cell_empty():
     assert np.isnan(place) or abs(place) > 1e12 or abs(columns["Iy_2 [m]"]) > 1e12
 
 
-def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_path: Path):  # noqa: F811
+def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_path: Path):
     result = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--steps", 36)
     assert result.exit_code == 0, result.stderr
     names = {path.name for path in tmp_path.iterdir()}
@@ -89,7 +89,7 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
     assert forced.exit_code == 0
 
 
-def test_a_mechanism_that_never_closes_is_a_message(run: Run, tmp_path: Path):  # noqa: F811
+def test_a_mechanism_that_never_closes_is_a_message(run: Run, tmp_path: Path):
     scene = (SCENES / "crank-rocker.toml").read_text().replace("O1-A = 40", "O1-A = 4000")
     path = tmp_path / "never.toml"
     path.write_text(scene)

@@ -5,11 +5,8 @@ from __future__ import annotations
 import pytest
 
 from graphkin.mechanism import Mechanism
-from tests.cli.conftest import run
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text
-
-__all__ = ["run", "touching"]
 
 TOUCHING = scene_text("numbers/touching")
 

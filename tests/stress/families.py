@@ -150,7 +150,7 @@ def gears(rng: random.Random, span: float) -> Truth:
             wheel = tuple(a - (w - a) * ratio for w, a in zip(wheel, arm, strict=True))
         carried = turned(places[i] * MP.mpc(1), arm[1], arm[2])
         rim = turned(radius * MP.expj(wheel[0]), wheel[1], wheel[2])
-        points[f"T{i}"] = tuple(a + b for a, b in zip(carried, rim, strict=True))  # type: ignore[assignment]
+        points[f"T{i}"] = tuple(a + b for a, b in zip(carried, rim, strict=True))
         turning[f"w{i}"] = wheel[1], wheel[2]
     text += f'[[drivers]]\nturn = "w0"\nangle = 60\nspeed = "{written(speed)}"\nacceleration = 1\n'
     text += f'[[drivers]]\nturn = "arm"\nangle = 0\nspeed = "{written(lead)}"\nacceleration = 2\n'
@@ -158,7 +158,7 @@ def gears(rng: random.Random, span: float) -> Truth:
 
 
 FAMILIES: dict[str, Callable[[random.Random], Truth]] = {
-    **{f"{n} flat dyads": lambda rng, n=n: chain(rng, n) for n in range(1, 7)},  # type: ignore[misc]
+    **{f"{n} flat dyads": lambda rng, n=n: chain(rng, n) for n in range(1, 7)},
     "four-bars to the dead point": lambda rng: four_bar(rng, 0.5, 9),
     "four-bars of bars 1e-6 to 1e6": lambda rng: four_bar(rng, 6, 7),
     "wheels of radii 1e-6 to 1e6": lambda rng: gears(rng, 6),

@@ -39,7 +39,7 @@ from graphkin.web.panes import (
 )
 from graphkin.web.player import player_page
 from tests.chosen import EVERY
-from tests.cli.conftest import Run, run  # noqa: F401
+from tests.running import Run
 from tests.scene_files import scene_text
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -372,7 +372,7 @@ def in_few_moments(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("in_few_moments")
-def test_the_command_writes_both(run: Run, tmp_path: Path):  # noqa: F811
+def test_the_command_writes_both(run: Run, tmp_path: Path):
     args = ("cycle", "slotted-lever", "-o", tmp_path, "--format", "gif,html", "--steps", "4")
     result = run(*args)
     assert result.exit_code == 0, result.output
@@ -385,7 +385,7 @@ def test_the_command_writes_both(run: Run, tmp_path: Path):  # noqa: F811
 
 
 @pytest.mark.parametrize("kind", ["gif", "html"])
-def test_what_cannot_move_is_a_message(run: Run, tmp_path: Path, kind: str):  # noqa: F811
+def test_what_cannot_move_is_a_message(run: Run, tmp_path: Path, kind: str):
     path = tmp_path / "rigid.toml"
     path.write_text(scene_text("web/rigid"), encoding="utf-8")
     result = run("cycle", path, "-o", tmp_path / "out", "--format", kind)
@@ -395,7 +395,7 @@ def test_what_cannot_move_is_a_message(run: Run, tmp_path: Path, kind: str):  # 
 
 
 @pytest.mark.usefixtures("in_few_moments")
-def test_a_page_moves_one_of_several_drivers(run: Run, tmp_path: Path):  # noqa: F811
+def test_a_page_moves_one_of_several_drivers(run: Run, tmp_path: Path):
     args = ("cycle", SCENES / "five-bar.toml", "--driver", "2", "-o", tmp_path)
     assert run(*args, "--format", "html,gif", "--steps", "4").exit_code == 0
     page = (tmp_path / "five-bar-motion.html").read_text(encoding="utf-8")

@@ -14,11 +14,10 @@ from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
 from graphkin.web.field_extents import box_of, room_of
 from graphkin.web.step_page import step_page
-from tests.browser.opening import Opened, chromium, opened, tabs  # noqa: F401
+from tests.browser.opening import Opened
 from tests.chosen import EVERY
 from tests.web.laid import laid
 from tests.web.test_moving import LIMIT, fields, named, page_of
-from tests.web.test_moving_browser import page  # noqa: F401
 
 SCENES = ("pump", "gears-ring", "slotted-lever")
 PLACES = (0.05, 0.17, 0.3, 0.43, 0.57, 0.7, 0.83, 0.95)
@@ -100,7 +99,7 @@ def test_every_line_ends_at_the_points_it_belongs_to(name):
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_what_must_be_seen_lies_in_the_extent(page, name):  # noqa: F811
+def test_what_must_be_seen_lies_in_the_extent(page, name):
     """Pins and points of both fields, as far as the field can grow; it is never larger."""
     sheets, found = page_of(name)
     boxes = page.evaluate(EXTENTS, [found.source, places_of(name)])
@@ -148,7 +147,7 @@ MOVED = {"pump": 150, "slotted-lever": 216, "gears-ring": 306}
 
 
 @pytest.mark.parametrize("name", MOVED if EVERY else ["pump"])
-def test_all_points_are_in_sight_after_a_move(opened: Opened, tmp_path: Path, name):  # noqa: F811
+def test_all_points_are_in_sight_after_a_move(opened: Opened, tmp_path: Path, name):
     """The pane follows what leaves it."""
     path = tmp_path / "page.html"
     path.write_text(step_page(named(name), "en"), encoding="utf-8")

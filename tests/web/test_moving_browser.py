@@ -16,7 +16,6 @@ from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.tape_outputs import ran
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
 from graphkin.web.moving import Moving
-from tests.browser.opening import chromium  # noqa: F401
 from tests.chosen import EVERY
 from tests.web.laid import laid
 from tests.web.test_moving import LIMIT, compared, fields, page_of
@@ -64,12 +63,6 @@ DRAWN = """([source, svg, x]) => {
   return made.map((mark) => [mark.id, mark.tagName, mark.getAttribute('class'),
     mark.previousElementSibling.id, mark.getAttribute('data-step'), mark.namespaceURI]);
 }"""
-
-
-@pytest.fixture(scope="module")
-def page(chromium: Any) -> Any:  # noqa: F811
-    """An empty page."""
-    return chromium.new_page()
 
 
 def run(page: Any, name: str, places: Sequence[float]) -> list[dict[str, Any]]:

@@ -18,7 +18,6 @@ from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import joined
 from graphkin.web.your_turn import palette, record
-from tests.browser.opening import chromium  # noqa: F401
 from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 
@@ -40,12 +39,6 @@ def turn_of(name: str) -> tuple[list[ScreenSheet], PageProtocol, YourTurn]:
     sheets = screen_sheets(mechanism, "en")
     told = telling(sheets)
     return sheets, told, your_turn(sheets, told)
-
-
-@pytest.fixture(scope="module")
-def page(chromium: Any) -> Any:  # noqa: F811
-    """An empty page."""
-    return chromium.new_page()
 
 
 def flat(value: Any) -> list[float]:

@@ -158,7 +158,7 @@ def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
     if by_arrays(usual) and len(like) > 1:
         found = empty(len(like))
         values = {
-            name: np.array([float(own[i].scene.values[name]) for i in like])  # type: ignore[arg-type]
+            name: np.array([float(own[i].scene.values[name]) for i in like])
             for name in usual.scene.values
         }
         done = scaled(usual, values, found)

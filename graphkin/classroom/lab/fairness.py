@@ -86,7 +86,7 @@ class Fairness(Struct, dict=True):
     form: tuple[str, ...]
     closes: Array
     fits: Array
-    kL: Array  # noqa: N815
+    kL: Array
     larger: Array
     larger_still: Array
     crossings: dict[str, Array] = field(default_factory=dict)

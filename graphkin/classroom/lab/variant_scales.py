@@ -33,7 +33,7 @@ class Scaling(Struct):
     nothing fits. ``rates`` is what the hand tries in auxiliary plans, by the step.
     """
 
-    kL: Array  # noqa: N815
+    kL: Array
     seconds: Array
     larger: Array
     larger_still: Array

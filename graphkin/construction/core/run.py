@@ -15,7 +15,7 @@ Values = Mapping[str, Any]
 Hook = Callable[[int, Step, Any], Any]
 
 
-class StepFailed(Exception):  # noqa: N818
+class StepFailed(Exception):
     """A step that cannot be drawn on one scene, with the values it was to be drawn from."""
 
     def __init__(self, number: int, step: Step, args: tuple[Any, ...]) -> None:

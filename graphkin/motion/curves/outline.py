@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec import Struct
@@ -214,10 +214,10 @@ def profiles(ax: Axes, stand: Outline, link: Link, size: float) -> None:
         ax.plot(rim.real, rim.imag, color=FAINT, linewidth=1.8, zorder=3)
 
 
-def circle(ax: Axes, centre: complex, radius: float, **style: object) -> None:
+def circle(ax: Axes, centre: complex, radius: float, **style: Any) -> None:
     """A circle as a line."""
     rim = centre + radius * np.exp(1j * np.linspace(0, 2 * np.pi, 361))
-    ax.plot(rim.real, rim.imag, **style)  # type: ignore[arg-type]
+    ax.plot(rim.real, rim.imag, **style)
 
 
 def block(ax: Axes, stand: Outline, link: Link, slide: Slide, size: float) -> None:
@@ -252,11 +252,10 @@ def draw_white(ax: Axes, corners: list[complex], edge: float) -> None:
 def guide_of(stand: Outline, slide: Slide) -> complex | None:
     """The direction of a guide; None where two of its points do not tell it."""
     if slide.along is not None:
-        ends = [stand.places.get(point) for point in slide.along]
-        if None in ends or ends[0] == ends[1]:
+        start, end = (stand.places.get(point) for point in slide.along)
+        if start is None or end is None or start == end:
             return None
-        way = ends[1] - ends[0]  # type: ignore[operator]
-        return complex(way / abs(way))
+        return complex((end - start) / abs(end - start))
     if slide.on == FRAME and slide.angle is not None:
         return complex(slide.angle.direction(stand.scene.values))
     return None

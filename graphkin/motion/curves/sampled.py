@@ -53,7 +53,7 @@ class Sampled(Struct, frozen=True, eq=False):
         """The title of the scene with its parameters as set."""
         values = self.scene.values
         settings = [
-            f"{name} = {float(values[name]):.6g}"  # type: ignore[arg-type]
+            f"{name} = {float(values[name]):.6g}"
             for name in self.scene.parameters
             if name in values
         ]

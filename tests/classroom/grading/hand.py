@@ -58,7 +58,7 @@ class Hand:
     ``degrees`` of a direction, ``ruler`` mm of a reading, which is rounded to ``step`` mm.
     """
 
-    kL: float  # noqa: N815
+    kL: float
     kv: float
     ka: float
     rng: np.random.Generator | None = None

@@ -136,7 +136,7 @@ class Task:
     def drawn(self, rng: np.random.Generator | None = None, **how: object) -> dict[str, float]:
         """What is read off one drawing, by a pencil where there is ``rng``."""
         pencil = {"sigma": 0.1, "degrees": 0.1, "ruler": 0.05} if rng is not None else {}
-        student = Student(*self.sheet, rng, **pencil, lab=self.lab, **how)  # type: ignore[arg-type]
+        student = Student(*self.sheet, rng, **pencil, lab=self.lab, **how)
         hand.DRAW[self.lab](student, self.given)
         found = student.hand_in()
         return {name: found[name] for name in self.fields}

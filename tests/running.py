@@ -1,0 +1,40 @@
+"""Running the commands, in this process or in one of their own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from graphkin.cli.main import app
+
+ROOT = Path(__file__).resolve().parents[1]
+Run = Callable[..., Result]
+
+
+@pytest.fixture
+def run() -> Run:
+    """Run a command in this process: run("solve", "pump")."""
+
+    def ran(*args: object) -> Result:
+        return CliRunner().invoke(app, [str(arg) for arg in args])
+
+    return ran
+
+
+def command(*args: str, **env: str) -> subprocess.CompletedProcess[bytes]:
+    """Run the command line in a process of its own, its output as bytes."""
+    return python("-m", "graphkin", *args, **env)
+
+
+def python(*args: str, **env: str) -> subprocess.CompletedProcess[bytes]:
+    """Run Python in a process of its own on this checkout."""
+    surroundings = {**os.environ, "PYTHONPATH": str(ROOT), **env}
+    return subprocess.run(
+        [sys.executable, *args], env=surroundings, capture_output=True, check=False
+    )
