@@ -414,14 +414,13 @@ class PointSearch:
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
         places = self.candidates(number, ends, crossed)
-        taken = [*self.own.values(), *ends, *self.tried_points(number)]
+        taken = [*self.own.values(), *ends, *self.tried_points(number), besides]
         plausible = [
             place
             for place in places
             if in_fields(place)
             and all(abs(place - other) > 2 * APART for other in taken)
             and sum(abs(place - end) > 2 * SHORT for end in ends) >= min(2, len(ends))
-            and abs(place - besides) > 2 * APART
         ]
         first = sorted(
             ((self.led_to(number, place, ends, crossed), place) for place in plausible),
