@@ -113,7 +113,7 @@ def reached_words(scene: Scene, found: Sequence[Range], number: int = 1) -> str:
 
 
 def slid_words(scene: Scene, found: Range, number: int) -> str:
-    """One range of a driver that slides or rolls."""
+    """One range of a driver that does not turn."""
     from graphkin.motion.driving import GRID
 
     sweep, unit = swept(scene, number), scene.units["length"]
@@ -164,7 +164,7 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     least = step if course.closing_work else 0.0
     course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]), least)
     margins = course.margins(grid)
-    closed = np.isfinite(margins).all(axis=0)
+    closed = np.asarray(np.isfinite(margins).all(axis=0))
     if len(margins) > 1 and np.nanmin(margins[:-1], axis=0, initial=1.0).max(initial=0.0) < NOISE:
         return []
     if closed.all():
@@ -174,10 +174,10 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     if not sweep.whole:
         closed = np.concatenate([[False], closed, [False]])
         grid = np.concatenate([[grid[0] - step], grid, [grid[-1] + step]])
-    starts = np.flatnonzero(closed & ~np.roll(closed, 1))
-    ends = np.flatnonzero(closed & ~np.roll(closed, -1))
+    change = np.diff(closed.astype(int), prepend=int(closed[-1]))
+    starts, ends = np.flatnonzero(change > 0), np.flatnonzero(change < 0) - 1
     if ends[0] < starts[0]:
-        ends = np.roll(ends, -1)
+        ends = np.append(ends[1:], ends[0])
     steps = np.repeat([-step, step], [len(starts), len(ends)])
     at = refined(course, np.concatenate([grid[starts], grid[ends]]), steps)
     lows, highs = at[: len(starts)].tolist(), at[len(starts) :].tolist()

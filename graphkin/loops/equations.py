@@ -21,7 +21,6 @@ from graphkin.loops.chains import Chains, Linear, packed
 from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
     Gear,
-    NoSlip,
     Slips,
     counted_turnings,
     gears_of,
@@ -29,6 +28,7 @@ from graphkin.loops.no_slip import (
     slips_of,
     standing,
     starting_angles,
+    tied_without_slip,
     tracks_of,
 )
 from graphkin.loops.rigid_bodies import (
@@ -42,8 +42,7 @@ from graphkin.loops.rigid_bodies import (
     longest,
 )
 from graphkin.loops.vector_chains import Tree, Turnings, refuse_unknown_lean, turnings
-from graphkin.scene.model import FRAME, Driver, Scene
-from graphkin.scene.phrases import LEADING
+from graphkin.scene.model import FRAME, LEADING, Driver, Scene
 from graphkin.text.errors import Problem, StructureError
 
 CANCELLED = 2.0**-48
@@ -198,7 +197,7 @@ def equations(
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
     near = starting_angles(written, every, numbers)
     turned = standing(turned, near, numbers)
-    tied = set[str]().union(*(tied_by_contact(written, slip) for slip in every))
+    tied = set[str]().union(*(tied_without_slip(written, slip) for slip in every))
     counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
@@ -219,16 +218,6 @@ def equations(
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
     )
-
-
-def tied_by_contact(scene: Scene, slip: NoSlip) -> set[str]:
-    """The links of a contact that it turns, or that count with what does.
-
-    A track that a driver slides counts by itself.
-    """
-    slid = {driver.link for driver in scene.drivers if driver.kind == "slide"}
-    wheel, on, *_ = slip.links
-    return {wheel} if slip.track is not None and on in slid else {*slip.links}
 
 
 def tied_by(driver: Driver) -> tuple[str, ...]:

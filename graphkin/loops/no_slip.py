@@ -357,3 +357,13 @@ def turned_from(scene: Scene, turned: Turnings) -> list[Driver]:
         for n, (driver, k) in enumerate(zip(drivers, turning, strict=True))
         if (k < 0 or k not in turning[:n]) and turned.of.get(driver.against) not in turning
     ]
+
+
+def tied_without_slip(scene: Scene, slip: NoSlip) -> set[str]:
+    """The links of a contact that it turns, or that count with what does.
+
+    A track that a driver slides counts by itself.
+    """
+    slid = {driver.link for driver in scene.drivers if driver.kind == "slide"}
+    wheel, on, *_ = slip.links
+    return {wheel} if slip.track is not None and on in slid else {*slip.links}

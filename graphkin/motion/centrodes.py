@@ -1,4 +1,4 @@
-"""The fixed and the moving centrode of a link: the motion is the one rolling on the other."""
+"""The fixed and the moving centrode of a link: where its instantaneous centre comes to lie."""
 
 from __future__ import annotations
 

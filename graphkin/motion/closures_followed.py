@@ -1,4 +1,4 @@
-"""Where a group of several trials closes along a motion: sought near the places on both sides."""
+"""Where a group closes along a motion: sought near the places on both sides."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ Reals = np.ndarray[Any, np.dtype[Any]]
 NEAR = 0.3
 """How far a closure may lie from where it is sought, in parts of the way between its neighbours."""
 CUBIC = 4
-"""Places through which the way of trial values is laid."""
+"""Places through which the way of what is tried is laid."""
 
 
 class FollowedClosures(Struct, frozen=True, eq=False):
-    """One closure at rising u (N,): rows of trial values, signs and the sine of crossing (N, n)."""
+    """One closure at rising u (N,), in rows (N, n) as its solver splits them."""
 
     at: Reals
     rows: Reals
@@ -49,7 +49,7 @@ class FollowedClosures(Struct, frozen=True, eq=False):
         return FollowedClosures(*(np.concatenate(part) for part in both))
 
     def closed(self, solver: ClosureSolver, known: list[Reals], at: Reals) -> tuple[Any, ...]:
-        """What closes the group at each u (K,): trial values, signs, the sine of crossing.
+        """What closes the group at each u (K,), as its solver gives it.
 
         Where it is not sure, every closure is sought, and that of the number taken.
         """
@@ -69,21 +69,22 @@ class FollowedClosures(Struct, frozen=True, eq=False):
 
         NaN where it may lead to another closure.
         """
-        size, count = len(trying.unknowns), len(self.at)
+        count = len(self.at)
         rows = np.full((len(at), self.rows.shape[1]), np.nan)
         which = np.flatnonzero((self.at[0] <= at) & (at <= self.at[-1]) & (count > 1))
         if not which.size:
             return rows
         after = np.clip(np.searchsorted(self.at, at[which]), 1, count - 1)
         turning = [one.turns for one in trying.unknowns]
-        led, signs = self.rows[:, :size].copy(), self.rows[after - 1, size:-1]
+        led, every, _ = trying.split(self.rows)
+        led, signs = led.copy(), every[after - 1]
         led[:, turning] = np.unwrap(led[:, turning], axis=0)
         between, way = interpolated(self.at, led, at[which], after), led[after] - led[after - 1]
         here = [array[which] for array in known]
         tried = trying.closed_beside(here, between, signs)
         sine = trying.sines(here, tried, signs)
         sure = abs(tried - between).max(axis=1) <= NEAR * abs(way).max(axis=1)
-        sure &= (signs == self.rows[after, size:-1]).all(axis=1) & (sine > HIDDEN)
+        sure &= (signs == every[after]).all(axis=1) & (sine > HIDDEN)
         rows[which[sure]] = np.column_stack([tried, signs, sine])[sure]
         return rows
 
@@ -116,13 +117,13 @@ def paired(
 
     None are given where they do not match one to one, with the same signs.
     """
-    size = len(trying.unknowns)
     if len(first) != len(second):
         return []
-    way = abs(second[:, :size] - first[:, None, :size])
+    (before, signs, _), (after, others, _) = trying.split(first), trying.split(second)
+    way = abs(after - before[:, None])
     turning = np.array([one.turns for one in trying.unknowns])
     way = np.where(turning, np.minimum(way % (2 * np.pi), -way % (2 * np.pi)), way).max(axis=2)
-    alike = (second[:, size:-1] == first[:, None, size:-1]).all(axis=2)
+    alike = (others == signs[:, None]).all(axis=2)
     nearest = np.where(alike, way, np.inf).argmin(axis=1)
     count = np.arange(len(first))
     if sorted(nearest) != [*count] or not alike[count, nearest].all():
@@ -144,6 +145,6 @@ def closed_on(
     rows = np.concatenate([one.beside(trying, known, at) for one in every])
     if np.isnan(rows).any():
         return None
-    owner, size = np.tile(np.arange(len(at)), len(every)), len(trying.unknowns)
-    tried, signs, touching = rows[:, :size], rows[:, size:-1], np.zeros(len(rows), dtype=bool)
+    owner, touching = np.tile(np.arange(len(at)), len(every)), np.zeros(len(rows), dtype=bool)
+    tried, signs, _ = trying.split(rows)
     return trying.ordered(known, len(at), owner, tried, signs, touching)

@@ -39,8 +39,8 @@ class Course(Struct, frozen=True, dict=True):
     ``here`` is a u at which these closures hold, where the construction may look at the shape of
     the mechanism; without it they hold where the scene stands. ``turned`` tells how far links have
     turned that only their pins turn and whose wheels depend on it; without it they count near what
-    the scene says throughout. ``closures`` are those of a group of several trials where they were
-    followed; elsewhere they are sought anew at every place.
+    the scene says throughout. ``closures`` are those of a group that tries several links where they
+    were followed; elsewhere they are sought anew at every place.
     """
 
     sweep: Sweep

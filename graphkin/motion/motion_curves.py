@@ -86,7 +86,8 @@ def piece(
 
     here = int(np.nanargmin(abs(points - fit)))
     if closed:
-        points = np.roll(points[:-1], len(points) // 2 - here)
+        places = np.arange(len(points) - 1) + here - len(points) // 2
+        points = np.take(points[:-1], places, mode="wrap")
         here = int(np.nanargmin(abs(points - fit)))
     before, after = along(points[here::-1], far), along(points[here:], far)
     run = (*before[::-1], complex(points[here]), *after)
@@ -177,7 +178,7 @@ def once(path: Any) -> Any:
     size = float(np.abs(path - np.mean(path)).max())
     for count in range(len(path) // 3, 1, -1):
         if len(path) % count == 0:
-            part = len(path) // count
-            if np.abs(path - np.roll(path, part)).max() <= ALIKE * size:
-                return path[:part]
+            rounds = path.reshape(count, -1)
+            if np.abs(np.diff(rounds, axis=0, append=rounds[:1])).max() <= ALIKE * size:
+                return rounds[0]
     return path

@@ -65,7 +65,7 @@ class NumberedPlace(Struct, frozen=True):
     """One place of the motion: u, the closure's number there, and where all points stand.
 
     ``turned`` are the angles (degrees) of the links that only their pins turn and whose wheels
-    depend on it. ``every`` holds trial values, signs and sines of crossing of all closures there.
+    depend on it. ``every`` holds all closures there, in rows.
     ``leapt`` tells that no closure was found on the way to it, though the motion goes on there.
     """
 
@@ -135,8 +135,8 @@ class Numbered:
         """Where all points stand in every closure, how far links have turned (radians), and what
         closes the group.
 
-        Shape (closures, points and links and trial, N); NaN for none. All are sought, or those that
-        are on their ``ways`` are closed anew.
+        Shape (closures, points and links and what is tried, N); NaN for none. All are sought, or
+        those that are on their ``ways`` are closed anew.
         """
         parts = [self._places(at[k : k + CHUNK], ways) for k in range(0, len(at), CHUNK)]
         most = max(len(part) for part in parts)

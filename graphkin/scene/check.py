@@ -10,8 +10,7 @@ from graphkin.scene.check_far import check_far
 from graphkin.scene.findings import Findings, listed, nearest, numbered
 from graphkin.scene.known_names import check_guide, known_point, place_of
 from graphkin.scene.link_names import check_names
-from graphkin.scene.model import Branch, Link, Scene, Side, Way
-from graphkin.scene.phrases import LEADING
+from graphkin.scene.model import LEADING, Branch, Link, Scene, Side, Way
 from graphkin.scene.read_profiles import check_profiles
 from graphkin.scene.wheels import check_centres, check_tracks
 

@@ -73,16 +73,3 @@ def next_name(links: Collection[str]) -> str:
         return str(max(map(int, links)) + 1)
     letters = ("e", *(f"e{number}" for number in range(2, len(links) + 2)))
     return next(letter for letter in letters if letter not in links)
-
-
-def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
-    """Words for a track that seems to be led by links which hang on it themselves.
-
-    What keeps its wheel where it rolls was not put in, unless a name asks for it.
-    """
-    whose = "the frame" if wheel == FRAME else f"link {wheel}"
-    moving = [name for name in links if name != FRAME]
-    return (
-        f"if a pin and the wheel of {whose} alone hold link {track}, "
-        f"write link = {quoted(next_name(moving))} in rolls of {whose}"
-    )

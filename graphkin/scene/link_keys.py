@@ -6,8 +6,8 @@ from msgspec import Struct, field
 
 from graphkin.scene.findings import Findings, Table, nearest, shown
 from graphkin.scene.measures import Measures, Pair
-from graphkin.scene.model import Polar, Side
-from graphkin.scene.phrases import KEYWORDS, OnWords, key_points, on_words, point_name, side_words
+from graphkin.scene.model import KEYWORDS, Polar, Side
+from graphkin.scene.phrases import OnWords, key_points, on_words, point_name, side_words
 from graphkin.scene.quantity import Quantity
 
 PHRASES = '"left of A-B", "right of A-B", "on A-B" or "beyond B on A-B"'

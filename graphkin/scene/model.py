@@ -342,6 +342,15 @@ class Cam(Struct, frozen=True):
         return replace(self, on=on, link=link, carrier=carrier)
 
 
+JOINED = ("slides", "rolls", "belt", "wheel", "wheels")
+"""The keys of what a link is joined by beside its points."""
+KEYWORDS = frozenset((*JOINED, "touches", "profiles", "cam"))
+LEADING = "slides or rolls"
+"""The keys of what leads a link along another, in words."""
+LINK_KEYS = "slides, rolls, belt, wheel, touches or profiles"
+"""The keys of a link beside its points, in words."""
+
+
 class Link(Struct, frozen=True):
     """A rigid body: its points in the order written, how they are placed, what it slides on."""
 

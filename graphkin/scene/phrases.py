@@ -7,16 +7,11 @@ import re
 from msgspec import Struct
 
 from graphkin.scene.findings import Findings, nearest, shown, shown_key
-from graphkin.scene.model import FRAME, Branch, Closure, Side, Way
+from graphkin.scene.model import FRAME, LINK_KEYS, Branch, Closure, Side, Way
 from graphkin.text.errors import Hint, Mend
 
 FRAME_WORD = "frame"
 LONGEST_NAME = 40
-JOINED = ("slides", "rolls", "belt", "wheel", "wheels")
-"""The keys of what a link is joined by beside its points."""
-KEYWORDS = frozenset((*JOINED, "touches", "profiles", "cam"))
-LEADING = "slides or rolls"
-"""The keys of what leads a link along another, in words."""
 SIDES = {"left": 1, "right": -1}
 WAYS = {"forward": 1, "backward": -1}
 
@@ -159,8 +154,7 @@ def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | No
         findings.add(
             place,
             f"{shown_key(key)} is no key of a link",
-            "P, P-Q (a length), P-Q-R (an angle at Q), slides, rolls, belt, wheel, touches or "
-            "profiles",
+            f"P, P-Q (a length), P-Q-R (an angle at Q), {LINK_KEYS}",
         )
         return None
     names = [point_name(place, part, findings) for part in parts]

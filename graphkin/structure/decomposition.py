@@ -15,7 +15,7 @@ from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding
 from graphkin.structure.touching_wheels import asked_of
 from graphkin.structure.wheel_groups import next_coupled, spun_afar, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
@@ -69,18 +69,17 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
 def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
     """The drivers, as written, of those links that a pin or a slide joins to a known one.
 
-    Where there are none, of the wheels that roll on a straight track of one.
+    Where there are none, of those that another pair moves against a known one.
     """
-    joined, rolling = list[str](), list[str]()
+    lower, higher = list[str](), list[str]()
     for link in links:
         for pair in joints.between(link, known):
             if isinstance(pair, Pin):
-                joined.append(f"turn = {quoted(link)}")
-            elif isinstance(pair, Sliding) and pair.block == link:
-                joined.append(f"slide = {quoted(link)}")
-            elif isinstance(pair, Contact) and pair.track is None and pair.links[0] == link:
-                rolling.append(f"roll = {quoted(link)}")
-    return tuple(joined or rolling)
+                lower.append(f"turn = {quoted(link)}")
+            elif pair.moved_by and pair.links[0] == link:
+                found = lower if isinstance(pair, Sliding) else higher
+                found.append(f"{pair.moved_by} = {quoted(link)}")
+    return tuple(lower or higher)
 
 
 def refuse_far_guides(scene: Scene) -> None:

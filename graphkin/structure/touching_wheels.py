@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import keeper_asked, quoted
+from graphkin.scene.known_names import next_name, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
@@ -257,3 +257,16 @@ def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
         if any(not of_one_size(rims[0], rim) for rim in rims[1:]):
             return TIPS
     return ""
+
+
+def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
+    """Words for a track that seems to be led by links which hang on it themselves.
+
+    What keeps its wheel where it rolls was not put in, unless a name asks for it.
+    """
+    whose = "the frame" if wheel == FRAME else f"link {wheel}"
+    moving = [name for name in links if name != FRAME]
+    return (
+        f"if a pin and the wheel of {whose} alone hold link {track}, "
+        f"write link = {quoted(next_name(moving))} in rolls of {whose}"
+    )

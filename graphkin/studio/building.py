@@ -16,8 +16,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import SingleKey
 
 from graphkin.scene.file_limits import tables_of
-from graphkin.scene.model import FRAME
-from graphkin.scene.phrases import KEYWORDS
+from graphkin.scene.model import FRAME, KEYWORDS
 from graphkin.studio.drawn_closure import drawn_closed
 from graphkin.studio.sketch import (
     DrawnWheel,

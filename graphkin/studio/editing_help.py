@@ -6,8 +6,7 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from graphkin.scene.model import DRIVEN
-from graphkin.scene.phrases import JOINED, KEYWORDS
+from graphkin.scene.model import DRIVEN, JOINED, KEYWORDS
 from graphkin.scene.read_scene import known_keys
 from graphkin.studio.mends import units
 from graphkin.studio.toml_spans import Span, spans

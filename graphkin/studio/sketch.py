@@ -18,8 +18,7 @@ from graphkin.construction.core.drawn_scene import METRES
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import tables_of
-from graphkin.scene.model import FRAME
-from graphkin.scene.phrases import KEYWORDS
+from graphkin.scene.model import FRAME, KEYWORDS
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 

@@ -7,7 +7,7 @@ from math import degrees, hypot, isclose
 import pytest
 
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.links.profile_symbols import HALF, WIDEST
+from graphkin.construction.links.wheel_symbols import HALF, WIDEST
 from graphkin.documents.sheet import left_board
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Arc, CircleMark

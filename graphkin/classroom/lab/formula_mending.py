@@ -14,8 +14,7 @@ from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.lab_trial import LabTrial
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import DRIVEN
-from graphkin.scene.phrases import JOINED
+from graphkin.scene.model import DRIVEN, JOINED
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import GraphkinError
 

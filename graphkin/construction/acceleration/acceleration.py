@@ -13,8 +13,8 @@ from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.guides.coincident_points import omega_of
+from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
-from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.velocity.crossed_image import crossed_image

@@ -13,7 +13,7 @@ from graphkin.construction.cams.cam_centre import (
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import turned_with
-from graphkin.construction.links.leading import led_by
+from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
 from graphkin.scene.model import FRAME

@@ -8,6 +8,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import CircleMark, LineMark, polygon
+from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.scene.model import Link
 
 if TYPE_CHECKING:
     from graphkin.construction.core.cam_profiles import CamProfile
@@ -59,3 +61,12 @@ def face_ends(
     way = (tip - pin) / abs(tip - pin)
     start = pin + 1j * way * lever.side * float(lever.face.si(profile.scene.values))
     return start, start + far * way
+
+
+def face_words(drawing: Drawing, link: Link) -> str:
+    """What is said of a block that stands for a flat face on its cam; nothing of other links."""
+    follower = drawing.scene.cam_links.get(link.name)
+    if follower is None or not link.slides:
+        return ""
+    fields = {"k": escape(link.name), "f": escape(follower), "p": symbol(link.points[0])}
+    return drawing.words("step.cam-face", **fields)

@@ -6,7 +6,6 @@ from collections.abc import Collection, Iterator, Mapping
 
 from msgspec import Struct
 
-from graphkin.scene.known_names import keeper_asked
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -26,6 +25,7 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding, contacts
+from graphkin.structure.touching_wheels import keeper_asked
 from graphkin.text.errors import Problem, StructureError
 
 

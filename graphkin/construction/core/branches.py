@@ -7,8 +7,7 @@ from collections.abc import Collection, Sequence
 from msgspec.structs import replace
 
 from graphkin.scene.check import written
-from graphkin.scene.model import Closure, Scene, Side, Way
-from graphkin.scene.phrases import LEADING
+from graphkin.scene.model import LEADING, Closure, Scene, Side, Way
 from graphkin.structure.groups import (
     Crank,
     Driven,

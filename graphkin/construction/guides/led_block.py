@@ -1,6 +1,8 @@
-"""What a sliding pair with a known link gives a point of the other link in each drawing."""
+"""What a pair with a known link gives a point of the other link that it leads, in each drawing."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
@@ -10,7 +12,10 @@ from graphkin.construction.guides.guides import axis, known_guide, local_line, p
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.scene.model import Driver
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Sliding
+from graphkin.structure.pairs import Leading, Sliding
+
+if TYPE_CHECKING:
+    from graphkin.construction.rolling.wheel_images import LedWheel
 
 
 class LedBlock(Struct, frozen=True):
@@ -64,3 +69,12 @@ class LedBlock(Struct, frozen=True):
     def rim(self, pen: Pen) -> int | None:
         """No radius ties its turning to its coordinate."""
         return None
+
+
+def led_by(pair: Leading) -> LedBlock | LedWheel:
+    """What a pair with a known link gives in each drawing."""
+    if isinstance(pair, Sliding):
+        return LedBlock(pair)
+    from graphkin.construction.rolling.wheel_images import LedWheel
+
+    return LedWheel(pair)

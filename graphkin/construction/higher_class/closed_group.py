@@ -144,7 +144,7 @@ class ClosedGroup(Construction, frozen=True):
         return drawing.words(key, bar=bar(*self.pins), **fields)
 
     def drawn_each_time(self, drawing: Drawing) -> str:
-        """What is drawn for each place of the tried link: links, and trials within."""
+        """What is drawn for each place of the tried link: links, and what is tried within."""
         inner = {link for one in self.group.nested[1:] for link in one.links}
         drawn = seen(drawing, (link for link in self.links_drawn(drawing) if link not in inner))
         key = "step.close-links" if len(drawn) > 1 else "step.close-link"

@@ -121,6 +121,11 @@ class Trying(Trial, frozen=True, dict=True):
         count = 1 + len(self.unknowns)
         return (*self.placed(table[:, 1:count].T), *table[:, count:].T)
 
+    def split(self, rows: Any) -> tuple[Any, Any, Any]:
+        """What is tried (…, n), signs (…, k) and sines of crossing (…) of closures in rows."""
+        size = len(self.unknowns)
+        return rows[..., :size], rows[..., size:-1], rows[..., -1]
+
     def closures_of(self, known: Sequence[Any]) -> Closures:
         """Every closure on known scalars, in the order of their numbers; the last ones are kept.
 
@@ -442,7 +447,7 @@ def newly_settled(scene: Scene, program: Program, failed: StepFailed) -> bool:
 
 def settle(scene: Scene, program: Program, step: Step, known: tuple[Any, ...]) -> None:
     """Let the trial of a step keep what balls tell of its closures on known floats."""
-    from graphkin.construction.higher_class.merging import merged
+    from graphkin.construction.higher_class.refining import merged
 
     trying = closing(step).trying
     closures, found = trying.closures_of(known), None

@@ -15,11 +15,11 @@ from graphkin.construction.core.program import Given, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, coordinate, difference
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guides import axis, path_of, standing_guide
+from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.trial import Unknown
 from graphkin.construction.links.driven_crank import turn_about
-from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import plate_points
 from graphkin.construction.rolling.rolling import (

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from graphkin.construction.cams.cam_symbols import face_words
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.closed_group import ClosedGroup
-from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.drawing.symbol_markup import bar, escape
 
 IDLE = "idle "
 """What the name of a sentence about an idle link begins with; the link's name follows."""
@@ -24,8 +25,8 @@ def points_of(step: Step) -> set[str]:
 def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     """Each bar that no step lays off, because its pins stand without it: an idle link.
 
-    One at which a group is closed is none, though it is tried until it fits.
-    With it the block that stands for the contact of a cam with a flat face.
+    One at which a group is closed is none, though it is tried until it fits. With it what stands
+    for a cam.
     """
     told = [
         points_of(step)
@@ -36,10 +37,8 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     closing = {link for group in groups for link in group.cut_off}
     for link in drawing.scene.links.values():
         points = set(link.points)
-        if link.slides and link.name in drawing.scene.cam_links:
-            follower = drawing.scene.cam_links[link.name]
-            fields = {"k": escape(link.name), "f": escape(follower), "p": symbol(link.points[0])}
-            yield Sentence(-1, IDLE + link.name, drawing.words("step.cam-face", **fields))
+        if words := face_words(drawing, link):
+            yield Sentence(-1, IDLE + link.name, words)
         laid = link.name in closing or any(len(points & names) > 1 for names in told)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}

@@ -14,8 +14,8 @@ from graphkin.construction.guides.slide_symbols import (
 )
 from graphkin.construction.links.link_numbers import draw_numbers
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
-from graphkin.construction.links.profile_symbols import draw_edges
 from graphkin.construction.links.wheel_symbols import (
+    draw_edges,
     draw_fixed_wheels,
     draw_touches,
     draw_track_line,

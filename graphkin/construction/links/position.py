@@ -9,9 +9,9 @@ from graphkin.construction.guides.dyad_by_arc_and_guide import cut_line
 from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
 from graphkin.construction.guides.guide_line import cross_guides
 from graphkin.construction.guides.guides import axis, direction_on, path_of, turned_with
+from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import meet_arcs
-from graphkin.construction.links.leading import led_by
 from graphkin.construction.links.link_shapes import LinkShapes, place
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.scene.model import Apart, Link

@@ -1,29 +1,32 @@
-"""Wheels, gears, rings, racks and tracks on the mechanism, in the manner of ISO 2203."""
+"""Wheels, gears, racks and tracks, in the manner of ISO 2203, and profiles on the mechanism."""
 
 from __future__ import annotations
 
-from cmath import phase
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import reduce
-from math import pi
+from math import degrees, pi
+from typing import Any, NamedTuple
 
 from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.link_poses import Touch
+from graphkin.construction.core.link_poses import APART, Touch
 from graphkin.construction.core.plot import draw_line
 from graphkin.construction.guides.rails import ALIKE, REACH, places_of, seat
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
 from graphkin.construction.links.plates import is_all_wheel
+from graphkin.drawing.areas import MARGIN
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import CircleMark, LineMark, Mark
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched
-from graphkin.numbers.arithmetic import Real, at, larger, pick, smaller, sqrt
+from graphkin.numbers.arithmetic import Real, at, larger, phase, pick, smaller, sqrt
 from graphkin.numbers.plane import cross, dot
-from graphkin.scene.model import FRAME, Link, of_one_size
+from graphkin.scene.known_names import place_of
+from graphkin.scene.model import FRAME, Link, Profile, of_one_size
+from graphkin.text.errors import PageError, Problem
 
 RIM = 2.4
 """Width of a ring without teeth, in mm."""
@@ -258,10 +261,73 @@ def free_side(drawing: Drawing, disc: Disc) -> float:
     total = sum(ways)
     if not ways or abs(total) < 0.1:
         return (phase(ways[0]) + pi / 2) if ways else 0.75 * pi
-    return phase(-total) + 0.5
+    return float(phase(-total)) + 0.5
 
 
 def touching_points(drawing: Drawing, link: Link) -> list[str]:
     """The points at which the wheels of a link touch their tracks."""
     touches = [touch for touch in drawing.standing.touches if touch.disc.link == link.name]
     return [drawing.standing.name_at(touch.at) for touch in touches]
+
+
+HALF = MARGIN
+"""How far a profile is drawn to each side of its contact, in mm: as far as there is room for."""
+WIDEST = 60.0
+"""The same in degrees about its centre, at most."""
+ALL_ROUND = 180.0
+"""The same of a whole circle."""
+
+
+class Edge(NamedTuple):
+    """A profile of a link in the plane."""
+
+    link: str
+    profile: Profile
+    centre: complex
+    contact: complex
+
+    @property
+    def arm(self) -> complex:
+        """From its centre to the point on it."""
+        return self.contact - self.centre
+
+    def half(self, free: Real, values: Mapping[str, Any]) -> Real:
+        """Half its arc in degrees: as long as it is told to be, else ``free``, but not too wide."""
+        if self.profile.arc is None:
+            return smaller(free, WIDEST)
+        return degrees(float(self.profile.arc.si(values))) / 2
+
+
+def draw_edges(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """The profiles of all links. Raises PageError where one has no radius."""
+    for link in (drawing.scene.frame, *drawing.scene.links.values()):
+        for edge in edges_of(link, drawing.positions):
+            if abs(edge.arm) <= APART * drawing.standing.size:
+                raise PageError(without_radius(edge))
+            board.marks.append(edge_arc(drawing, field, edge))
+
+
+def edges_of(link: Link, places: Mapping[str, complex]) -> Iterator[Edge]:
+    """The profiles of a link whose points are placed."""
+    for profile in link.profiles:
+        if profile.about in places and profile.through in places:
+            yield Edge(link.name, profile, places[profile.about], places[profile.through])
+
+
+def without_radius(edge: Edge) -> Problem:
+    """The problem of a profile whose centre lies on it."""
+    about, through = edge.profile.about, edge.profile.through
+    found = f"{about} and {through} stand at one place"
+    hint = "change the position, or leave the profile out"
+    return Problem(f"{place_of(edge.link)}.profiles", found, "an arc with a radius", hint)
+
+
+def edge_arc(drawing: Drawing, field: Field, edge: Edge) -> Arc | CircleMark:
+    """The arc of a profile about its contact, as long as it is told to be, or its whole circle."""
+    radius = abs(edge.arm) * field.mm
+    middle = phase(edge.arm) * (180 / pi)
+    half = edge.half(degrees(HALF) / radius, drawing.scene.values)
+    if half >= ALL_ROUND:
+        return CircleMark(*field(edge.centre), radius, "profile", edge.link)
+    ends = middle - half, middle + half
+    return Arc(*field(edge.centre), radius, *ends, "profile", edge.link)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from msgspec import Struct
+
 from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.acceleration.turned_acceleration import (
     turned_image as accelerated_image,
@@ -29,6 +31,7 @@ from graphkin.construction.core.vocabulary import in_proportion, speed_at_rim
 from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
 from graphkin.construction.rolling.touching import by_contact
@@ -333,3 +336,48 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int
         return rolled_image(pen, start, rim, (name, contact.wheel.centre), rates)
     ends = contact.wheel.centre, name
     return rolled_image(pen, start, rim, ends, rates[::-1], on_bar=True)
+
+
+class LedWheel(Struct, frozen=True):
+    """A wheel on the straight track of a known link."""
+
+    pair: Contact
+
+    def line(self, pen: Pen, shapes: LinkShapes) -> int:
+        """The line of the track."""
+        return rolling.track_of(pen, shapes, self.pair)
+
+    def path(self, pen: Pen, shapes: LinkShapes, link: str, point: str) -> int:
+        """The line on which its centre is led."""
+        return rolling.path_of_centre(pen, shapes, self.pair)
+
+    def direction(self, pen: Pen, shapes: LinkShapes) -> int:
+        """A line along which its centre moves against the track."""
+        return rolling.path_of_centre(pen, shapes, self.pair)
+
+    def driven(self, pen: Pen, driver: Driver, which: str) -> int:
+        """What a driver gives its centre along the track: position, speed or acceleration."""
+        if which == "position":
+            return rolling.driven_way(pen, driver, self.pair)
+        return given_speed(pen, driver, self.pair, which)
+
+    def set_at(self, pen: Pen, shapes: LinkShapes, link: str, where: int) -> None:
+        """The wheel where it has rolled a way along the track."""
+        centre = self.pair.led_point(pen.scene, link)
+        rolling.set_on_track(pen, shapes, self.pair, centre, where)
+
+    def finish(self, pen: Pen, shapes: LinkShapes) -> None:
+        """Its point of contact and its turning, once its centre stands."""
+        rolling.touch_and_turn(pen, shapes, self.pair)
+
+    def touch(self, pen: Pen) -> None:
+        """The image of its point of contact."""
+        touch(pen, self.pair)
+
+    def second_touch(self, pen: Pen) -> None:
+        """The second image of its point of contact."""
+        second_touch(pen, self.pair)
+
+    def rim(self, pen: Pen) -> int | None:
+        """The radius that ties its turning to its coordinate."""
+        return rolling.radius_of(pen, self.pair)

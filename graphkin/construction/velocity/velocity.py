@@ -10,7 +10,7 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import difference, join, part_along
 from graphkin.construction.guides.coincident_points import image_under, omega_of, source_of
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.links.leading import led_by
+from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.velocity.crossed_image import crossed_image

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from math import degrees, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.construction.links.wheel_symbols import edges_of
 from graphkin.motion.cycle import Cycle
 from graphkin.scene.model import FRAME, Link, Scene, Slide
 from graphkin.text.errors import ClosureError
@@ -23,9 +25,7 @@ PIN = 4.2
 SYMBOL = 0.017
 """Half the size of a block or pivot, in breadths of the picture."""
 PROFILE = 5.0
-"""How far a profile is drawn to each side of its contact, in such sizes."""
-WIDEST = np.pi / 3
-"""The same as an angle about its centre, at most."""
+"""How far a profile is drawn to each side where its length is not written, in such sizes."""
 MOST_POINTS = 60
 """Points of a mechanism beyond which a picture shows only the part that it is about."""
 FLAT = 1e-3
@@ -202,15 +202,12 @@ def wheels(ax: Axes, stand: Outline, link: Link) -> None:
 
 
 def profiles(ax: Axes, stand: Outline, link: Link, size: float) -> None:
-    """The arcs of a link's profiles about their contacts; none where a centre stands on its own."""
-    for profile in link.profiles:
-        centre, contact = (stand.places.get(p) for p in (profile.about, profile.through))
-        if centre is None or contact is None or centre == contact:
+    """The arcs of a link's profiles; none where a centre stands on its own profile."""
+    for edge in edges_of(link, stand.places):
+        if not edge.arm:
             continue
-        half = min(PROFILE * size / abs(contact - centre), WIDEST)
-        if profile.arc is not None:
-            half = float(profile.arc.si(stand.scene.values)) / 2
-        rim = centre + (contact - centre) * np.exp(1j * np.linspace(-half, half, 61))
+        half = radians(edge.half(degrees(PROFILE * size / abs(edge.arm)), stand.scene.values))
+        rim = edge.centre + edge.arm * np.exp(1j * np.linspace(-half, half, 61))
         ax.plot(rim.real, rim.imag, color=FAINT, linewidth=1.8, zorder=3)
 
 
