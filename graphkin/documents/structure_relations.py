@@ -8,6 +8,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.relation import Relation
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.findings import natural
+from graphkin.scene.model import Driver
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
     ROMAN,

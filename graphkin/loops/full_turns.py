@@ -36,6 +36,7 @@ def settled(loops: Equations, read: Reals, told: Mask) -> tuple[Reals, Mask]:
 def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask) -> None:
     """Settle one group's unknowns, by linear equations first, then as counted from the start."""
     turning = np.arange(len(part)) < loops.turning_count
+    within = np.abs(np.nan_to_num(loops.slips.rows[0][:, ~(known | part)])).max(1, initial=0) == 0
     known |= part & told & ~turning & ~unrolled(loops, part)
     while (free := part & ~known).any():
         straight, solved = solved_straight(loops, np.where(free, 0, values), free, known)
@@ -49,7 +50,7 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
         if not (ready := free & told & turning).any():
             known |= free
             return
-        k = min(np.flatnonzero(ready).tolist(), key=lambda k: precedence(loops, k))
+        k = min(np.flatnonzero(ready).tolist(), key=lambda k: precedence(loops, k, within))
         values[:, k] = counted(loops, values, k)
         known[k] = True
 
@@ -72,10 +73,14 @@ def unrolled(loops: Equations, part: Mask) -> Mask:
     return found
 
 
-def precedence(loops: Equations, k: int) -> tuple[bool, float]:
-    """Which of several angles that wheels tie is counted: an arm's, else the largest wheel's."""
-    arms = {loops.turned.of[links[-1]] for links in loops.slips.links}
-    return k + 1 not in arms, -float(np.abs(loops.slips.rows[0, :, k]).max(initial=0))
+def precedence(loops: Equations, k: int, within: Mask) -> tuple[bool, float]:
+    """Which of several angles that wheels tie is counted: an arm's, else the largest wheel's.
+
+    Wheels count that touch ``within`` what is known and the group.
+    """
+    links, rows = loops.slips.links, loops.slips.rows[0]
+    arms = {loops.turned.of[each[-1]] for each, near in zip(links, within, strict=True) if near}
+    return k + 1 not in arms, -float(np.abs(rows[within, k]).max(initial=0))
 
 
 def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) -> tuple[Reals, Mask]:

@@ -41,7 +41,7 @@ def with_keepers(
 
     A name that a scene gives one, ``rolls = { …, link = "arm" }``, asks for it.
     """
-    written = laid_on_rollers({FRAME: frame, **links}, measures)
+    written = laid_on_rollers({FRAME: frame, **links}, drivers, measures)
     tracks = {
         r.on for link in written.values() for r in link.rolls if r.through and r.on in written
     }
@@ -60,14 +60,30 @@ def with_keepers(
     return every.pop(FRAME), every
 
 
-def laid_on_rollers(written: Mapping[str, Link], measures: Measures) -> dict[str, Link]:
-    """The links, those that lie on rollers of one size sliding along the track of these."""
+def laid_on_rollers(
+    written: Mapping[str, Link], drivers: Sequence[Driver], measures: Measures
+) -> dict[str, Link]:
+    """The links, those that lie on rollers of one size sliding along the track of these.
+
+    Of two that may lie on one another that one does which a driver slides, else that of which
+    fewer points are pins, the later written.
+    """
+    free = {name: link for name, link in written.items() if name != FRAME and not link.slides}
+    guides = {name: roller_guide(written, link, measures) for name, link in free.items()}
+    shared = Counter(point for link in written.values() for point in link.points)
+    slid = {driver.link for driver in drivers if driver.kind == "slide"}
+
+    def rank(name: str) -> tuple[bool, int, int]:
+        pins = sum(shared[point] > 1 for point in written[name].points)
+        return name in slid, -pins, [*written].index(name)
+
     found = dict(written)
-    for name, link in written.items():
-        led = name == FRAME or link.slides
-        guide = None if led else roller_guide(written, link, measures)
-        if guide is not None:
-            found[name] = replace(link, slides=(guide,))
+    for name, guide in guides.items():
+        if guide is None:
+            continue
+        other = guides.get(guide.on)
+        if other is None or other.on != name or rank(name) > rank(guide.on):
+            found[name] = replace(free[name], slides=(guide,))
     return found
 
 

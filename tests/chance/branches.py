@@ -38,15 +38,15 @@ def branches_of(written: Written) -> dict[str, str]:
     """[branches] of a mechanism: sides and ways from the places, closures by looking."""
     found: dict[str, str] = {}
     open_scene = Mechanism(read_text(written.text({}), "made", None, {}))
-    higher = []
+    closing = [group for group in open_scene.groups if isinstance(group, Higher)]
     for group in open_scene.groups:
         if isinstance(group, Higher):
             refuse_dead(written.standing, group, open_scene.scene)
-            first = next(name for name in open_scene.scene.links if name in group.links)
-            found[first] = "closure 1"
-            higher.append((first, group))
         else:
             found |= words_of(written.standing, group, open_scene.scene)
+    links = [name for name in open_scene.scene.links if name not in found]
+    higher = [(next(name for name in links if name in each.links), each) for each in closing]
+    found |= {first: "closure 1" for first, _ in higher}
     for count, (first, group) in enumerate(higher):
         scene = read_text(written.text(found), "made", None, {})
         number = closure_number(written.standing, Mechanism(scene), group, count)

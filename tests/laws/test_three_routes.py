@@ -35,16 +35,21 @@ SEEN = {
     1133: "a block of a group that is tried, on a guide that comes later",
     1187: "a sun driven against a block that pins alone turn",
     1263: "a closure close beside the end of where the chain can be drawn",
+    1269: "rollers between two bars, either of which might lie on the other",
     1318: "a wheel on pins, more than half a turn from the bar that lies on it",
     1495: "a wheel driven against a link turned half round, but for rounding",
     1627: "trains on a rod and on the block that slides along it",
     1661: "a guide along two points close together, far from the origin",
     1734: "a cam on a link that is a track",
     1856: "an acceleration a hundred million times the driver's",
+    1900: "a closure and a way that would stand under one name",
     2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
     2878: "links that hang on a track by a driver",
     3012: "a sun driven against a block of a link that rolls",
+    3047: "a wheel on two tracks that must not slip on either",
     3857: "a sun driven against a block that slides on a wheel that rolls",
+    4061: "a plate with a profile on the rod of a cylinder, beside the tube's pin",
+    4423: "an arm of one train that is a wheel's track of another",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 LONG = {

@@ -15,7 +15,7 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.core.vocabulary import coordinate as along_guide
 from graphkin.construction.guides.guide_actions import axis_by_guide
-from graphkin.construction.guides.guides import axis, path_of, standing_guide
+from graphkin.construction.guides.guides import axis, path_of, path_of_block, standing_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
@@ -402,8 +402,15 @@ def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], 
 
 
 def plate_line(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
-    """The path of the point of a plate that its guide leads."""
-    return path_of(pen, shapes, pen.first_slide(cam.on), cam.on, cam.pivot)
+    """The path of the point of a plate that its guide leads.
+
+    That of a cylinder's rod is drawn through the pin of the tube, which may stand beside it.
+    """
+    pair = pen.first_slide(cam.on)
+    if ("through pin", *pair.links) not in pen.shared:
+        return path_of(pen, shapes, pair, cam.on, cam.pivot)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        return path_of_block(pen, shapes, pair, standing_guide(pen, shapes, pair), cam.pivot)
 
 
 def plate_coordinate(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:

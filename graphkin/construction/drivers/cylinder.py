@@ -76,6 +76,7 @@ def turn_to_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str, way
     with pen.on(Part.POSITION, Plane.MECHANISM):
         line = guide_at(pen, block, (pen.the("position", near), near), turn)
     pen.shared["guide", *cylinder.slide.links] = line
+    pen.shared["through pin", *cylinder.slide.links] = line
 
 
 def way_between_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str) -> int:
