@@ -19,8 +19,9 @@ ABOVE = 2.6
 """How far the table begins above the first line's foot, in mm."""
 GAP = 5.0
 """Distance of the words from the table in mm."""
-BESIDE = {1: 4.2, 2: 4.2, 3: 3.6}
-"""The distance in mm of so many lines beside the table, of which there are three at most."""
+BESIDE = {1: (ROW, 2.75), 2: (ROW, 0.5), 3: (3.6, -0.2)}
+"""The distance in mm of so many lines beside the table, of which there are three at most, and how
+far below the first line's foot they begin: amid the table, level with its rows, or as high."""
 LINES = ((2.5, 4.2, 2, False), (2.5, 3.85, 3, True), (1.8, 3.2, 3, False), (1.8, 2.6, 4, False))
 """How data without a table may look: height of letters and distance of lines in mm, lines at most,
 and whether these are so near that signs may touch."""
@@ -53,13 +54,13 @@ def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     if not valued or room < max((extent(piece, LETTERS)[0] for piece in said), default=0.0):
         return []
     lines = flowed(said, "; ", room, LETTERS)
-    leading = BESIDE.get(len(lines), 0.0)
+    leading, low = BESIDE.get(len(lines), (0.0, 0.0))
     if lines and not (leading and are_clear(lines, LETTERS, leading)):
         return []
     return [
         *ruled(valued, widths, x, y - ABOVE),
         *(
-            Text(left, y - 0.2 + leading * i, line, "caption", LETTERS, name=NAME)
+            Text(left, y + low + leading * i, line, "caption", LETTERS, name=NAME)
             for i, line in enumerate(lines)
         ),
     ]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.parameter_words import other_parameters, parameter
+from graphkin.construction.core.parameter_words import other_parameters, parameter, variant
 from graphkin.mechanism import load
 from graphkin.text import words
 from tests.documents.sheet_tools import drawing_of
@@ -45,3 +45,22 @@ def test_a_parameter_put_into_an_expression_is_named_once_with_its_unit():
     scene = load(SCENES / "centrodes-cardan.toml").scene
     assert other_parameters(scene, words("en")) == [("alpha", "*α*", "45°")]
     assert "*B**A* = *l* = 100 mm" in given(drawing_of("centrodes-cardan", None, "velocity"))
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("cam-plate", ["*s* = 30 mm"]),  # its parameter is x
+        ("plank-rollers", ["*v*_{3} = 200 mm/s"]),
+        ("gears-planet", ["*φ*_{2} = 40°", "*n*_{1} = −50 rev/min"]),
+        ("centrodes-cardan", ["*α* = 45°", "*l* = 100 mm"]),  # others hang on them
+        ("pump", ["*n* = 1"]),
+    ],
+)
+def test_what_tells_a_variant_has_the_letters_of_its_sheet(name, wanted):
+    path = SCENES / f"{name}.toml"
+    mechanism = load(path) if path.exists() else load(name, n=1)
+    assert variant(mechanism.scene, words("en")) == wanted
+    n = None if path.exists() else 1
+    told = " ".join(given(drawing_of(name, n, "velocity")))
+    assert all(f"{each.partition(' ')[0]} = " in told for each in wanted)

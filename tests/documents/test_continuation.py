@@ -14,12 +14,14 @@ from graphkin.documents.sheet import Moved
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import plain
-from graphkin.mechanism import Mechanism
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.writers.files import rendered
 from tests.bench.chain import scene
-from tests.documents.sheet_tools import collisions, outside
+from tests.chosen import FOLDER as SCENES
+from tests.documents.sheet_tools import collisions, drawings, outside
 from tests.scene_files import scene_text
 
 
@@ -178,3 +180,41 @@ def drawings_for_all(dyads: int):
     mechanism = Mechanism(read_text(text, "large"))
     verdict = proved(mechanism, mechanism.solve())
     return drawings_of(mechanism, verdict, words("en"))[0]
+
+
+@cache
+def rings(language: str):
+    return hand_out(load(str(SCENES / "plates-ring.toml")), "key", language)
+
+
+@pytest.mark.parametrize("kind", [0, 1])
+def test_points_of_many_trial_plans_have_their_names_where_the_plan_is_drawn_larger(kind):
+    """Each is named once, and not on the sheet before; other letters stand on both."""
+    first, second = rings("en")[kind].pages
+    drawing = drawings("plates-ring")[kind]
+    steps = drawing.trace.program.steps
+    trials = {symbol(steps[n].name) for n in drawing.auxiliary if steps[n].name}
+    named = [
+        [
+            name
+            for mark in page.marks
+            if isinstance(mark, Text) and mark.cls.startswith("label")
+            for name in re.split(" [≡≈] ", mark.markup)
+        ]
+        for page in (first, second)
+    ]
+    assert len(trials) > 20
+    assert all(named[1].count(name) == 1 for name in trials)
+    assert len(trials & {*named[0]}) <= 4  # with a letter of the plan itself: a ≡ e_I
+    own = {symbol(step.name) for _, step, _ in drawing.steps(drawing.plane) if step.name} - trials
+    assert own & {*named[0]} & {*named[1]}
+
+
+@pytest.mark.parametrize("language", ["ro", "it"])
+def test_a_plan_that_is_drawn_larger_stays_clear_of_all_else(language):
+    for document in rings(language)[:2]:
+        page = document.pages[-1]
+        page.check()
+        assert not collisions(page.marks)
+        said = " ".join(mark.markup for mark in page.marks if isinstance(mark, Text))
+        assert words(language)("page.with_trials") in said

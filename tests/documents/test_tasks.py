@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.relations import relations
-from graphkin.documents.scheme import elsewhere, scheme
+from graphkin.documents.scheme import elsewhere, full_size, scheme
 from graphkin.documents.sheet import sheet
 from graphkin.drawing.areas import SCHEME, TABLES
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
@@ -96,6 +96,24 @@ def test_the_scheme_keeps_lengths_and_defines_the_angle_of_the_crank():
     marks = scheme(drawing)
     assert [mark for mark in marks if isinstance(mark, Arc) and mark.name == "phi"]
     assert [mark for mark in marks if isinstance(mark, Text) and mark.markup == "*φ*"]
+
+
+@pytest.mark.parametrize("name", ["cam-plate", "hoist-differential"])
+def test_symbols_of_the_scheme_are_smaller_than_those_of_the_sheet(name):
+    """Else blocks and guides hide the small cam and the wheels of a hoist."""
+    (drawing, *_) = drawings(name)
+    whole = full_size(drawing, lay_out(drawing).mechanism).marks
+    sizes = [
+        max(right - left, low - top)
+        for marks in (scheme(drawing), whole)
+        for left, top, right, low in [reach(first(marks, "slider"))]
+    ]
+    assert sizes[0] == pytest.approx(0.7 * sizes[1])
+
+
+def first(marks, cls: str):
+    """The first mark of a class."""
+    return next(mark for mark in marks if mark.cls.split()[0] == cls)
 
 
 def test_rows_of_a_task_are_high_enough_for_a_hand():

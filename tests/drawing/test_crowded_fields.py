@@ -8,8 +8,10 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import scales
-from graphkin.documents.sheet import sheet
+from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import boards, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent, in_turn
@@ -118,3 +120,26 @@ def test_a_note_that_would_cross_lines_is_tried_further_to_the_right_every_15_mm
     room = width - 6 - widest
     assert len(places) == max(1, ceil(int(room) / 15))
     assert max(reach(text)[2] for text in places[-1]) <= 10 + width - 3 + 0.1
+
+
+def test_a_dispensable_letter_is_drawn_where_the_others_leave_room_near_its_point():
+    """It moves none of them, and has no leader to a place far away."""
+    alone = FieldContent((0.0, 0.0, 60.0, 30.0), labels=[POINT])
+    both = FieldContent((0.0, 0.0, 60.0, 30.0), labels=[POINT], dispensable=[HELPER])
+    assert [mark for mark in both.finish() if mark.name == "A"] == alone.finish()
+    assert [mark for mark in both.finish() if mark.name == "a″"]
+    walls = [LineMark(x, 0.0, x, 30.0, "link") for x in range(15, 36)]
+    full = FieldContent((0.0, 0.0, 60.0, 30.0), walls, dispensable=[HELPER])
+    assert full.finish() == walls
+    assert len(FieldContent(full.rect, list(walls), labels=[POINT]).finish()) > len(walls)
+
+
+def test_letters_that_no_sentence_says_give_way_to_the_others():
+    """Few letters of likewise triangles are left of two plates with two rods, all others are."""
+    _, drawing = drawings("plates-coupled")
+    left, _ = boards(drawing, lay_out(drawing), "key")
+    said = " ".join(sentence.markup for sentence in sentences(drawing))
+    assert len(left.dispensable) > 20
+    assert not any(label.markup in said for label in left.dispensable)
+    named = {mark.markup for mark in left.finish() if isinstance(mark, Text)}
+    assert {label.markup for label in left.labels} <= named

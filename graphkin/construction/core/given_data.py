@@ -11,7 +11,7 @@ from graphkin.construction.core.amounts import in_degrees, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
 from graphkin.construction.core.line_words import axis_of
-from graphkin.construction.core.naming import angle_symbol, driver_index
+from graphkin.construction.core.naming import angle_symbol, driver_index, speed_symbol
 from graphkin.construction.core.parameter_words import (
     after_parameter,
     is_derived,
@@ -205,19 +205,15 @@ def of_driver(
     scene: Scene, words: Words, driver: Driver, *, solved: bool = True
 ) -> Iterator[Datum]:
     """Position, speed and acceleration of a driver."""
-    speed = "*v*"
-    if driver.kind == "turn":
-        speed = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
-    index = f"_{{{driver_index(driver)}}}"
     if solved or not reckoned(scene, driver.position):
         angle = in_degrees(scene, words, driver.position)
         place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
         yield Datum(name=angle_symbol(scene, driver), value=place, of=driver.position)
     steady = driver.acceleration.is_zero()
-    rates = [(f"{speed}{index}", driver.speed, words("page.constant") if steady else "")]
+    rates = [(speed_symbol(driver), driver.speed, words("page.constant") if steady else "")]
     if not steady:
         rate = "*ε*" if driver.kind == "turn" else "*a*"
-        rates.append((f"{rate}{index}", driver.acceleration, ""))
+        rates.append((f"{rate}_{{{driver_index(driver)}}}", driver.acceleration, ""))
     for name, quantity, constant in rates:
         if not solved and is_derived(quantity):
             continue  # its law tells its sense, too

@@ -137,6 +137,12 @@ def driver_index(driver: Driver) -> str:
     return index if driver.against == FRAME else f"{index}/{escape(driver.against)}"
 
 
+def speed_symbol(driver: Driver) -> str:
+    """Symbol of a driver's speed, as among the data."""
+    turning = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
+    return f"{turning if driver.kind == 'turn' else '*v*'}_{{{driver_index(driver)}}}"
+
+
 def angle_symbol(scene: Scene, driver: Driver) -> str:
     """Symbol of a driver's position, with its link's name where several drive or one moves."""
     many = len(scene.drivers) > 1 or driver.against != FRAME

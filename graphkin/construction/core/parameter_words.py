@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from graphkin.construction.core.amounts import written
-from graphkin.construction.core.naming import angle_symbol
+from graphkin.construction.core.naming import angle_symbol, speed_symbol
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene, quantities_within
@@ -31,11 +31,12 @@ def parameters(scene: Scene, words: Words) -> list[str]:
 def variant(scene: Scene, words: Words) -> list[str]:
     """The parameters that tell a variant from others: those with a range, and those put in.
 
-    What a driver's position is and nothing else has the letter that the sheet gives it.
+    What is a driver's position or speed and nothing else has the letter that the sheet gives it.
     """
     ranged = {name for name, each in scene.parameters.items() if each.minimum is not None}
     put = put_in(scene)
-    letters = {lone(scene, each.position): angle_symbol(scene, each) for each in scene.drivers}
+    letters = {lone(scene, each.speed): speed_symbol(each) for each in scene.drivers}
+    letters |= {lone(scene, each.position): angle_symbol(scene, each) for each in scene.drivers}
     told = ((name, *as_set(scene, words, name)) for name in scene.values if name in ranged | put)
     return [
         f"{letter if name in put else letters.get(name, letter)} = {value}"

@@ -14,6 +14,7 @@ from graphkin.construction.core.naming import (
     driver_of_rate,
     length_scale,
     sense,
+    speed_symbol,
 )
 from graphkin.construction.core.parameter_words import is_derived, parameter_symbol, reckoned
 from graphkin.construction.core.program import Plane
@@ -43,11 +44,10 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
     """Position and speed from the parameters, angular velocity, speed of the driven pin."""
     words, scene = drawing.words, drawing.scene
     index = f"_{{{driver_index(driver)}}}"
-    angle, speed = angle_symbol(scene, driver), speed_letter(driver)
     rate = "*ε*" if driver.kind == "turn" else "*a*"
     for letter, quantity in (
-        (angle, driver.position),
-        (f"{speed}{index}", driver.speed),
+        (angle_symbol(scene, driver), driver.position),
+        (speed_symbol(driver), driver.speed),
         (f"{rate}{index}", driver.acceleration),
     ):
         if reckoned(scene, quantity):
@@ -102,13 +102,6 @@ def in_radians(drawing: Drawing, name: str, quantity: Quantity, unit: str) -> Re
     rate = float(quantity.si(drawing.scene.values))
     size = figure(drawing, abs(rate), OMEGA)
     return Relation(name, "", f"π·{degrees}/180", size, unit, sense(drawing.words, rate))
-
-
-def speed_letter(driver: Driver) -> str:
-    """The letter of a driver's speed, as among the data."""
-    if driver.kind != "turn":
-        return "*v*"
-    return "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
 
 
 def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
