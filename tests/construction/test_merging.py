@@ -142,8 +142,11 @@ MERGES = (
 )
 
 
-@pytest.mark.parametrize("merge", MERGES, ids=lambda merge: merge.scene)
-@pytest.mark.parametrize("offset", [s + x for s, x in zip("+-+-", OFFSETS, strict=True)])
+@pytest.mark.parametrize(
+    ("merge", "offset"),
+    [(MERGES[k // 2], "+-"[k % 2] + OFFSETS[k]) for k in range(4)],
+    ids=lambda part: getattr(part, "scene", part),
+)
 def test_the_last_closures_have_their_numbers(merge, offset):
     angle = merge.at + MP.mpf(offset)
     trials = merge.trials(angle)

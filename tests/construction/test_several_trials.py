@@ -25,6 +25,7 @@ from graphkin.numbers.kinds import ball_kind, decimal_kind, in_doubles
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
 from graphkin.text import words
+from tests.chosen import EVERY
 from tests.construction.rods import rods_of
 from tests.structure.test_unresolved import CYLINDERS
 
@@ -172,7 +173,7 @@ def test_examples_stand_and_move_as_rods_between_pins(name):
 
 @pytest.mark.parametrize(
     ("name", "tried", "starts", "least"),
-    [("three-plates", 3, 6000, 4), ("four-plates", 4, 2000, 1)],
+    [("three-plates", 3, 6000, 4), ("four-plates", 4, 2000, 1)][: 2 if EVERY else 1],
 )
 def test_three_and_four_links_are_tried_at_once(name, tried, starts, least):
     """Both close in four ways, as random places of all pins tell (6000 of them, seed 1)."""
@@ -192,13 +193,13 @@ def test_a_batch_closes_three_links_in_the_closure_of_a_number():
     text = (SCENES / "three-plates.toml").read_text(encoding="utf-8")
     text = text.replace("title", "parameters = { phi = { value = 330 } }\ntitle", 1)
     text = text.replace("angle = 330", 'angle = "phi"')
-    angles = [330.0, 331.0, 332.5]
+    angles = [330.0, 332.5]
     batch = Mechanism(read_text(text, "three")).batch(phi=np.array(angles))
     for k, angle in enumerate(angles):
         one = Mechanism(read_text(text, "three", None, {"phi": angle})).solve()
         for point, here in one.points.items():
             many = batch.points[point]
-            place, rate = (np.broadcast_to(x, 3)[k] for x in (many.position, many.acceleration))
+            place, rate = (np.broadcast_to(x, 2)[k] for x in (many.position, many.acceleration))
             assert place == pytest.approx(here.position, abs=1e-12)
             assert rate == pytest.approx(here.acceleration, rel=1e-8, abs=1e-8)
 

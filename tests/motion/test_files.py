@@ -81,11 +81,12 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
         "agrees in every row",
     ):
         assert words in result.stdout
-    again = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg")
+    more = ("-o", tmp_path, "--format", "svg", "--steps", 12)
+    again = run("cycle", "pump", "--set", "n=7", *more)
     assert again.exit_code == 2
     assert "--force replaces it" in again.stderr
     assert not again.stdout
-    forced = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--force")
+    forced = run("cycle", "pump", "--set", "n=7", *more, "--force")
     assert forced.exit_code == 0
 
 

@@ -136,10 +136,10 @@ def test_three_who_share_answers_are_one_group_with_the_odds_of_their_weakest_pa
 def test_what_fits_another_s_data_follows_from_nothing():
     """A whole class hands in the answers of the next number."""
     lab, kind = "slotted-lever", Kind("copied", (0.25, 0.25))
-    answers, _ = copied_class(lab, kind, 0, COPYING[0], 60)
+    answers, _ = copied_class(lab, kind, 0, COPYING[0], 30)
     result = marked(lab, kind, 0, answers)
     fits = {each.students[0]: set(each.fields) for each in result.wrong_variants}
-    assert len(fits) > 40
+    assert len(fits) > 20
     alone = {t.student.id: t for t in takers_of(False, 0)}
     lost = 0
     for each in result.graded:
@@ -151,7 +151,7 @@ def test_what_fits_another_s_data_follows_from_nothing():
                 assert not (fitting and mark.status is Status.FOLLOWS)
                 assert mark.earned == (0 if mark.status is not old.status else old.earned)
                 lost += mark.earned < old.earned
-    assert lost > 40
+    assert lost > 20
 
 
 def test_a_class_without_answers_has_no_copies():
