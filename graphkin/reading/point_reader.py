@@ -70,6 +70,7 @@ class PointReader(PointSearch):
         self.doubted: set[int] = set()
         self.vaguely: set[int] = set()
         self.readings: dict[int, PointReading] = {}
+        self.crossings: dict[int, LinesCrossing] = {}
 
     def read(self) -> tuple[PointReading, ...]:
         """All points of the sheet."""
@@ -86,33 +87,36 @@ class PointReader(PointSearch):
                     continue
                 if stale:
                     self.next = self.ahead({})
+                cloud = np.atleast_1d(self.sheet.place(number, found[number]))
+                own = expected(cloud)
                 if number in corners:
-                    cloud = np.atleast_1d(self.sheet.place(number, found[number]))
-                    best = self.read_corner(number, where := expected(cloud))
-                    stale = best is not None
-                    if number in self.guessed and best is not None and len(cloud) == DRAWINGS:
-                        errors = self.stream(number, 1).standard_normal((DRAWINGS, 2))
-                        places = where.narrowed(cloud, best, errors)
-                        found[number] = self.sheet.value(number, places)
-                    elif best is not None:
-                        found[number] = self.sheet.value(number, self.own[number])
+                    best = self.read_corner(number, own)
+                else:
+                    key = expected(self.sheet.place(number, keys[number]))
+                    reading = self.readings[number] = self.read_point(number, key, own)
+                    if reading.at is not None:
+                        self.own[number] = complex(*reading.at)
+                    best = self.crossings.get(number)
+                stale = best is not None
+                if best is None:
                     continue
-                key = expected(self.sheet.place(number, keys[number]))
-                own = expected(self.sheet.place(number, found[number]))
-                reading = self.read_point(number, key, own)
-                self.readings[number] = reading
-                stale = reading.at is not None
-                if reading.at is not None:
-                    self.own[number] = complex(*reading.at)
-                    found[number] = self.sheet.value(number, self.own[number])
-                    hand = exact.by_hand(number)
-                    if hand is not None:
-                        found[hand] = self.sheet.value(hand, self.own[number])
-                    found.update(self.lines_through(number, found))
+                place = self.places(number, cloud, own, best)
+                found[number] = self.sheet.value(number, place)
+                hand = exact.by_hand(number)
+                if hand is not None:
+                    found[hand] = self.sheet.value(hand, place)
+                found.update(self.lines_through(number, found))
         for number in self.sheet.found_by.values():
             if number in self.own and not self.is_joined(number):
                 self.readings[number] = replace(self.readings[number], ask=True)
         return tuple(self.readings[number] for number in self.sheet.points)
+
+    def places(self, number: int, cloud: Any, own: ExpectedPlace, best: LinesCrossing) -> Any:
+        """Where a point that was read may lie: what follows from it is known no better."""
+        errors = self.stream(number, 1).standard_normal((DRAWINGS, 2))
+        if own.away(best.place, best.error) <= FITS:
+            return own.narrowed(cloud, best, errors)
+        return self.own[number] + (errors @ np.linalg.cholesky(best.error).T) @ [1, 1j]
 
     def is_joined(self, number: int) -> bool:
         """Whether the vectors are drawn that join a point with those read after it."""
@@ -283,6 +287,7 @@ class PointReader(PointSearch):
         if best is None:
             verdict, ask = ("missing" if np.isfinite(own.middle) else "unread"), True
         else:
+            self.crossings[number] = best
             away = own.away(best.place, best.error)
             if away <= FITS:
                 place = own.weighed(best)

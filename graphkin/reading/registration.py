@@ -76,7 +76,8 @@ LEAST_SIDE = 0.25
 """The same share on each half of the sheet."""
 STRETCH, LEAST_STRETCH = 100.0, 0.35
 """The same of frame and border along each stretch of so many mm that the picture holds: a thumb
-covers less, and a map that goes astray at a corner of the sheet loses more.
+covers less, and a map that goes astray at a corner of the sheet loses more. What is off is also
+sought along each.
 """
 LEAST_TICKS, FEW = 0.4, 12
 """The same of the ticks of a side, of so many places of them at least: where frame or border was
@@ -331,13 +332,14 @@ def profiles(
 
 
 def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
-    """How far off (mm) the lines along each side of the sheet lie where all of a side are sought at
-    once, frame and border together; zero where that is less than lines are looked for anyway.
+    """How far off (mm) the lines along each stretch of the sheet's sides lie where all of it are
+    sought at once, frame and border together; zero where that is less than lines are looked for
+    anyway.
     """
     about = np.zeros(len(lines.places))
     across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
-    for side, _ in edges(lines):
-        some = lines.some(side)
+    for stretch in stretches(lines):
+        some = lines.some(stretch)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
             continue  # frame and border, of which one alone tells nothing
@@ -351,8 +353,18 @@ def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
         best = likely.argmax()
         near = likely[abs(across) < REACH].max()
         if abs(across[best]) > REACH and likely[best] > CLEARLY * near:
-            about[side] = across[best]
+            about[stretch] = across[best]
     return about
+
+
+def stretches(lines: PrintedLines) -> Iterator[Any]:
+    """Which lines run along each stretch of the sheet's sides: one begins in the midst of another,
+    so that what is off or covered somewhere fills one of them.
+    """
+    x, y = lines.places.T
+    for (side, _), along in zip(edges(lines), (y, y, x, x), strict=True):
+        for begin in np.arange(0.0, along.max(), STRETCH / 2):
+            yield side & (along >= begin) & (along < begin + STRETCH)
 
 
 def edges(lines: PrintedLines) -> list[tuple[Any, Any]]:
@@ -390,7 +402,7 @@ def peaks(dark: Any, across: Any, width: float, reach: float) -> tuple[Any, Any]
     """Where a dark line of a width stands out most in profiles, and how much; 0 at their ends."""
     half = max(round(width / 2 / STEP), 1)
     stands = standing(dark, width)
-    stands[:, abs(across) > reach] = -1.0
+    stands[:, abs(across) > reach + STEP / 2] = -1.0
     best = stands.argmax(axis=1)
     rows = np.arange(len(dark))
     window = np.clip(best[:, None] + np.arange(-half - 4, half + 5), 0, len(across) - 1)
@@ -526,11 +538,5 @@ def judged(
 
 def least_stretch(last: MeasuredLines, lines: PrintedLines) -> float:
     """The least share of frame and border that is found along a stretch of the sheet's edge."""
-    (x, y), (left, top, right, bottom) = lines.places.T, EDGE
-    least = 1.0
-    for edge, along in ((y < top, x), (y > bottom, x), (x < left, y), (x > right, y)):
-        for start in np.arange(0.0, 420.0, STRETCH):
-            here = edge & lines.shared & last.seen & (along >= start) & (along < start + STRETCH)
-            if here.sum() >= LEAST_ALONG:
-                least = min(least, float((last.found & here).sum() / here.sum()))
-    return least
+    seen = (stretch & last.seen for stretch in stretches(lines))
+    return min((float(last.found[s].mean()) for s in seen if s.sum() >= LEAST_ALONG), default=1.0)

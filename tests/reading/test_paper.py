@@ -232,20 +232,29 @@ def test_a_printed_line_is_found_where_its_ink_is(width):
     assert abs(shade).max() < 1e-6
     _, outside = peaks((0.1 + dark[3:4]).astype(np.float32), across, width, 0.74)
     assert outside[0] == 0.0
+    for beyond in (-0.15, 0.15):  # what lies beyond where it is looked for is not found at its ends
+        for reach in (2.0, 1.1, 1.05):
+            middle = np.sign(beyond) * (reach + abs(beyond))
+            profile = 0.4 * np.exp(-(((across[None] - middle) / width) ** 2))
+            assert peaks(profile.astype(np.float32), across, width, reach)[1][0] == 0.0
 
 
 def test_a_side_and_a_stretch_are_as_sure_as_their_least_share_that_is_found():
-    """Of frame and border along each 100 mm of an edge; what is not in the picture counts for
-    nothing, and too few places tell nothing."""
+    """Of frame and border along each 100 mm of an edge, wherever these begin; what is not in the
+    picture counts for nothing, and too few places tell nothing."""
     x = np.arange(5.0, 415.0, 2.0)
     places = np.array([(each, 5.0) for each in x] + [(each, 150.0) for each in x])
     count = len(places)
-    lines = PrintedLines(places, places, np.ones(count), np.ones(count, bool), np.ones(count))
+    across = np.tile([0.0, 1.0], (count, 1))
+    lines = PrintedLines(places, across, np.ones(count), np.ones(count, bool), np.ones(count))
     found = (places[:, 0] < 200) | (places[:, 0] % 4 < 2)
     seen = places[:, 0] < 300
     last = MeasuredLines(lines, np.zeros(count), found, seen)
-    assert least_stretch(last, lines) == pytest.approx(0.5, abs=0.02)
+    assert least_stretch(last, lines) == pytest.approx(0.5, abs=0.03)
     assert least_stretch(MeasuredLines(lines, last.off, found, places[:, 0] < 200), lines) == 1.0
+    covered = (places[:, 0] < 60) | (places[:, 0] > 140)  # 60 mm of the first and of the second 100
+    last_of = MeasuredLines(lines, last.off, covered, np.ones(count, bool))
+    assert least_stretch(last_of, lines) == pytest.approx(0.2, abs=0.03)
     assert ticks_found(last, places[:, 0] >= 200) == pytest.approx(0.5, abs=0.02)
     assert ticks_found(last, places[:, 0] >= 300) == 1.0
 
