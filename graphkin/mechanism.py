@@ -11,9 +11,16 @@ from msgspec import Struct
 from graphkin.construction.compile import write
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import ASKED
-from graphkin.construction.core.results import decided, gathered, product_of_sines, row_of, rows_of
 from graphkin.construction.core.run import StepFailed, Trace, run
-from graphkin.construction.core.solution import Solution, Verdict
+from graphkin.construction.core.solution import (
+    Solution,
+    Verdict,
+    decided,
+    gathered,
+    product_of_sines,
+    row_of,
+    rows_of,
+)
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene import scene_files
 from graphkin.scene.link_names import in_language

@@ -24,7 +24,7 @@ from graphkin.accuracy.methods import (
 from graphkin.accuracy.stopwatch import Effort
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
-from graphkin.construction.core.results import gathered
+from graphkin.construction.core.solution import gathered
 from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion

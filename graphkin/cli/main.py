@@ -193,7 +193,7 @@ def solve(
       graphkin solve mine.toml --json > mine.json
     """
     from graphkin.cli.report.solution_record import record
-    from graphkin.construction.core.results import gathered
+    from graphkin.construction.core.solution import gathered
     from graphkin.loops.witness import sure_of
 
     mechanism = mechanism_of(name, settings)
@@ -297,8 +297,12 @@ def doubts(
 
     True when there is any doubt. Digits that are ``proved`` are sure, whatever doubles lose.
     """
-    from graphkin.cli.report.motion_report import flat_words, verdict_words
-    from graphkin.cli.report.unsure_words import digits_words, unsure_words
+    from graphkin.cli.report.motion_report import (
+        digits_words,
+        flat_words,
+        unsure_words,
+        verdict_words,
+    )
     from graphkin.construction.core.solution import FAIR
 
     flat = solution.margin < FAIR

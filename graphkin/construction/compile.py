@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 from graphkin.construction import asked
 from graphkin.construction.acceleration import acceleration
 from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
-from graphkin.construction.centres.centres import draw_centres
+from graphkin.construction.centres.acceleration_poles import draw_pole
+from graphkin.construction.centres.instant_centre import draw_centre
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
 from graphkin.construction.core.pen import Pen
@@ -232,3 +233,22 @@ def tips(pen: Pen, standing: Standing) -> list[str]:
     """The points of cranks whose motion is given."""
     found = (crank_tip(pen.scene, group) for group, _ in standing if isinstance(group, Crank))
     return [tip for tip in found if tip is not None]
+
+
+def draw_centres(pen: Pen, bases: Sequence[Base]) -> None:
+    """Every centre and pole: first those of velocities, then those of accelerations.
+
+    What only some scenes ask is loaded for these.
+    """
+    for base in bases:
+        draw_centre(pen, base)
+    if pen.scene.ask.pairs:
+        from graphkin.construction.centres.kennedy import draw_relative
+
+        draw_relative(pen)
+    for base in bases:
+        draw_pole(pen, base)
+        if base.link in pen.scene.ask.inflection:
+            from graphkin.construction.centres.inflection import draw_circle
+
+            draw_circle(pen, base)

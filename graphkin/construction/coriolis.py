@@ -21,12 +21,11 @@ from graphkin.construction.core.component import (
     Size,
     TriangleComponent,
 )
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.too_short import laid_off

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
+from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import rate_symbol, sense
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate

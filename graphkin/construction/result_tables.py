@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, sense, way_of
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out, on_sheets

@@ -11,9 +11,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vector_equation import chained
-from graphkin.construction.velocity.known_vector import stated
+from graphkin.construction.core.relation import Relation, chained
+from graphkin.construction.velocity.relative_motion import stated
 
 
 def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate

@@ -12,8 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.effect import Effect
-from graphkin.construction.core.program import Part, Program, Step, Target
+from graphkin.construction.core.program import Effect, Part, Program, Step, Target
 from graphkin.construction.core.timing import Timing, timed
 from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.kind import construction, lies_along
 from graphkin.construction.core.program import Program, Step
 from graphkin.diagnosis.ranges import MOST, driver_words

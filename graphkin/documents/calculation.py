@@ -9,8 +9,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
-from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vector_equation import VectorEquation
+from graphkin.construction.core.relation import Relation, VectorEquation
 from graphkin.documents.equation_marks import DEPTH, equation_lines, equation_marks
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet import title_of

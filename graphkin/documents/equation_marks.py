@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.construction.core.vector_equation import Term, VectorEquation
+from graphkin.construction.core.relation import Term, VectorEquation
 from graphkin.drawing.marks import LineMark, Mark, Polyline, Text
 from graphkin.drawing.richtext import extent
 from graphkin.text import Words

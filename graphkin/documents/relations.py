@@ -10,7 +10,6 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
-from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
@@ -18,6 +17,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import (
     Relation,
     answer,

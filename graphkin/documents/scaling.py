@@ -11,8 +11,7 @@ from graphkin.construction.core.component import as_drawn, may_give_way
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, SPEEDS, Target
 from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
-from graphkin.construction.core.results import gathered
-from graphkin.construction.core.solution import Curve, Solution, Verdict
+from graphkin.construction.core.solution import Curve, Solution, Verdict, gathered
 from graphkin.documents.composing import Needs, Search, Stated, searched
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism

@@ -11,9 +11,8 @@ from msgspec import Struct, field
 
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Target
-from graphkin.construction.core.results import gathered, row_of, rows_of
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.solution import Solution
+from graphkin.construction.core.solution import Solution, gathered, row_of, rows_of
 from graphkin.motion.course import Flags, Reals, spread
 from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars

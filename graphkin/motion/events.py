@@ -8,7 +8,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.program import Program
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN

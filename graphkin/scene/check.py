@@ -1,18 +1,20 @@
-"""What the parts of a scene say of each other: every name that is used is one that is written."""
+"""What the parts of a scene say of each other: names that are written, drivers that can move a
+link, blocks on a guide, and coordinates that hold the lengths.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 
-from graphkin.scene.check_blocks import check_blocks
-from graphkin.scene.check_drivers import check_drivers
-from graphkin.scene.check_far import check_far
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known_names import check_guide, known_point, place_of
+from graphkin.scene.known_names import check_guide, known_link, known_point, named, place_of, quoted
 from graphkin.scene.link_names import check_names
-from graphkin.scene.model import LEADING, Branch, Link, Scene, Side, Way
-from graphkin.scene.read_profiles import check_profiles
-from graphkin.scene.wheels import check_centres, check_tracks
+from graphkin.scene.model import FRAME, LEADING, At, Branch, Driver, Link, Scene, Side, Way
+from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.read_joints import check_profiles
+from graphkin.scene.wheels import check_centres, check_driven, check_tracks
+from graphkin.text.errors import SceneError
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -157,3 +159,195 @@ def written(branch: Branch) -> str:
     if isinstance(branch, Way):
         return '"forward"' if branch.way > 0 else '"backward"'
     return f'"closure {branch.number}"'
+
+
+def check_blocks(scene: Scene, findings: Findings) -> None:
+    """Every link with one point is held by more than its pin, and no block by its guide's link."""
+    for link in scene.links.values():
+        if not findings.inside(place_of(link.name)):
+            check_bare(scene, link, findings)
+            check_locked(scene, link, findings)
+
+
+def check_bare(scene: Scene, link: Link, findings: Findings) -> None:
+    """A link on one pin and nothing else would spin about it unless a driver turns it."""
+    if len(link.points) != 1 or link.paths or link.wheels:
+        return
+    point = link.points[0]
+    if carries(scene, link.name) or is_driven(scene, link.name):
+        return
+    found = f"link {link.name} has the point {point} alone and no slides: nothing keeps it"
+    findings.add(
+        place_of(link.name),
+        found,
+        "slides = { on = …, … } for a block, or a second point for a bar",
+        lent_slides(scene, link),
+    )
+
+
+def lent_slides(scene: Scene, link: Link) -> str:
+    """A hint where another link at the same pin has the slides that seem to be this one's."""
+    others = [
+        other.name
+        for other in scene.links.values()
+        if other is not link and other.slides and link.points[0] in other.points
+    ]
+    return f"link {others[0]} has slides: are they link {link.name}'s?" if others else ""
+
+
+def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
+    """A block does not slide on a link that it is pinned to: it could not move against it."""
+    place = f"{place_of(link.name)}.slides"
+    for index, slide in enumerate(link.slides):
+        if slide.on == link.name or slide.on not in (FRAME, *scene.links):
+            continue
+        shared = [point for point in link.points if point in scene.link(slide.on).points]
+        if shared:
+            found = (
+                f"link {link.name} slides on {named(slide.on)} and is pinned to it at "
+                f"{shared[0]}: it cannot move against it"
+            )
+            where = f"{numbered(place, index, len(link.slides))}.on"
+            findings.add(where, found, f"a link that does not have {shared[0]}", meant(scene, link))
+
+
+def meant(scene: Scene, block: Link) -> str:
+    """A hint with the one link that hangs by a single pin, and so may lack this guide."""
+    shut = {slide.on for slide in block.slides}
+    loose = [
+        name
+        for name, link in scene.links.items()
+        if link is not block and name not in shut and hangs(scene, link)
+    ]
+    return f"did you mean on = {quoted(loose[0])}?" if len(loose) == 1 else ""
+
+
+def hangs(scene: Scene, link: Link) -> bool:
+    """Whether a link has one pin and no guide, no track, no wheel and no driver."""
+    others = (scene.frame, *(each for each in scene.links.values() if each is not link))
+    pins = [point for point in link.points if any(point in other.points for other in others)]
+    free = not (link.paths or link.wheels or carries(scene, link.name))
+    return free and len(pins) == 1 and not is_driven(scene, link.name)
+
+
+def carries(scene: Scene, name: str) -> bool:
+    """Whether a guide or a track lies on a link."""
+    links = scene.links.values()
+    return any(path.on == name for link in links for path in link.paths)
+
+
+def is_driven(scene: Scene, name: str) -> bool:
+    """Whether a driver moves a link, or another link against it."""
+    return any(name in (driver.link, driver.against) for driver in scene.drivers)
+
+
+def check_drivers(scene: Scene, findings: Findings) -> None:
+    """Every driver moves a known link that can move so, and no motion is given twice."""
+    for driver in scene.drivers:
+        check_driver(scene, driver, driver.position.place.rpartition(".")[0], findings)
+    check_repeated(scene, findings)
+
+
+def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -> None:
+    """A driver moves a known link against another, along a guide or a track that is there."""
+    link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings)
+    against = known_link(scene, driver.against, f"{place}.against", findings)
+    if link is None or against is None:
+        return
+    if driver.link == driver.against:
+        what = "the frame, which is at rest" if driver.link == FRAME else "itself"
+        findings.add(f"{place}.{driver.kind}", f"against {what}", "a link that moves")
+        return
+    for point in driver.of or ():
+        known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
+    if driver.kind == "turn" or findings.inside(place_of(link.name)):
+        return
+    if driver.kind == "slide":
+        check_slid(scene, driver, link, place, findings)
+    else:
+        check_driven(driver, link, place, findings)
+
+
+def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:
+    """A driver that slides a link has a guide to move it along."""
+    guides = [slide.on for slide in link.slides]
+    if driver.against in guides:
+        return
+    if guides:
+        on, against = named(guides[0]), named(driver.against)
+        findings.add(
+            place,
+            f"link {link.name} slides on {on}, not on {against}",
+            f"against = {quoted(guides[0])}",
+        )
+        return
+    can = [quoted(each.name) for each in scene.links.values() if each.slides]
+    found = f"link {link.name} has no guide to slide along"
+    expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
+    findings.add(f"{place}.slide", found, expected)
+
+
+def check_repeated(scene: Scene, findings: Findings) -> None:
+    """No motion is given twice."""
+    seen = Counter((driver.kind, driver.link, driver.against) for driver in scene.drivers)
+    for (kind, link, against), times in seen.items():
+        if times > 1:
+            found = f"{kind} = {link} against {against} is given {times} times"
+            findings.add("drivers", found, "one driver for one motion")
+
+
+FARTHEST = 1e9
+"""Lengths of the shortest bar beyond which coordinates of 16 digits are too coarse for it."""
+BESIDE = 1e3
+"""Lengths of the whole mechanism beyond which it lies far from the origin."""
+
+
+def check_far(scene: Scene, findings: Findings) -> None:
+    """Note a frame that stands so far away that less than seven digits are left for its bars."""
+    if findings.problems:
+        return
+    try:
+        bars = [abs(metres(scene, length)) for length in bar_lengths(scene)]
+        places = [(metres(scene, x), metres(scene, y)) for x, y in fixed_places(scene)]
+    except SceneError:
+        return
+    bars = [bar for bar in bars if bar]
+    if not bars or not places:
+        return
+    far = min(max(abs(x), abs(y)) for x, y in places)
+    if far > FARTHEST * min(bars) and far > BESIDE * sum(bars):
+        findings.add(
+            "frame",
+            f"it lies {metres_written(far)} m from the origin, and the shortest length is "
+            f"{metres_written(min(bars))} m: coordinates of 16 digits are too coarse for that",
+            f"at most {metres_written(FARTHEST * min(bars))} m",
+            "put the origin near the mechanism",
+        )
+
+
+def bar_lengths(scene: Scene) -> Iterator[Quantity]:
+    """Every length of a bar that the scene states."""
+    for link in (scene.frame, *scene.links.values()):
+        for placing in link.placings:
+            yield from (length for _, _, length in placing.lengths())
+
+
+def fixed_places(scene: Scene) -> Iterator[tuple[Quantity, Quantity]]:
+    """The coordinates of the frame's points and of guides and tracks through coordinates."""
+    for placing in scene.frame.placings:
+        if isinstance(placing, At):
+            yield placing.x, placing.y
+    for link in scene.links.values():
+        for joint in link.paths:
+            if joint.on == FRAME and isinstance(joint.through, tuple):
+                yield joint.through
+
+
+def metres(scene: Scene, length: Quantity) -> float:
+    """A length in metres."""
+    return float(length.si(scene.values))
+
+
+def metres_written(length: float) -> str:
+    """A length in few digits."""
+    return shortest(float(f"{length:.3g}"))

@@ -1,10 +1,15 @@
-"""The guides of blocks, and what is written as they are: a line, a table or a list of them."""
+"""The guides of blocks and the profiles of links, and what is written as they are: a line, a
+table or a list of them.
+"""
 
 from __future__ import annotations
 
-from graphkin.scene.findings import Table, numbered, one_or_many, shown
+from math import degrees
+
+from graphkin.scene.findings import Findings, Table, numbered, one_or_many, shown
+from graphkin.scene.known_names import known_point, named, place_of
 from graphkin.scene.measures import FloatText, Measures, Pair
-from graphkin.scene.model import FRAME, Slide
+from graphkin.scene.model import FRAME, At, Link, Profile, Scene, Slide
 from graphkin.scene.phrases import line_words, link_name, point_name
 from graphkin.scene.quantity import Quantity
 
@@ -77,3 +82,59 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
         measures.findings.add(table.at("through"), shown(raw), expected)
     angle = None if turned is None else measures.angle(table.at("angle"), turned)
     return through, angle
+
+
+OTHERWISE = "a profile is an arc: it needs a radius"
+"""The hint where the centre of a profile lies on it."""
+FULL = 360
+"""The whole circle of a profile, in degrees."""
+
+
+def read_profiles(table: Table, measures: Measures) -> tuple[Profile, ...]:
+    """The profiles of a link."""
+    return tuple(read_profile(each, measures) for each in tables(table, "profiles"))
+
+
+def read_profile(table: Table, measures: Measures) -> Profile:
+    """One profile, ``{ about, through, arc, hollow }``; a point that cannot be read is empty."""
+    about, through = (
+        point_name(table.at(key), table.take(key), table.findings) or ""
+        for key in ("about", "through")
+    )
+    arc = measures.angle(table.at("arc"), table.take("arc")) if "arc" in table else None
+    hollow = table.flag("hollow")
+    table.finish()
+    return Profile(about, through, arc, hollow)
+
+
+def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
+    """Every profile is about a point of its link, through another place of the mechanism."""
+    place = place_of(link.name)
+    sound, points = not findings.inside(place), scene.points
+    for index, profile in enumerate(link.profiles):
+        where = numbered(f"{place}.profiles", index, len(link.profiles))
+        about, through = profile.about, profile.through
+        if about:
+            known_point(about, link.points, named(link.name), f"{where}.about", findings)
+        if through:
+            known_point(through, points, "the mechanism", f"{where}.through", findings)
+        if about and about == through:
+            found, expected = f"about {about} and through it", "a point where it touches"
+            findings.add(f"{where}.through", found, expected, OTHERWISE)
+        elif sound and at_one_spot(scene, link, profile):
+            found = f"{about} and {through} are written at one spot"
+            findings.add(where, found, "a centre and another place", OTHERWISE)
+        over = degrees(float(profile.arc.si(scene.values))) if profile.arc else FULL
+        if not 0 < over <= FULL:
+            expected = "more than 0° and at most 360°, the whole circle"
+            findings.add(f"{where}.arc", f"an arc over {over:g}°", expected)
+
+
+def at_one_spot(scene: Scene, link: Link, profile: Profile) -> bool:
+    """Whether both points of a profile are written by the same coordinates of its link."""
+    spots = [
+        (placing.x.number(scene.values), placing.y.number(scene.values))
+        for placing in link.placings
+        if isinstance(placing, At) and placing.point in (profile.about, profile.through)
+    ]
+    return len(spots) == 2 and spots[0] == spots[1]

@@ -21,8 +21,7 @@ from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name
 from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity
 from graphkin.scene.read_drivers import read_drivers
-from graphkin.scene.read_joints import read_slides
-from graphkin.scene.read_profiles import read_profiles
+from graphkin.scene.read_joints import read_profiles, read_slides
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
 from graphkin.text import paths

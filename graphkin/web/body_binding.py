@@ -8,9 +8,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.link_poses import Touch
+from graphkin.construction.core.link_poses import Disc, Touch
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.gear_symbols import gear

@@ -39,16 +39,13 @@ from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
 from graphkin.construction.guides.guide_line import GuideLine, GuideThroughBlock, ShiftedGuide
 from graphkin.construction.guides.set_by_coordinate import set_at
 from graphkin.construction.higher_class.divided_point import DividedPoint, between, line_through
-from graphkin.construction.links.compass_arc import compass
 from graphkin.construction.links.driven_crank import mark_off
-from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.construction.registry import ON_PALETTE
-from graphkin.construction.velocity.about_pivot import AboutPivot
-from graphkin.construction.velocity.along_guide import AlongGuide
+from graphkin.construction.velocity.image_of_link import alike
 from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate
-from graphkin.construction.velocity.parallel_through import parallel_to
-from graphkin.construction.velocity.perpendicular_through import square_to
-from graphkin.construction.velocity.translated_image import alike
+from graphkin.construction.velocity.lines_through import parallel_to, square_to
+from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import symbol, tag_words

@@ -12,7 +12,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.links.idle_links import IDLE
-from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
+from graphkin.construction.velocity.lines_through import PerpendicularThrough
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
 from graphkin.drawing.symbol_markup import symbol

@@ -17,8 +17,8 @@ import numpy as np
 
 from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import Trace
+from graphkin.construction.core.solution import gathered
 from graphkin.documents.scaling import shown
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved

@@ -20,7 +20,7 @@ import numpy as np
 
 from graphkin.construction.compile import write
 from graphkin.construction.core.batch import run_blocks
-from graphkin.construction.core.results import gathered
+from graphkin.construction.core.solution import gathered
 from graphkin.construction.tape.batch_runner import BatchRunner
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind

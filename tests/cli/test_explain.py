@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from graphkin import load
-from graphkin.construction.core.effect import Effect
+from graphkin.construction.core.program import Effect
 from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, NAMES, EffectRow, effects
 from tests.running import ROOT, Run
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.results import gathered
+from graphkin.construction.core.solution import gathered
 from graphkin.numbers.plane import Ratio
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.guides.swung_guide import GuideThroughPins, TangentGuide
 from graphkin.documents.sheet import sheet

@@ -11,8 +11,7 @@ from collections import Counter
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.core.effect import Effect
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.diagnosis.effects import (
     BY_COMMAND,
     BY_HAND,

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.core.results import gathered
-from graphkin.construction.core.solution import PointMotion, Solution
+from graphkin.construction.core.solution import PointMotion, Solution, gathered
 from graphkin.loops.equations import Equations
 from graphkin.loops.witness import examine
 from graphkin.mechanism import Mechanism

@@ -2,7 +2,7 @@
 
 import pytest
 
-from graphkin.construction.core.curve_extent import ROOMY
+from graphkin.construction.core.drawn_scene import ROOMY
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import drafts_of, scales

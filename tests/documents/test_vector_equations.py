@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from graphkin.construction.core.vector_equation import VectorEquation
+from graphkin.construction.core.relation import VectorEquation
 from graphkin.construction.vector_equations import of_equations
 from graphkin.documents.calculation import calculation
 from graphkin.drawing.marks import LineMark, Text

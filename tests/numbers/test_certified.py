@@ -14,7 +14,7 @@ import pytest
 from graphkin.accuracy.certified import DOUBLINGS, decimals, precisions
 from graphkin.cli.report.certified_report import certified_text, certify
 from graphkin.cli.report.solution_record import record
-from graphkin.construction.core.results import gathered
+from graphkin.construction.core.solution import gathered
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind, decimal_kind
 from tests.chosen import HALVES

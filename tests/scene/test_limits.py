@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.scene.file_limits import NUMBER, PARTS, PLAIN, VALUE
 from graphkin.scene.read_scene import read_scene, read_text
-from graphkin.scene.toml_faults import NUMBER, PARTS, PLAIN, VALUE
 from graphkin.text.errors import MORE, Problem, SceneError
 
 HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'

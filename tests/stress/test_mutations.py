@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.construction.core import vocabulary
-from graphkin.construction.velocity import perpendicular_through
+from graphkin.construction.velocity import lines_through
 from graphkin.numbers.arithmetic import FLOAT
 from tests.construction.test_primitives import (
     EPS,
@@ -49,7 +49,7 @@ def velocity_within(solve: Solve, sample: tuple[complex, ...]) -> bool:
 
 def by_perpendiculars(u: complex, t: complex, v: complex, w: complex) -> complex:
     """As the plan is drawn: square to each bar through the image of its outer end."""
-    lines = perpendicular_through.square_to(v, 0j, u), perpendicular_through.square_to(w, 0j, t)
+    lines = lines_through.square_to(v, 0j, u), lines_through.square_to(w, 0j, t)
     return vocabulary.meet(*lines)
 
 

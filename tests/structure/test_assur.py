@@ -6,7 +6,7 @@ from itertools import permutations
 
 import pytest
 
-from graphkin.structure.assur import assur_class, loop_sizes
+from graphkin.structure.groups import assur_class, loop_sizes
 
 DYAD = ([("1", "2")], ["1", "2"])
 TRIAD = ([("p", "1"), ("p", "2"), ("p", "3")], ["1", "2", "3"])

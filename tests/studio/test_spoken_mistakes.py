@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.scene import toml_faults
+from graphkin.scene import file_limits
 from graphkin.scene.phrases import LEADING
 from graphkin.text.errors import Mend, Problem
 from graphkin.text.problems import GAP, sentences, spoken
@@ -97,8 +97,8 @@ def told_of(text: str, language: str) -> Iterator[str]:
 
 @pytest.mark.parametrize("language", FOREIGN)
 def test_whatever_helps_where_there_is_no_toml_has_words(language):
-    constants = [each for each in vars(toml_faults).values() if isinstance(each, str)]
-    helps = [said for _, said in toml_faults.ADVICE] + constants
+    constants = [each for each in vars(file_limits).values() if isinstance(each, str)]
+    helps = [said for _, said in file_limits.ADVICE] + constants
     say = sentences(language)
     told = [each for each in helps if re.fullmatch(r"[a-z][^\n]* [^\n]*[a-z][^\n]*", each)]
     assert len(told) > 15

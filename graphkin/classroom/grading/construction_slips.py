@@ -15,7 +15,7 @@ from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import component_of
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.program import Program
 from graphkin.construction.registry import COMPONENTS
 from graphkin.numbers.arithmetic import turn_by

@@ -25,7 +25,6 @@ from graphkin.construction.core.quantities import (
     Sort,
     held,
 )
-from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.core.solution import (
     LinkMotion,
@@ -33,6 +32,7 @@ from graphkin.construction.core.solution import (
     SlideMotion,
     Solution,
     Verdict,
+    gathered,
 )
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.diagnosis.assembly_failure import not_found, why

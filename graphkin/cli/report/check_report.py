@@ -13,8 +13,8 @@ from graphkin.cli.report.structure_report import group_lines, structure
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.construction.core.crossings import crossings
 from graphkin.construction.core.drawn_scene import METRES
-from graphkin.construction.core.results import gathered
 from graphkin.construction.core.run import Trace
+from graphkin.construction.core.solution import gathered
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words

@@ -9,7 +9,7 @@ from math import pi
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.results import gathered
+from graphkin.construction.core.solution import gathered
 from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Driver, Link, Scene

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any
 
 from graphkin.cli.report.solution_record import Record, settings_words
-from graphkin.cli.report.unsure_words import digits_words, is_unsure, unsure_words
 from graphkin.construction.core.quantities import (
     CENTRES,
     CIRCLES,
@@ -18,7 +17,7 @@ from graphkin.construction.core.quantities import (
     held,
 )
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.solution import FAIR, Solution, Verdict
+from graphkin.construction.core.solution import FAIR, LinkMotion, Solution, Verdict
 from graphkin.documents.centre_tables import (
     breadth_of,
     centre_words,
@@ -29,7 +28,7 @@ from graphkin.documents.centre_tables import (
     relative_table,
 )
 from graphkin.scene.model import Scene
-from graphkin.text.plain_table import Cell, cleaned, number, table
+from graphkin.text.plain_table import Cell, cleaned, listed, number, table
 
 COLUMNS = {Sort.PLACE: ("x", "y"), Sort.VECTOR: ("x", "y", "")}
 """The components of each sort, the magnitude last."""
@@ -203,4 +202,26 @@ def flat_words(scene: Scene, trace: Trace) -> str:
     return (
         f"the lines at {point} ({part}) cross at a sine of {sine}: the answer is not fair to ask; "
         f"{beside_dead_point(scene, trace.program, number)}"
+    )
+
+
+KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
+
+
+def is_unsure(link: LinkMotion) -> bool:
+    """Whether no digit is sure of how a link turns."""
+    return any(value is not None and isnan(value) for value in (link.omega, link.epsilon))
+
+
+def digits_words(verdict: Verdict) -> str:
+    """How many digits are sure of the positions, velocities and accelerations."""
+    known = [(kind, verdict.digits[kind]) for kind in KINDS if kind in verdict.digits]
+    return ", ".join(f"{KINDS[kind]} {digits}" for kind, digits in known)
+
+
+def unsure_words(verdict: Verdict) -> str:
+    """Of which quantities no digit is sure, and why."""
+    return (
+        f"no digit is sure of {listed(verdict.unsure, 6)}: flat crossings enlarge the rounding of "
+        "doubles beyond them; solve --digits proves what can be known"
     )

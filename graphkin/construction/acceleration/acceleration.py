@@ -8,19 +8,20 @@ from graphkin.construction.acceleration.tangential_direction import RoundPivot, 
 from graphkin.construction.acceleration.turned_acceleration import accelerated, turned_image
 from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, letter, second_image
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
-from graphkin.construction.velocity.crossed_image import crossed_image
-from graphkin.construction.velocity.image_of_link import image_of_link
-from graphkin.construction.velocity.parallel_through import parallel_through
-from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.image_of_link import (
+    crossed_image,
+    image_of_link,
+    translated_image,
+)
+from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.construction.velocity.velocity import driven_rate
 from graphkin.structure.groups import Crank, Driven, Dyad, other_of
 from graphkin.structure.joints import partner

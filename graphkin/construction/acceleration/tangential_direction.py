@@ -13,16 +13,15 @@ from msgspec import Struct
 
 from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.component import laid_off
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen, about, letter, owned
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
 )
-from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough, square_to
+from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.pairs import Joint

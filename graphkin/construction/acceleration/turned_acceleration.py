@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.naming import has_no_length, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter, owned
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.program import Effect, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at

@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.core.vocabulary import coordinate as along_guide
-from graphkin.construction.guides.guide_actions import axis_by_guide
+from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.guides.guides import axis, path_of, path_of_block, standing_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.symbol_markup import bar, escape, symbol

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from msgspec import Struct
 
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
-from graphkin.construction.core.program import Part, Plane, Program
+from graphkin.construction.core.program import Effect, Part, Plane, Program
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.too_short import TINY, is_short

@@ -7,7 +7,6 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from graphkin.construction.core.amounts import in_degrees, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
 from graphkin.construction.core.line_words import axis_of
@@ -19,6 +18,7 @@ from graphkin.construction.core.parameter_words import (
     other_parameters,
     reckoned,
 )
+from graphkin.construction.core.quantities import in_degrees, number_of, written
 from graphkin.construction.core.relation import figure
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import (

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.construction.core.amounts import written
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, constructions
 from graphkin.construction.core.line_words import axis_of, heading, straight
 from graphkin.construction.core.parameter_words import after_parameter
 from graphkin.construction.core.pen import letter
+from graphkin.construction.core.quantities import written
 from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link

@@ -5,8 +5,8 @@ from __future__ import annotations
 from cmath import phase
 from math import degrees
 
-from graphkin.construction.core.amounts import in_mm, number_of, written
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.quantities import in_mm, number_of, written
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, At, GuideOrTrack, Link
 from graphkin.scene.quantity import Quantity, shortest

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
+from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.scene.model import FRAME, Driver, Scene

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 
-from graphkin.construction.core.amounts import written
 from graphkin.construction.core.naming import angle_symbol, speed_symbol
+from graphkin.construction.core.quantities import written
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene, quantities_within

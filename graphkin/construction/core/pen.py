@@ -10,11 +10,11 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.branches import block_of, side_of, way_of
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
     Drive,
+    Effect,
     Given,
     Part,
     PlanAside,

@@ -7,11 +7,11 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
 from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.too_short import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label

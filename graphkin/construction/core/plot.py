@@ -6,10 +6,10 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.amounts import OnPaper, in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import scale_of
+from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.labels import FieldContent

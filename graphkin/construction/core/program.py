@@ -1,4 +1,4 @@
-"""The drawing as a straight line of steps, each using only steps before it."""
+"""The drawing as a straight line of steps, each using only steps before it, for some effect."""
 
 from __future__ import annotations
 
@@ -8,9 +8,28 @@ from typing import Any, ClassVar
 
 from msgspec import Struct
 
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.vocabulary import Action
 from graphkin.numbers.arithmetic import Kind, at, pick
+
+
+class Effect(Enum):
+    """What of a motion a step is drawn for, in the order of the work; its value is its name."""
+
+    TIME = "laws of time"
+    SHAPE = "data and shapes"
+    POSITION = "position"
+    ROLLING = "rolling"
+    GEARS = "gears"
+    VELOCITY = "velocity"
+    RESULT = "rates of links and slides"
+    ACCELERATION = "acceleration"
+    DRIVER = "driver acceleration"
+    NORMAL = "normal components"
+    TANGENTIAL = "tangential components"
+    CORIOLIS = "Coriolis"
+    CENTRE = "instantaneous centres"
+    CENTRODE = "centrodes"
+    POLE = "acceleration poles"
 
 
 class Part(Enum):

@@ -1,14 +1,20 @@
-"""What came out, as plain records: the motion of points, links and slides, and the verdict."""
+"""What came out, as plain records, and how a trace becomes them: each quantity under its owner."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import inf, nan
+from typing import Any
 
 from msgspec import Struct, field
+from msgspec.structs import asdict, replace
 
-from graphkin.numbers.arithmetic import Point, Real
+from graphkin.construction.core.program import Part
+from graphkin.construction.core.quantities import QUANTITIES, Whose
+from graphkin.construction.core.run import Trace
+from graphkin.numbers.arithmetic import Point, Real, least
 from graphkin.numbers.plane import Ratio
+from graphkin.structure.pairs import is_in_scene
 
 FAIR = 1e-4
 """Sine of the flattest crossing at which an answer is still fair and a sheet handed out."""
@@ -106,3 +112,129 @@ class Verdict(Struct, frozen=True):
     def not_as_stated(self, branches: Mapping[str, object]) -> str:
         """What does not hold of the branches that a scene states, as it writes them."""
         return ", ".join(f'{name} = "{branches[name]}"' for name in self.branches)
+
+
+TOUCHING = 8
+"""Sine of a crossing, in roots of eps, at which two loci count as touching in a batch."""
+ALL = -1
+"""Where a merged trace has the product of its sines, beside the smallest of them."""
+
+
+def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
+    """The solution that a trace holds, links in the given order; what was not run is None."""
+    turning = motions(trace, Whose.LINK)
+    pairs = {name: turning.pop(name)["instant_centre"] for name in [*turning] if "-" in name}
+    return Solution(
+        points={name: PointMotion(**own) for name, own in motions(trace, Whose.POINT).items()},
+        links={n: LinkMotion(**turning[n]) for n in links or turning if n in turning},
+        slides={name: SlideMotion(**own) for name, own in motions(trace, Whose.SLIDE).items()},
+        margin=smallest_margin(trace),
+        centres=pairs,
+    )
+
+
+def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
+    """What is known of each point, link or block of which anything is.
+
+    Of two ways to one, such as a centre that a circle needs too, the first that is known counts.
+    """
+    ways = {each.target: each.attribute for each in reversed(QUANTITIES) if each.whose is whose}
+    names = dict.fromkeys(of for target, of in trace.program.targets if target in ways)
+    found = {
+        name: {
+            attribute: value
+            for target, attribute in ways.items()
+            if (value := trace.value(target, name)) is not None
+        }
+        for name in names
+        if is_in_scene(name)
+    }
+    return {name: own for name, own in found.items() if own}
+
+
+def merged(trace: Trace) -> Trace:
+    """The same trace with the smallest of its margins alone, and with the product of its sines."""
+    crossings = counted(trace)
+    if not crossings:
+        return replace(trace, margins={})
+    margins = {next(iter(crossings)): smallest_margin(trace), ALL: product_of_sines(trace)}
+    return replace(trace, margins=margins)
+
+
+def decided(trace: Trace) -> Trace:
+    """A batch without the variants in which two loci touch: there no digit of a rate is right.
+
+    At a sine below 8·sqrt(eps), 1.2e-7 for doubles, they become NaN: a sine that ought to be
+    nought comes out that large, and by the 1-2-3 law a velocity has lost all but two digits.
+    """
+    import numpy as np
+
+    margin = smallest_margin(trace)
+    if not isinstance(margin, np.ndarray):
+        return trace
+    touching = margin < TOUCHING * np.finfo(margin.dtype).eps ** 0.5
+    if not touching.any():
+        return trace
+    values = {number: without(value, touching) for number, value in trace.values.items()}
+    return replace(trace, values=values)
+
+
+def without(value: Any, some: Any) -> Any:
+    """A value with NaN for some of its variants; what all variants share stays."""
+    import numpy as np
+
+    if isinstance(value, Ratio):
+        return Ratio(*(without(part, some) for part in value))
+    return np.where(some, np.nan, value) if isinstance(value, np.ndarray) else value
+
+
+def smallest_margin(trace: Trace) -> Real:
+    """The smallest sine of crossing in the construction; 1 when nothing crossed, NaN where one
+    of a batch cannot be drawn.
+
+    The flat triangles of plates do not count: their points follow by similarity.
+    """
+    smallest: Real = 1.0
+    for margin in counted(trace).values():
+        smallest = least(smallest, margin)
+    return smallest
+
+
+def product_of_sines(trace: Trace) -> Real:
+    """The product of the sines at all crossings of the mechanism, each of which multiplies errors;
+    NaN where one of a batch cannot be drawn."""
+    product: Real = trace.margins.get(ALL, 1.0)
+    for number, margin in counted(trace).items():
+        if ALL not in trace.margins and trace.program.steps[number].part is Part.POSITION:
+            product = product * margin
+    return product
+
+
+def counted(trace: Trace) -> dict[int, Real]:
+    """The margins of crossings that place or move something, by their steps."""
+    steps = trace.program.steps
+    return {
+        number: margin
+        for number, margin in trace.margins.items()
+        if number != ALL and not steps[number].hand and steps[number].part is not Part.SHAPE
+    }
+
+
+def rows_of(solution: Solution, rows: Any) -> Solution:
+    """Some rows of a solution of arrays; what all variants share stays."""
+
+    def cut(record: Any) -> Any:
+        found = asdict(record)
+        return replace(record, **{name: row_of(v, rows) for name, v in found.items()})
+
+    parts = ("points", "links", "slides")
+    motions = {p: {n: cut(each) for n, each in getattr(solution, p).items()} for p in parts}
+    centres = {name: row_of(ratio, rows) for name, ratio in solution.centres.items()}
+    return Solution(**motions, margin=row_of(solution.margin, rows), centres=centres)
+
+
+def row_of(value: Any, rows: Any) -> Any:
+    """Some rows of an array, or of each part of a ratio; what is no array stays."""
+    if isinstance(value, Ratio):
+        return Ratio(*(row_of(part, rows) for part in value))
+    return value[rows] if hasattr(value, "shape") and value.shape else value

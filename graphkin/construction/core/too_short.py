@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.amounts import in_mm
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import in_mm
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""

@@ -7,17 +7,17 @@ from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.drivers.driven_slide import slide_image
-from graphkin.construction.guides.guide_actions import (
+from graphkin.construction.guides.guide_line import (
     axis_by_guide,
     axis_stretched,
+    guide_at,
     length_of,
     stretch,
 )
-from graphkin.construction.guides.guide_line import guide_at
 from graphkin.construction.guides.guides import known_guide, local_line
 from graphkin.construction.guides.sliding import end_on_driven
 from graphkin.construction.links import position
-from graphkin.construction.links.compass_arc import draw_arc
+from graphkin.construction.links.dyad_by_arcs import draw_arc
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
 from graphkin.structure.groups import Cylinder, Stretched

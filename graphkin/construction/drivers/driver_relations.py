@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from graphkin.construction.core.amounts import written
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import (
@@ -18,6 +17,7 @@ from graphkin.construction.core.naming import (
 )
 from graphkin.construction.core.parameter_words import is_derived, parameter_symbol, reckoned
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.quantities import written
 from graphkin.construction.core.relation import (
     Relation,
     answer,

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from math import degrees, pi
 from typing import NamedTuple
 
-from graphkin.construction.core.amounts import in_degrees, written
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.naming import angle_symbol, driver_index
+from graphkin.construction.core.quantities import in_degrees, written
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import seat
 from graphkin.construction.guides.slide_symbols import within

@@ -17,8 +17,7 @@ from graphkin.construction.core.pen import (
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import BY_TARGET, EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import in_proportion
-from graphkin.construction.velocity.image_of_link import image_of_link
-from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.image_of_link import image_of_link, translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.model import FRAME

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.determined import Determined, which_side
+from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.kind import lies_along
 from graphkin.construction.core.line_words import heading
 from graphkin.construction.core.link_poses import lettered

@@ -8,22 +8,20 @@ from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import across
-from graphkin.construction.guides.guide_actions import (
+from graphkin.construction.guides.guide_line import (
     axis_along,
     axis_by_guide,
     axis_of,
     axis_with_guide,
     beside_guide,
     gap,
-    placed,
-    turned,
-    way_between,
-)
-from graphkin.construction.guides.guide_line import (
     guide_along,
     guide_at,
     guide_through,
+    placed,
     shift_guide,
+    turned,
+    way_between,
 )
 from graphkin.construction.links.link_shapes import LinkShapes, polar
 from graphkin.scene.model import FRAME, GuideOrTrack, Slide

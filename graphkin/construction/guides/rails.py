@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from msgspec import Struct, field
 
-from graphkin.construction.core.bodies import Guideway
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.link_poses import Guideway
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Slide

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, ray
-from graphkin.construction.guides.guide_actions import axis_by_guide
+from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.guides.guides import height_of, local_line
-from graphkin.construction.links.compass_arc import compass
-from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt

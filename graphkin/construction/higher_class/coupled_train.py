@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import bases, contact_name, under
-from graphkin.construction.core.determined import Determined
+from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference

@@ -24,8 +24,7 @@ from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity import velocity
-from graphkin.construction.velocity.parallel_through import parallel_through
-from graphkin.construction.velocity.perpendicular_through import perpendicular_through
+from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
 from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -13,7 +13,7 @@ from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, coordinate, difference
-from graphkin.construction.guides.guide_actions import axis_with_guide, turned_back
+from graphkin.construction.guides.guide_line import axis_with_guide, turned_back
 from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.higher_class.closed_group import ClosedGroup

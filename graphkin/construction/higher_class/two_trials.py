@@ -11,13 +11,13 @@ from typing import ClassVar
 from msgspec.structs import replace
 
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
-from graphkin.construction.core.amounts import OnPaper
 from graphkin.construction.core.bases import bases, contact_name, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program, Target
+from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.sentence import Sentence, in_one, together
 from graphkin.construction.core.vocabulary import (
@@ -444,9 +444,7 @@ def missed(
             name = contact_name(last)
             if isinstance(group, Higher):
                 name = SlippingName(name)
-            return coupled_train.missed(
-                pen, last, group.closing, kind.quantity, kind.part, name
-            )
+            return coupled_train.missed(pen, last, group.closing, kind.quantity, kind.part, name)
         case Tie(link, Pin(point=p), Pin(point=q)):
             p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]

@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from math import degrees
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.amounts import in_degrees
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.line_words import axis_of
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.quantities import in_degrees
 from graphkin.construction.core.vocabulary import action, ray
-from graphkin.construction.guides.guide_actions import axis_by_guide
+from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -7,9 +7,8 @@ from collections.abc import Iterator, Sequence
 from math import ceil, cos, degrees, pi, radians, sin, sqrt
 from typing import NamedTuple
 
-from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.link_poses import Touch
+from graphkin.construction.core.link_poses import Disc, Touch
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, polygon
 from graphkin.drawing.symbols import UPRIGHT, across, hatched

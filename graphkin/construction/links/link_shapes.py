@@ -9,8 +9,7 @@ from graphkin.construction.core.bases import Base
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, distance, in_proportion, lay_off
-from graphkin.construction.links.compass_arc import compass
-from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
 

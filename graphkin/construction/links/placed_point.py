@@ -11,7 +11,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.sentence import Sentence, together
-from graphkin.construction.guides.guide_actions import placed
+from graphkin.construction.guides.guide_line import placed
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 
 UNTURNED = 0.05

@@ -14,9 +14,8 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guides import axis
-from graphkin.construction.links.compass_arc import draw_arc, stated_bar
 from graphkin.construction.links.driven_crank import mark_off
-from graphkin.construction.links.dyad_by_arcs import arcs_meet, side_words
+from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
 from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.construction.links.placed_point import place_point
 from graphkin.drawing.symbol_markup import bar, symbol

@@ -7,9 +7,8 @@ from functools import reduce
 from math import degrees, pi
 from typing import Any, NamedTuple
 
-from graphkin.construction.core.bodies import Disc
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.link_poses import APART, Touch
+from graphkin.construction.core.link_poses import APART, Disc, Touch
 from graphkin.construction.core.plot import draw_line
 from graphkin.construction.guides.rails import ALIKE, REACH, places_of, seat
 from graphkin.construction.guides.slide_symbols import within

@@ -16,7 +16,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.velocity.perpendicular_through import PerpendicularThrough
+from graphkin.construction.velocity.lines_through import PerpendicularThrough
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.amounts import in_mm
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     Component,
@@ -18,6 +17,7 @@ from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off

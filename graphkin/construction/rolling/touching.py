@@ -8,8 +8,8 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from msgspec import Struct
 
-from graphkin.construction.core.effect import Effect
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Effect
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Geared, Spun, Train
 from graphkin.structure.pairs import Contact, contacts, meshes

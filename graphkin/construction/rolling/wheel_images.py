@@ -35,10 +35,12 @@ from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
 from graphkin.construction.rolling.touching import by_contact
-from graphkin.construction.velocity.crossed_image import crossed_image
-from graphkin.construction.velocity.image_of_link import image_of_link
-from graphkin.construction.velocity.parallel_through import parallel_through
-from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.image_of_link import (
+    crossed_image,
+    image_of_link,
+    translated_image,
+)
+from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.model import Driver

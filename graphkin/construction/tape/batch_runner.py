@@ -15,8 +15,8 @@ from msgspec import Struct, field
 
 from graphkin.construction.core.batch import is_array, run_batch, run_blocks
 from graphkin.construction.core.program import Program
-from graphkin.construction.core.results import merged
 from graphkin.construction.core.run import Trace, Values
+from graphkin.construction.core.solution import merged
 from graphkin.construction.tape.emitted import Emitted
 from graphkin.construction.tape.traced import UntraceableError
 from graphkin.construction.tape.tracer import parts_named, traced

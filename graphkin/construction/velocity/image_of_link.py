@@ -9,13 +9,106 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import similar_point
-from graphkin.construction.velocity.crossed_image import CrossedImage
+from graphkin.construction.core.relation import Relation, Term, VectorEquation
+from graphkin.construction.core.vocabulary import action, meet, similar_point
+from graphkin.construction.velocity.relative_motion import known, stated
 from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.numbers.arithmetic import Point
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+@action("alike")
+def alike(image: Point) -> Point:
+    """The image of a point that moves as another does: a block does not turn."""
+    return image
+
+
+class TranslatedImage(Construction, frozen=True, kw_only=True):
+    """The ``image`` of a point ``q``, on the image ``start`` of ``p``, for it moves as that."""
+
+    gives: ClassVar[tuple[str, ...]] = ("image",)
+    reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
+    unmarked: ClassVar[frozenset[str]] = frozenset({"image"})
+
+    p: str
+    q: str
+    start: int
+    image: int
+
+    @property
+    def falls_on(self) -> int:
+        """The other image."""
+        return self.start
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """It falls on the same point."""
+        name = symbol(drawing.trace.program.steps[self.image].name)
+        return drawing.words("step.alike", name=name, p=symbol(self.p), q=symbol(self.q))
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, under its letter too."""
+        canvas.image()
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """Its vector is that of the other point."""
+        whole = Term(symbol(f"{drawing.vector.letter}_{self.q}"))
+        yield stated(VectorEquation(whole, ((known(drawing, self.p),),)))
+
+
+def translated_image(pen: Pen, start: int, ends: tuple[str, str], name: str) -> int:
+    """The image of the second of two points, on that of the first, under its name in the plan."""
+    image = pen.draw(alike, start, name=name)
+    pen.make(TranslatedImage(p=ends[0], q=ends[1], start=start, image=image))
+    return image
+
+
+class CrossedImage(Construction, frozen=True, kw_only=True):
+    """The ``image`` of a ``point`` where its lines ``first`` and ``second`` meet.
+
+    Without a ``point`` it only shows by hand what similarity finds.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("image",)
+    reasons: ClassVar[Mapping[str, str]] = {"image": "why.meet"}
+
+    point: str
+    first: int
+    second: int
+    image: int
+
+    @property
+    def sought(self) -> str:
+        """Its point."""
+        return self.point
+
+    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
+        """Both lines."""
+        return self.first, self.second
+
+    def point_sentence(self, drawing: Drawing, role: str) -> str:
+        """Where they meet."""
+        name = symbol(drawing.trace.program.steps[self.image].name)
+        return drawing.words("step.meet", name=name)
+
+    def point_apart(self, drawing: Drawing, role: str) -> str:
+        """Where both lines meet."""
+        name = symbol(drawing.trace.program.steps[self.image].name)
+        return drawing.words("step.meet-apart", name=name)
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, under its letter."""
+        canvas.image()
+
+
+def crossed_image(pen: Pen, first: int, second: int, *, name: str = "", of: str = "") -> int:
+    """The image of a point where two lines meet, under its name in the plan."""
+    image = pen.draw(meet, first, second, name=name)
+    pen.make(CrossedImage(point=of, first=first, second=second, image=image))
+    return image
+
 
 IN_LINE = 1e-9
 """How far beside its line, in parts of its distance, a point still counts as on it."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from abc import abstractmethod
 
-from graphkin.construction.core.amounts import in_mm
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import drawn_between, driver_of_rate, is_driven, rate_symbol
+from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.too_short import laid_off
-from graphkin.construction.velocity.about_pivot import AboutPivot
+from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 
 

@@ -13,11 +13,12 @@ from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
-from graphkin.construction.velocity.crossed_image import crossed_image
-from graphkin.construction.velocity.image_of_link import image_of_link
-from graphkin.construction.velocity.parallel_through import parallel_through
-from graphkin.construction.velocity.perpendicular_through import perpendicular_through
-from graphkin.construction.velocity.translated_image import translated_image
+from graphkin.construction.velocity.image_of_link import (
+    crossed_image,
+    image_of_link,
+    translated_image,
+)
+from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.structure.groups import Crank, Driven, Dyad, Spun, other_of
 from graphkin.structure.joints import partner

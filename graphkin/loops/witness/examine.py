@@ -1,24 +1,33 @@
-"""Both routes side by side, and the verdict."""
+"""Both routes side by side as far as a solution speaks, the branches stated, and the verdict."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import isnan
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
-from graphkin.construction.core.solution import Solution, Verdict
-from graphkin.loops.assemble import completed
+from graphkin.construction.core.quantities import QUANTITIES, held
+from graphkin.construction.core.solution import (
+    LinkMotion,
+    PointMotion,
+    SlideMotion,
+    Solution,
+    Verdict,
+)
+from graphkin.loops.assemble import LEVEL, completed, led_by
+from graphkin.loops.branch_closures import closure_numbers, closures, other_closure, turned_side
 from graphkin.loops.cam_laws import by_law, without_linkages
+from graphkin.loops.closing_groups import Group, groups, speaks_of, stages
 from graphkin.loops.equations import Equations, equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
 from graphkin.loops.newton_start import Start, start_values
+from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.rigid_bodies import Reals
-from graphkin.loops.witness.branch_conditions import Flags, branch_conditions
-from graphkin.loops.witness.coverage import has_acceleration, links_concerned, scene_of
 from graphkin.loops.witness.differences import (
     LEAST_LIMIT,
     Differences,
@@ -26,7 +35,94 @@ from graphkin.loops.witness.differences import (
     digits_of,
     or_one,
 )
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
+
+NUMBERED = 12
+"""Settings of a batch, evenly spread, whose closures are numbered; it takes long."""
+
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+
+
+def branch_conditions(
+    scene: Scene, solved: LoopSolution, *, numbered: bool = True
+) -> dict[str, Flags]:
+    """Whether each statement of [branches] holds: arrays of shape (N,).
+
+    Numbers of closures, and ways of groups other than dyads, are verified on at most ``NUMBERED``
+    settings of a batch, evenly spread; not at all without ``numbered``.
+    """
+    found: dict[str, Flags] = {}
+    stated = scene.branches.items()
+    sides_only = all(isinstance(branch, Side) for _, branch in stated)
+    known = [] if sides_only else groups(scene, solved.loops)
+    motion = solved.motion
+    for name, branch in stated:
+        if isinstance(branch, Side):
+            side = turned_side(motion, branch.first, branch.second, name)
+            found[name] = np.asarray(branch.side * side > -side_slack(solved, name, branch))
+            continue
+        for group in (each for each in known if speaks_of(name, branch, each, solved.loops)):
+            if isinstance(branch, Way) and group.is_dyad:
+                holds = way_of_dyad(branch, solved, group)
+            elif not numbered:
+                continue
+            else:
+                holds = picked_rows(scene, branch, solved, group, name)
+            found[name] = found.get(name, True) & holds
+    return found
+
+
+def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
+    """How far rounding may put a pin on the other side of the way between two others, as a sine."""
+    start, end, place = (
+        solved.motion.point(each).place for each in (branch.first, branch.second, name)
+    )
+    errors = sum(solved.rounding.point(each).place for each in (branch.first, branch.second, name))
+    return LEVEL + errors / np.minimum(abs(end - start), abs(place - start))
+
+
+def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
+    """Whether the slide of a dyad stands the stated way; with two slides there is one closure."""
+    loops = solved.loops
+    if len(group.slides) != 1:
+        return np.ones(loops.numbers.count, dtype=np.bool_)
+    stands, other = other_closure(loops, solved.motion, group)
+    error = solved.rounding.slide(group.slides[0].slide).position
+    return np.asarray(branch.way * (stands - other) > -LEVEL * loops.size - 4 * error)
+
+
+def picked_rows(
+    scene: Scene, branch: Way | Closure, solved: LoopSolution, group: Group, name: str
+) -> Flags:
+    """Whether a group stands as stated, by looking for all its closures."""
+    count = solved.loops.numbers.count
+    holds = np.ones(count, dtype=np.bool_)
+    settings = np.flatnonzero(solved.report.good)
+    spread = np.linspace(0, max(len(settings) - 1, 0), min(len(settings), NUMBERED))
+    for n in settings[np.unique(spread.astype(int))]:
+        if isinstance(branch, Closure):
+            row = solved.unknowns[n]
+            numbers = closure_numbers(scene, solved.loops, group, row, int(n))
+            holds[n] = branch.number in numbers
+        else:
+            holds[n] = farthest(scene, branch, solved, group, name, int(n))
+    return holds
+
+
+def farthest(
+    scene: Scene, branch: Way, solved: LoopSolution, group: Group, name: str, n: int
+) -> bool:
+    """Whether the coordinate of a group is the largest (or least) of all its closures."""
+    loops = solved.loops
+    part = equations(scene, setting_of(loops, n), group.known | set(group.links))
+    stands = unknowns_of(part, pose_of(loops, solved.unknowns[n], n))
+    j = led_by(name, group, loops, part)
+    if j is None:
+        return True
+    column = part.turning_count + j
+    every = closures(part, stands, group)[:, column]
+    end = every.max(initial=-np.inf) if branch.way > 0 else every.min(initial=np.inf)
+    return bool(abs(stands[0, column] - end) <= 1e-6 * part.size[0])
 
 
 def compare(
@@ -170,3 +266,84 @@ def breadth(motion: Motion) -> Reals:
     """Largest distance between two points of the mechanism (m), shape (N,)."""
     places = motion.points.place
     return or_one(np.abs(places[:, :, None] - places[:, None, :]).max(axis=(1, 2)))
+
+
+def links_concerned(scene: Scene, loops: Equations, solution: Solution) -> frozenset[str] | None:
+    """The links that a solution speaks of, and those on which they hang; None when that is all.
+
+    A pin that several links share speaks of the one that is known first. All of them are taken
+    where some link belongs to no group, for it may be idle and still hold the others.
+    """
+    spoken, moving = set(links_named(solution)), set(loops.links) - {FRAME}
+    links_of = owners_of(loops)
+    owners = [links_of.get(point, []) for point in points_named(solution)]
+    if spoken.union(*(each for each in owners if len(each) == 1)) >= moving:
+        return None
+    order = stages(scene, loops)
+    place = {link: n for n, group in enumerate(order) for link in group.links}
+    if not place.keys() >= moving:
+        return None
+    firsts = (min(each, key=lambda link: place.get(link, -1)) for each in owners if each)
+    wanted = {place[link] for link in spoken.union(firsts) if link in place}
+    for n in range(len(order) - 1, -1, -1):
+        if n in wanted:
+            wanted |= {place[link] for link in hangs_on(order[n]) if link in place}
+    return frozenset(link for n in wanted for link in order[n].links)
+
+
+def hangs_on(group: Group) -> set[str]:
+    """The links known before to which a group is joined, geared or driven."""
+    joined = {link for joint in (*group.outer, *group.ties) for link in joint.links}
+    return joined - set(group.links)
+
+
+def links_named(solution: Solution) -> Iterator[str]:
+    """Links and blocks of which anything is known, and those under a point such as A@3."""
+    yield from (name for name, link in solution.links.items() if says_anything(link))
+    yield from (name for name, slide in solution.slides.items() if says_anything(slide))
+    for pair in solution.centres:
+        yield from pair.split("-")
+    yield from (link for name in solution.points if (link := name.partition("@")[2]))
+
+
+def points_named(solution: Solution) -> Iterator[str]:
+    """Points of which anything is known; of A@3 the point A."""
+    return (name.partition("@")[0] for name, p in solution.points.items() if says_anything(p))
+
+
+def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:
+    """Whether any quantity of a motion is known."""
+    return any(getattr(motion, name) is not None for name in motion.__struct_fields__)
+
+
+def owners_of(loops: Equations) -> dict[str, list[str]]:
+    """The links that have each point."""
+    found: dict[str, list[str]] = {}
+    for link, body in loops.bodies.items():
+        for point in body:
+            found.setdefault(point, []).append(link)
+    return found
+
+
+def has_acceleration(solution: Solution) -> bool:
+    """Whether a solution holds anything that hangs on accelerations."""
+    return any(
+        held(motion, quantity) is not None
+        for quantity in QUANTITIES
+        if quantity.kind == "acceleration"
+        for motion in getattr(solution, quantity.whose.value).values()
+    )
+
+
+def scene_of(loops: Equations) -> Scene:
+    """The scene of some equations, with the branches of what they hold and no others."""
+    branches = {
+        name: branch
+        for name, branch in loops.scene.branches.items()
+        if (
+            {name, branch.first, branch.second} <= set(loops.points)
+            if isinstance(branch, Side)
+            else name in loops.links
+        )
+    }
+    return replace(loops.scene, branches=branches)

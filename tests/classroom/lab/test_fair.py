@@ -11,7 +11,7 @@ from graphkin import load
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.core.results import smallest_margin
+from graphkin.construction.core.solution import smallest_margin
 from graphkin.construction.result_tables import vectors
 from tests.classroom.lab.singles import LABS, ROOT, SCENES, lab_of, mechanism_of, sheets_of
 

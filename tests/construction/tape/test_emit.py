@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.construction.core.batch import run_batch, run_blocks
 from graphkin.construction.core.program import Part, Plane, Program, Step
-from graphkin.construction.core.results import smallest_margin
+from graphkin.construction.core.solution import smallest_margin
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.tape.batch_runner import EMITTED_FROM, BatchRunner
 from graphkin.construction.tape.emit import loop_source

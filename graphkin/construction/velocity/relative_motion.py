@@ -1,0 +1,144 @@
+"""The motion of one point about another, or along a guide, and vectors that are known beside it.
+
+What lines and vectors of both plans have in common.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from graphkin.construction.core.component import index_before, laid_off
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.naming import vector_of, way_of
+from graphkin.construction.core.relation import Relation, Term, VectorEquation
+from graphkin.drawing.symbol_markup import bar, symbol
+
+if TYPE_CHECKING:
+    from graphkin.construction.core.drawn_scene import Drawing
+
+
+def known(drawing: Drawing, point: str) -> Term:
+    """The vector of a point that is known: with direction and size where a driver gives them."""
+    program = drawing.trace.program
+    number = program.targets.get((drawing.kind, point))
+    kind = construction(program.steps[number]) if number is not None else None
+    note = kind.known_by(drawing) if kind is not None else ""
+    return Term(symbol(f"{drawing.vector.letter}_{point}"), 2, note)
+
+
+def joined(*notes: str) -> str:
+    """Notes with a comma between them."""
+    return ", ".join(filter(None, notes))
+
+
+def stated(equation: VectorEquation) -> Relation:
+    """A relation that is a vector equation."""
+    alone = equation.whole if not equation.sums else None
+    left = f"{alone.symbol} {alone.note}" if alone else equation.markup
+    return Relation(left, equation=equation)
+
+
+class AboutPivot(Construction, frozen=True, kw_only=True):
+    """What follows from the motion of a point ``q`` about ``p``, both lettered as in a bar.
+
+    ``index`` is that of the relative vectors, ``whole`` and ``base`` those of both points' own.
+    """
+
+    p: str
+    q: str
+    index: str
+    whole: str
+    base: str
+
+    @property
+    def bar(self) -> str:
+        """Markup of the bar between both points."""
+        return bar(self.p, self.q)
+
+    def symbols(self) -> Mapping[str, str]:
+        """Both points and their bar."""
+        return {"p": symbol(self.p), "q": symbol(self.q), "bar": self.bar}
+
+    def euler(
+        self, drawing: Drawing, *, omega: str = "", epsilon: str = "", steady: bool = False
+    ) -> Relation:
+        """Euler's theorem for the motion of a pin about another, or about a fixed pivot.
+
+        ``omega`` and ``epsilon`` are the rates that are known; what turns ``steady`` gives no
+        tangential component.
+        """
+        letter, fixed = drawing.vector.letter, self.index == self.whole
+        whole = Term(symbol(f"{letter}_{self.whole}"))
+        base = known(drawing, self.base)
+        before = () if fixed else (base,)
+        across, speed = f"⊥ {self.bar}", symbol(f"v_{self.index}")
+        if drawing.kind == "velocity":
+            relative = Term(speed, 1 + bool(omega), joined(across, omega and f"{omega}·{self.bar}"))
+            if fixed:
+                return stated(VectorEquation(relative))
+            return stated(VectorEquation(whole, ((*before, relative),)))
+        square = f"{omega}^2·{self.bar}" if omega else f"{speed}^2/{self.bar}"
+        inward = f"{symbol(self.q)}→{symbol(self.p)}"
+        terms = [Term(symbol(f"a_{self.index}^ν"), 2, joined(inward, square))]
+        if not steady:
+            size = epsilon and f"{epsilon}·{self.bar}"
+            name = symbol(f"a_{self.index}^τ")
+            terms.append(Term(name, 1 + bool(epsilon), joined(across, size)))
+        return stated(VectorEquation(whole, ((*before, *terms),)))
+
+
+class AlongGuide(Construction, frozen=True, kw_only=True):
+    """What follows from the motion of a point along the guide of a block, or a wheel's track.
+
+    ``start`` is the end of what is known of that motion.
+    """
+
+    guide: str
+    start: int
+
+    def way(self, drawing: Drawing) -> str:
+        """The guide, or the track, in words."""
+        return way_of(drawing, self.guide)
+
+    def vector_along(self, drawing: Drawing, number: int) -> str:
+        """The vector along the guide: from its line's or its own beginning to the point found."""
+        tips = [number, *drawing.children.get(number, ())]
+        found = (vector_of(drawing, self.start, tip) for tip in tips)
+        index = index_before(drawing.trace.program, self.start)
+        default = symbol(f"a_{index}^r") if index else ""
+        return next((name for name in found if name), default)
+
+    def motion_of(self, drawing: Drawing, sought: str) -> Relation:
+        """The motion of a point: alone where the guide stands still, else on its point's."""
+        point, beneath = self.slider(drawing, sought)
+        velocity, guide = drawing.kind == "velocity", self.way(drawing)
+        letter = drawing.vector.letter
+        if drawing.trace.program.steps[self.start].name == drawing.pole:
+            name = symbol(f"{letter}_{beneath if '@' in sought else point}")
+            rests = self.rests(drawing, point) if "@" in sought else ""
+            return stated(VectorEquation(Term(name, 1, joined(f"∥ {guide}", rests))))
+        terms = [known(drawing, beneath)]
+        laid = laid_off(drawing.trace.program, self.start)
+        if laid is not None:
+            component = laid.component
+            name = symbol(f"a_{point}{beneath}^{component.sign}")
+            terms.append(Term(name, 2, component.formula(drawing)))
+        relative = symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
+        terms.append(Term(relative, 1, f"∥ {guide}"))
+        rests = self.rests(drawing, point)
+        whole = Term(symbol(f"{letter}_{point}"), 2 if rests else 0, rests)
+        return stated(VectorEquation(whole, (tuple(terms),)))
+
+    def rests(self, drawing: Drawing, point: str) -> str:
+        """That a fixed point does not move; nothing of one that does."""
+        fixed = point in drawing.scene.frame.points
+        return f"{symbol(f'{drawing.vector.letter}_{point}')} = 0" if fixed else ""
+
+    def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
+        """The point that slides and the one beneath it on the guide, as the index of symbols."""
+        point, _, link = sought.partition("@")
+        block = drawing.scene.links[self.guide]
+        if not link:
+            link = block.paths[0].on if point in block.points else block.name
+        return point, point + ("" if link.isdigit() and point[-1].isalpha() else ",") + link
