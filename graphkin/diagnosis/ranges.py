@@ -27,8 +27,6 @@ FEWER, FEWER_PARTS = 36, 4
 """The same where several links are tried at once: each position costs as much as a hundred."""
 SOUGHT = 2
 """Links tried at once with which positions are searched at all."""
-NOISE = 1e-12
-"""Sine of crossing of lines that are parallel throughout, but for rounding."""
 MOST = 3
 """Drivers told with their ranges."""
 LISTED = 6
@@ -154,6 +152,7 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     """The ranges in which a course closes, from so many positions, evenly spread."""
     import numpy as np
 
+    from graphkin.motion.course import closed_in
     from graphkin.motion.driving import TURN
     from graphkin.motion.turns_followed import led_both
 
@@ -164,13 +163,12 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     least = step if course.closing_work else 0.0
     course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]), least)
     margins = course.margins(grid)
-    closed = np.asarray(np.isfinite(margins).all(axis=0))
-    if len(margins) > 1 and np.nanmin(margins[:-1], axis=0, initial=1.0).max(initial=0.0) < NOISE:
-        return []
-    if closed.all():
-        return [(0.0, TURN)] if sweep.whole else [(float(grid[0]), float(grid[-1]))]
+    closed = closed_in(margins)
     if not closed.any():
         return []
+    closed |= touched(margins, closed, sweep.whole)
+    if closed.all():
+        return [(0.0, TURN)] if sweep.whole else [(float(grid[0]), float(grid[-1]))]
     if not sweep.whole:
         closed = np.concatenate([[False], closed, [False]])
         grid = np.concatenate([[grid[0] - step], grid, [grid[-1] + step]])
@@ -185,6 +183,14 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     begun = [(low - (TURN if high < low else 0), high) for low, high in pairs]
     over = TURN if sweep.whole else float("inf")
     return sorted((low - TURN, high - TURN) if high > over else (low, high) for low, high in begun)
+
+
+def touched(margins: Any, closed: Any, whole: bool) -> Any:
+    """Single positions between two that close at which loci only touch: change points."""
+    import numpy as np
+
+    about = np.pad(closed, 1, mode="wrap" if whole else "constant")
+    return np.isfinite(margins).all(axis=0) & about[:-2] & about[2:]
 
 
 def ranges_followed(course: Course) -> list[Range]:

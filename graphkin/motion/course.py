@@ -29,6 +29,8 @@ from graphkin.text.errors import GraphkinError
 Reals = np.ndarray[Any, np.dtype[Any]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Branches = Mapping[str, Branch]
+NOISE = 1e-8
+"""Sine of a crossing of loci that may lie on one another: the root of what rounding leaves."""
 PLACES = ("position", "slide", "axis", "rolled")
 """Targets that say where the mechanism stands."""
 
@@ -199,7 +201,7 @@ class Course(Struct, frozen=True, dict=True):
 
     def closes(self, at: Any) -> Flags:
         """Whether everything can be placed, for each u (N,)."""
-        return np.asarray(np.isfinite(self.margins(at)).all(axis=0))
+        return closed_in(self.margins(at))
 
     def run(
         self, at: Any, targets: Iterable[Target] | None = None, *, geometric: bool = False
@@ -262,6 +264,11 @@ class Course(Struct, frozen=True, dict=True):
             for n, (mine, theirs) in enumerate(zip(self.program.steps, steps, strict=False))
             if mine.extra != theirs.extra
         }
+
+
+def closed_in(margins: Reals) -> Flags:
+    """Which columns of margins close: all is placed, and no two loci lie on one another."""
+    return np.isfinite(margins).all(axis=0) & (margins >= NOISE).all(axis=0)
 
 
 def spread(value: Any, count: int) -> Any:

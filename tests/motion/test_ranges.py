@@ -1,9 +1,16 @@
-"""Ranges that lie about nought, from either side of it."""
+"""Ranges: about nought, from either side of it, and where pins fall together beyond their end."""
+
+from math import acos, degrees
+from pathlib import Path
 
 import pytest
 
+import graphkin
+from graphkin.diagnosis.ranges import closing
 from graphkin.motion.cycle import cycle
 from tests.mechanisms import mechanism_of
+
+SCENES = Path(__file__).parent / "scenes"
 
 TRIPLE_ROCKER = """
 [frame]
@@ -31,3 +38,23 @@ def test_a_rocker_that_swings_about_nought_is_followed_from_anywhere(angle):
     (low, high), *rest = found.ranges
     assert not rest
     assert (low, high) == pytest.approx((-67.11461952384143, 67.11461952384143), abs=1e-9)
+
+
+@pytest.mark.parametrize("angle", [-33, 4, 41])
+def test_where_two_pins_fall_together_nothing_more_is_found(angle):
+    """Beyond |OA| = OD - AD the pin E would stand on D, and P anywhere about both.
+
+    The range ends where |OA| = 2·OC·cos α = 100 mm with D on OA, and at D, A and C in line.
+    """
+    linkage = graphkin.load(SCENES / "peaucellier-led.toml", d=angle)
+    ends = -degrees(acos(100 / 120)), degrees(acos((200**2 + 60**2 - 160**2) / (2 * 200 * 60)))
+    (found,) = closing(linkage.scene).ranges
+    assert found == pytest.approx(ends, abs=1e-3)
+    (followed,) = cycle(linkage, steps=36).ranges
+    assert followed == pytest.approx(ends, abs=1e-4)
+
+
+def test_a_scissor_lift_closes_between_its_upright_positions():
+    """Beyond them D stands on C, and all above them anywhere."""
+    (found,) = closing(graphkin.load(SCENES / "scissor-lift.toml").scene).ranges
+    assert found == pytest.approx((-90, 90), abs=1e-3)

@@ -149,7 +149,10 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
 
     def undetermined(self, args: Sequence[Any]) -> Problem | None:
         """Of two bars of one length whose outer pins fall together the pin may stand anywhere."""
-        if args[0] != args[1]:
+        first, second = args[:2]
+        least = TOGETHER * first.radius
+        apart = abs(first.centre - second.centre), abs(first.radius - second.radius)
+        if not (apart[0] < least and apart[1] < least):
             return None
         p, q, pin = self.left, self.right, self.name
         anywhere = f"{pin} may stand anywhere about it"
@@ -157,7 +160,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
             f"position of {pin}",
             f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {anywhere}",
             f"{p} and {q} apart",
-            "this is a change point: move the driver",
+            f"at a change point move the driver, elsewhere take another side of {p} or {q}",
         )
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:
