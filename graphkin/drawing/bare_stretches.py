@@ -16,6 +16,8 @@ from graphkin.drawing.style import VECTORS
 
 ASIDE = 0.1
 """How far from a line both ends of another lie at most that lies along it, in mm."""
+WHOLE = 0.999
+"""A vector that lies along so much of another lies along all of it, and leaves none of it bare."""
 LEAST = 8.0
 """Length in mm of a stretch that is long enough for a name."""
 
@@ -55,7 +57,7 @@ def bare_stretch(label: Label, drawn: Sequence[LineMark]) -> tuple[XY, XY] | XY:
 def laps(
     name: str, ends: tuple[XY, XY], drawn: Sequence[LineMark]
 ) -> Iterator[tuple[float, float]]:
-    """From which share of a vector to which each other one lies along it."""
+    """From which share of a vector to which each other one lies along it; not those along all."""
     (x0, y0), (x1, y1) = ends
     dx, dy = x1 - x0, y1 - y0
     square = dx * dx + dy * dy
@@ -64,5 +66,6 @@ def laps(
         aside = max(abs(u * dy - v * dx) for u, v in places)
         if line.name != name and aside <= ASIDE * square**0.5:
             low, high = sorted((u * dx + v * dy) / square for u, v in places)
-            if low < 1 and high > 0:
-                yield max(low, 0.0), min(high, 1.0)
+            part = max(low, 0.0), min(high, 1.0)
+            if 0 < part[1] - part[0] < WHOLE:
+                yield part

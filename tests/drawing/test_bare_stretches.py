@@ -32,6 +32,7 @@ def stretch(own: LineMark, *others: LineMark) -> tuple[float, float]:
         ([along("b", 20, 40), along("c", 35, 60)], (60, 100)),
         ([along("b", 60, 30)], (60, 100)),  # it points the other way
         ([along("b", 0, 100)], (0, 100)),  # nothing is bare
+        ([along("b", 0, 100), along("c", 0, 55)], (55, 100)),  # two names stand at one stretch
         ([along("b", 0, 95)], (0, 100)),  # too little is
         ([along("b", 0, 55, aside=2)], (0, 100)),  # it lies beside
         ([along("b", -30, 0)], (0, 100)),  # it ends where this one begins
