@@ -6,7 +6,6 @@ and at the density of a scanner; from there its lines are followed. The code is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import cv2
@@ -52,14 +51,11 @@ def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
     x1, y1, x2, y2 = CORNERS[half]
     square = np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])
     sides = tuple(side for side in SIDES if side in (half, "upper", "lower"))
-    tries = [
-        SheetSearch(grey, at, square, sides).registered(frame)
-        for at in corners_in(grey, frame, CORNERS[half])
-    ]
-    held = [each for each in tries if each is not None and not each.refused]
-    if not held:
-        raise Unreadable(f"the frame of the {half} half is not found")
-    return max(held, key=lambda each: each.found).map
+    for at in corners_in(grey, frame, CORNERS[half]):
+        found = SheetSearch(grey, at, square, sides).registered(frame)
+        if found is not None and not found.refused:
+            return found.map
+    raise Unreadable(f"the frame of the {half} half is not found")
 
 
 def seen(over: PaperMap, grey: Any) -> Any:
@@ -69,9 +65,9 @@ def seen(over: PaperMap, grey: Any) -> Any:
     return flattened(inside, over, WHOLE, DENSITY) > 0
 
 
-def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) -> Iterator[Any]:
+def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) -> list[Any]:
     """Where a corner of the frame may lie in a scan, as the pixels of its rectangle's own corners,
-    for each turn of the scan.
+    for each turn of the scan, that in which it looks most like one first.
     """
     high = max(grey.shape) / HIGH * 25.4
     shrink = COARSE * 25.4 / min(SCANNERS, key=lambda dpi: abs(dpi - high))
@@ -84,7 +80,8 @@ def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) 
     side, size = np.array(pattern.shape[::-1]), np.array(dark.shape[::-1])
     room = side + round(ROOM * COARSE)
     if (size < room).any():
-        return
+        return []
+    found = []
     for turn in range(4):
         turned = np.roll(ring, turn, axis=0)
         low = turned[0 if rect[0] < CUT else 1] * (size - room)
@@ -92,7 +89,9 @@ def corners_in(grey: Any, frame: Page, rect: tuple[float, float, float, float]) 
         ink, mask = (np.ascontiguousarray(np.rot90(each, turn)) for each in (pattern, beside))
         likeness = cv2.matchTemplate(part, ink, cv2.TM_CCOEFF_NORMED, mask=mask)
         likeness[~np.isfinite(likeness)] = -1
-        yield (turned * side + low + cv2.minMaxLoc(likeness)[3]) / shrink
+        _, most, _, at = cv2.minMaxLoc(likeness)
+        found.append((most, (turned * side + low + at) / shrink))
+    return [at for _, at in sorted(found, key=lambda each: -each[0])]
 
 
 def printed_ink(page: Page, rect: tuple[float, float, float, float]) -> Any:

@@ -2,8 +2,9 @@
 
 A mutant is the program with one sign, operator, comparison, constant or pair of arguments wrong.
 It is tried by the tests that come by its block (``blocks``; what stands outside of all functions by
-those that come by a block with its name), the quickest first for at most ``--seconds``, then by the
-others of their files for as long again, until the first that fails (``mutant_trials``).
+those that come by a block with its name), the quickest first for at most ``--seconds``, then for as
+long again by others of their rooms, for tests share what one of them makes: those with the same
+subject first. The first that fails ends it (``mutant_trials``).
 ``-j`` says how many processes run at once, ``--only PATH…`` takes the mutants from some modules,
 ``--from`` goes on in the list. Where it is not known which blocks the tests of a room come by, they
 run first, which takes as long as the tests do; ``--known`` goes by what is known, as it was.
@@ -24,7 +25,6 @@ import resource
 import shutil
 import subprocess
 import sys
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
@@ -188,20 +188,35 @@ def come_by(rooms: Sequence[str], jobs: int, as_known: bool) -> list[Come]:
 
 
 def tests_of(mutant: Mutant, come: Sequence[Come], most: float) -> list[str]:
-    """The tests that try a mutant, those that come by it first, the quickest of them first."""
+    """The tests that try a mutant: those that come by it, then others of their rooms."""
     names = {called(*each) for each in blocks_of(mutant)}
     seconds = {test: took for own in come for test, took in own.seconds.items() if took < inf}
     found = {test for own in come for name in names for test in own.tests.get(name, ())}
-    files = defaultdict[str, list[str]](list)
-    for test in seconds:
-        files[test.partition("::")[0]].append(test)
     near = sorted(found & {*seconds}, key=lambda test: (seconds[test], test))
-    beside = sorted(
-        {test.partition("::")[0] for test in near},
-        key=lambda path: sum(seconds[test] for test in files[path]),
-    )
-    others = [test for path in beside for test in files[path] if test not in found]
+    files, rooms, subjects = ({part(test) for test in near} for part in (file_of, room_of, subject))
+
+    def farther(test: str) -> tuple[bool, bool, float, str]:
+        """What one test keeps others use: those of its subject, and of its file, come next."""
+        return subject(test) not in subjects, file_of(test) not in files, seconds[test], test
+
+    others = sorted((test for test in seconds if room_of(test) in rooms), key=farther)
+    others = [test for test in others if test not in found]
     return [*within(near, seconds, most), *within(others, seconds, most)]
+
+
+def file_of(test: str) -> str:
+    """The file of a test."""
+    return test.partition("::")[0]
+
+
+def room_of(test: str) -> str:
+    """The room of a test."""
+    return test.split("/")[1]
+
+
+def subject(test: str) -> str:
+    """What a test is tried with."""
+    return test.partition("[")[2]
 
 
 def within(tests: Sequence[str], seconds: Mapping[str, float], most: float) -> list[str]:

@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.building import KINDS, Act, built
+from graphkin.studio.building import KINDS, Act, built, says
 from graphkin.studio.sketch import sketch
 from graphkin.text.errors import SceneError
 from tests.studio.pump import PUMP
@@ -303,3 +303,21 @@ def test_wheels_that_cannot_meet_are_told(of, at, words):
     text = done(GEARS + "O3 = [20, 0]\n", "wheel", "O1", at=50 + 0j)
     with pytest.raises(SceneError, match=words):
         done(text, "wheel", *of, at=at)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("C", "left of A-B", "ABC"),
+        ("C", "beyond B on A-P", "ABCP"),
+        ("O-B", 30, "OB"),
+        ("C", [0, 0], "C"),
+        ("wheel", {"centre": "O", "radius": 30}, "O"),
+        ("rolls", {"on": 0, "through": "P", "angle": 0}, "P"),
+        ("slides", {"on": 3, "along": "O-B"}, "OB"),
+        ("slides", {"on": 0, "through": "P", "angle": 0}, "P"),
+    ],
+)
+def test_a_key_and_its_words_name_the_points_that_go_with_them(key, value, named):
+    """What a deleted point takes along."""
+    assert "".join(point for point in "ABCOPl" if says(point, key, value)) == "".join(sorted(named))

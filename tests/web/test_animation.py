@@ -37,7 +37,8 @@ from graphkin.web.panes import (
     scale_in,
     seated,
 )
-from graphkin.web.player import player_page
+from graphkin.web.player import player_page, vector_names
+from graphkin.web.screen_sheets import screen_sheets
 from tests.chosen import EVERY
 from tests.running import Run
 from tests.scene_files import scene_text
@@ -473,3 +474,17 @@ def test_a_letter_pays_for_each_thing_that_it_covers():
         assert cost((*none[:2], near)) == [0, point * met, 0, outside]
     beside = ((50.0, 60 + LETTER + GAP - 0.1), 6.0), ((20.0, 20 + LETTER + GAP + 0.1), 6.0)
     assert cost(letters=beside) == [0, 0, letter, outside]
+
+
+@pytest.mark.parametrize(("name", "asked"), [("pump", {"D"}), ("slotted-lever", {"C", "A3"})])
+def test_vectors_are_named_that_are_asked_for_first_and_no_other_counts_as_asked(name, asked):
+    for number, (sheet, sign) in enumerate(zip(screen_sheets(load(name), "en"), "va", strict=True)):
+        names = [*vector_names(sheet, number)]
+        flags = [each.asked for each in names]
+        assert {each.text.name for each in names if each.asked} == {f"{sign}_{p}" for p in asked}
+        assert flags == sorted(flags, reverse=True)
+        assert {*flags} == {True, False}
+        lines = [int(each.line.partition("-")[2]) for each in names]
+        drawn = sheet.left + sheet.right
+        looks = [drawn[line].cls.split()[0] for line in lines]
+        assert [each.text.cls for each in names] == [f"label {look}" for look in looks]
