@@ -889,14 +889,16 @@ def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None
     corners = registration.square_of(page) * 10 - 0.5
     corners[:, 1] += 48  # as if all lay 4.8 mm lower, where the border is the frame's neighbour
     over = registration.start(width, height, registration.square_of(page), corners)
-    about = registration.sides_off(image, over, lines)
+    nothing = np.zeros(len(lines.places))
+    none = registration.MeasuredLines(lines, nothing, nothing > 0, nothing == 0)
+    about = registration.sides_off(image, over, none)
     _, y = lines.places.T
     level = abs(lines.normals[:, 1]) > 0.5
     shift = lines.normals[:, 1] * about
     assert shift[level & (y < 14)] == pytest.approx(-4.8, abs=0.9)  # the fit does the rest
     assert not about[level & (y > 20) & (y < 270)].any()
     right = registration.start(width, height, registration.square_of(page), corners - [0, 48])
-    assert not registration.sides_off(image, right, lines).any()
+    assert not registration.sides_off(image, right, none).any()
 
 
 def test_a_side_whose_ticks_are_not_where_they_should_be_lies_5_mm_off(
