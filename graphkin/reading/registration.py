@@ -76,9 +76,10 @@ LEAST_SIDE = 0.25
 """The same share on each half of the sheet."""
 STRETCH, LEAST_STRETCH = 100.0, 0.35
 """The same of frame and border along each stretch of so many mm that the picture holds: a thumb
-covers less, and a map that goes astray at a corner of the sheet loses more. What is off is also
-sought along each.
+covers less, and a map that goes astray at a corner of the sheet loses more.
 """
+LOST = 0.8
+"""The share of such a stretch below which it is looked for farther off."""
 LEAST_TICKS, FEW = 0.4, 12
 """The same of the ticks of a side, of so many places of them at least: where frame or border was
 taken for the other, or the paper's edge for one of them, they are not where they should be.
@@ -248,11 +249,12 @@ def followed(smooth: Any, lines: PrintedLines, square: Any, corners: Any, bent: 
         near = lines.some(far < ring)
         if not len(near.places):
             continue
-        about = sides_off(smooth, fit.map, near)
+        measured = measure(smooth, fit.map, near, REACH)
+        about = sides_off(smooth, fit.map, measured)
         if about.any():  # the frame was about to be taken for the border, which looks like it
             measured = measure(smooth, fit.map, near, REACH, about)
             fit.to(measured, float(abs(about).max()), lens=True, bent=True)
-        measured = measure(smooth, fit.map, near, REACH)
+            measured = measure(smooth, fit.map, near, REACH)
         fit.to(measured, TRUSTED, lens=ring > LENS_FROM, bent=ring > bent)
     return fit.map
 
@@ -331,15 +333,17 @@ def profiles(
     return 1 - profile / white[:, None], inside
 
 
-def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
-    """How far off (mm) the lines along each stretch of the sheet's sides lie where all of it are
-    sought at once, frame and border together; zero where that is less than lines are looked for
-    anyway.
+def sides_off(grey: Any, over: PaperMap, measured: MeasuredLines) -> Any:
+    """How far off (mm) the lines along each side of the sheet lie, and along each stretch of it of
+    which little was found, where all of that are sought at once, frame and border together; zero
+    where that is less than lines are looked for anyway.
     """
+    lines = measured.lines
     about = np.zeros(len(lines.places))
+    lost = (each for each in stretches(lines) if held_along(measured, each) < LOST)
     across = np.arange(-FAR - 1.0, FAR + 1.0 + STEP / 2, STEP)
-    for stretch in stretches(lines):
-        some = lines.some(stretch)
+    for side in (*(side for side, _ in edges(lines)), *lost):
+        some = lines.some(side)
         widths = np.unique(some.widths)
         if len(widths) < 2 or min(np.sum(some.widths == w) for w in widths) < LEAST_ALONG:
             continue  # frame and border, of which one alone tells nothing
@@ -353,7 +357,7 @@ def sides_off(grey: Any, over: PaperMap, lines: PrintedLines) -> Any:
         best = likely.argmax()
         near = likely[abs(across) < REACH].max()
         if abs(across[best]) > REACH and likely[best] > CLEARLY * near:
-            about[stretch] = across[best]
+            about[side] = across[best]
     return about
 
 
@@ -538,5 +542,10 @@ def judged(
 
 def least_stretch(last: MeasuredLines, lines: PrintedLines) -> float:
     """The least share of frame and border that is found along a stretch of the sheet's edge."""
-    seen = (stretch & last.seen for stretch in stretches(lines))
-    return min((float(last.found[s].mean()) for s in seen if s.sum() >= LEAST_ALONG), default=1.0)
+    return min((held_along(last, stretch) for stretch in stretches(lines)), default=1.0)
+
+
+def held_along(measured: MeasuredLines, stretch: Any) -> float:
+    """The share found along a stretch of what the picture holds of it; 1 where that is too few."""
+    seen = measured.seen & stretch
+    return float(measured.found[seen].mean()) if seen.sum() >= LEAST_ALONG else 1.0

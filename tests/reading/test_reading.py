@@ -47,7 +47,7 @@ from graphkin.reading.marked_drawing import (
 from graphkin.reading.pictures import Unreadable
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
-from graphkin.reading.point_search import PointSearch
+from graphkin.reading.point_search import DRAWINGS, PointSearch
 from graphkin.reading.read_run import ReadOutcome, read_order
 from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves
 from graphkin.reading.settled_points import (
@@ -780,6 +780,45 @@ def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: 
         assert abs(complex(*told.at) - (apart[1] if rival else places[b])) < 3
 
 
+@pytest.mark.parametrize(("back", "another"), [(0.9, False), (8.0, True)])
+def test_a_rival_of_a_place_is_another_place(
+    a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, back: float, *, another: bool
+) -> None:
+    """What is found some way off may be settled by its lines where the point itself lies."""
+    sheet = velocity_of(a_class, code)
+    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    reader.next = reader.drawings = reader.ahead({})
+    here = 320 + 120j
+    settled = LinesCrossing(here + back, np.eye(2) * 0.01, 2, 1.0)
+    monkeypatch.setattr(reader, "candidates", lambda *_: [here + 9])
+    monkeypatch.setattr(reader, "settled", lambda *_: settled)
+    for name in ("led_to", "follows", "agreement"):
+        monkeypatch.setattr(reader, name, lambda *_, **__: 1.0)
+    found = reader.best_far(number, ExpectedPlace(here, np.eye(2) * 0.05), here)
+    assert (found is settled) is another
+
+
+@pytest.mark.parametrize("off", [0.2, 5.0])
+def test_what_follows_from_a_point_is_known_no_better_than_the_point(
+    a_class: Path, code: str, off: float
+) -> None:
+    """Where it fits, as lines and expectation together tell; where it does not, as its lines."""
+    sheet = velocity_of(a_class, code)
+    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
+    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    rng = np.random.default_rng(4)
+    cloud = 320 + 120j + 0.5 * (rng.standard_normal(DRAWINGS) + 1j * rng.standard_normal(DRAWINGS))
+    own = expected(cloud)
+    best = LinesCrossing(own.middle + off, np.diag([0.09, 0.01]), 2, 1.0)
+    reader.own = {number: own.weighed(best) if off < 1 else best.place}
+    places = reader.places(number, cloud, own, best)
+    spread = np.cov(np.stack([places.real, places.imag]))
+    together = np.linalg.inv(np.linalg.inv(own.spread) + np.linalg.inv(best.error))
+    assert spread == pytest.approx(together if off < 1 else best.error, abs=0.02, rel=0.2)
+    assert abs(np.mean(places) - reader.own[number]) < 0.06
+
+
 @pytest.mark.parametrize(("drawn_there", "taken"), [(1.0, True), (0.8, False)])
 def test_a_place_to_which_all_ways_are_drawn_needs_no_more_than_one_to_which_they_are_not(
     a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, drawn_there: float, *, taken: bool
@@ -889,14 +928,37 @@ def test_the_frame_is_not_taken_for_the_border(a_class: Path, code: str) -> None
     corners = registration.square_of(page) * 10 - 0.5
     corners[:, 1] += 48  # as if all lay 4.8 mm lower, where the border is the frame's neighbour
     over = registration.start(width, height, registration.square_of(page), corners)
-    about = registration.sides_off(image, over, lines)
+    nothing = np.zeros(len(lines.places))
+    none = registration.MeasuredLines(lines, nothing, nothing > 0, nothing == 0)
+    about = registration.sides_off(image, over, none)
     _, y = lines.places.T
     level = abs(lines.normals[:, 1]) > 0.5
     shift = lines.normals[:, 1] * about
     assert shift[level & (y < 14)] == pytest.approx(-4.8, abs=0.9)  # the fit does the rest
     assert not about[level & (y > 20) & (y < 270)].any()
     right = registration.start(width, height, registration.square_of(page), corners - [0, 48])
-    assert not registration.sides_off(image, right, lines).any()
+    assert not registration.sides_off(image, right, none).any()
+
+
+def test_a_corner_that_lies_off_is_sought_where_its_side_does_not(a_class: Path, code: str) -> None:
+    """A bow may take the end of a side 4 mm off, and leave its middle where it is."""
+    image = drawn_sheet(a_class, code, "velocity", Habits(), 3).image
+    found = next(each for each in sheets_of(a_class, code).of("task") if each.kind == "velocity")
+    lines = registration.printed_lines(found.pages[0])
+    height, width = image.shape
+    xs, ys = np.meshgrid(np.arange(width, dtype=np.float32), np.arange(height, dtype=np.float32))
+    fallen = 40 * np.clip((1500 - xs) / 600, 0, 1) * np.clip((1000 - ys) / 600, 0, 1)
+    image = cv2.remap(image, xs, ys - fallen, cv2.INTER_LINEAR, borderValue=255)
+    square = registration.square_of(found.pages[0])
+    over = registration.start(width, height, square, square * 10 - 0.5)
+    measured = registration.measure(image, over, lines, registration.REACH)
+    about = registration.sides_off(image, over, measured) * lines.normals[:, 1]
+    x, y = lines.places.T
+    level = abs(lines.normals[:, 1]) > 0.5
+    assert about[level & (y < 14) & (x > 25) & (x < 85)] == pytest.approx(4.0, abs=0.9)
+    assert not about[level & ((y > 14) | (x > 210))].any()
+    whole = msgspec.structs.replace(measured, found=measured.seen)
+    assert not registration.sides_off(image, over, whole).any()
 
 
 def test_a_side_whose_ticks_are_not_where_they_should_be_lies_5_mm_off(
