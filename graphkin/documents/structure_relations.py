@@ -9,6 +9,7 @@ from graphkin.construction.core.relation import Relation
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.findings import natural
 from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import (
     ROMAN,
     CamFollower,
@@ -22,7 +23,6 @@ from graphkin.structure.groups import (
     Stretched,
     Tie,
 )
-from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Sliding
 from graphkin.text import Words
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.construction.core.layout import BEYOND
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.tape.tape_outputs import ran
 from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import Arc
