@@ -11,7 +11,7 @@ from pathlib import Path
 import graphkin
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
-from graphkin.structure.mobility import count
+from graphkin.structure.driver_count import count
 
 SCENES = Path(__file__).resolve().parent / "scenes"
 

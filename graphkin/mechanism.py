@@ -325,7 +325,7 @@ class Mechanism(Struct, frozen=True, dict=True):
     @cached_property
     def evenness(self) -> float:
         """The shortest length of the mechanism in parts of its longest."""
-        from graphkin.loops.witness.sure_quantities import evenness
+        from graphkin.loops.witness.differences import evenness
 
         return evenness(self.scene)
 

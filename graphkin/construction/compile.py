@@ -75,7 +75,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
     write_turning(pen, shapes)
     write_plan(pen, shapes, standing, MOVED)
     if scene.sheet.plan == "kutzbach":
-        from graphkin.construction.rolling.kutzbach import draw_ladder
+        from graphkin.construction.rolling.ladder import draw_ladder
 
         draw_ladder(pen)
     write_plan(pen, shapes, standing, ACCELERATED)

@@ -27,8 +27,8 @@ from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.segments import laid_off
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
-from graphkin.construction.core.too_short import laid_off
 from graphkin.construction.core.vocabulary import (
     action,
     join,

@@ -11,7 +11,7 @@ from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.coriolis import CoriolisComponent
 from graphkin.construction.higher_class.two_trials import with_trials_together
-from graphkin.construction.links.placed_point import with_starts_together
+from graphkin.construction.links.plate_points import with_starts_together
 from graphkin.construction.normal_component.klein import KleinComponent
 from graphkin.construction.normal_component.normal_component import (
     NormalComponent,

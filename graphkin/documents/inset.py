@@ -11,7 +11,7 @@ from graphkin.construction.centres.relative_centre import RelativeCentre
 from graphkin.construction.core.curve_marks import ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.drawing.field import Field

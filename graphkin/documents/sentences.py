@@ -12,9 +12,9 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.core.set_lengths import beside_plan
-from graphkin.construction.core.too_short import TINY
 from graphkin.construction.links.idle_links import idle_sentences
 from graphkin.construction.registry import TOGETHER
 from graphkin.construction.step_sentences import point_sentence

@@ -10,6 +10,7 @@ from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.findings import natural
 from graphkin.scene.model import Driver
 from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import (
     ROMAN,
     CamFollower,
@@ -23,7 +24,6 @@ from graphkin.structure.groups import (
     Stretched,
     Tie,
 )
-from graphkin.structure.mobility import count
 from graphkin.structure.pairs import Sliding
 from graphkin.text import Words
 

@@ -8,8 +8,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import ArrayLike
 
-from graphkin.drawing.assignment import Assignment
-from graphkin.drawing.candidate_sets import CLOSE, FEW, CandidateSet, Level
+from graphkin.drawing.assignment import CLOSE, FEW, Assignment, CandidateSet, Level
 from graphkin.drawing.candidates import Subjects
 from graphkin.drawing.clearance import Clearance
 from graphkin.drawing.shapes import NOWHERE, Box

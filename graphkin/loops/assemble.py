@@ -16,10 +16,9 @@ from graphkin.loops.branch_closures import closures, scattered, turned_side
 from graphkin.loops.cam_laws import by_law
 from graphkin.loops.closing_groups import Group, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, undriven
-from graphkin.loops.loop_motion import Motion
+from graphkin.loops.loop_motion import Motion, Pose, pose_of, setting_of, spot, unknowns_of
 from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, newton, scaled
 from graphkin.loops.newton_start import Start
-from graphkin.loops.poses import Pose, pose_of, setting_of, spot, unknowns_of
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import GraphkinError, Problem, StructureError, WitnessError

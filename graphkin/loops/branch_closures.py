@@ -13,10 +13,9 @@ import numpy as np
 
 from graphkin.loops.closing_groups import Group, Joint, Mask, moved_by
 from graphkin.loops.equations import Equations, equations
-from graphkin.loops.loop_motion import Motion
+from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
 from graphkin.loops.newton import CLOSED, largest, linear_solve, newton, scaled
 from graphkin.loops.newton_start import as_meant, counted_freely, settle
-from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import PositionBounds
 from graphkin.scene.model import Scene

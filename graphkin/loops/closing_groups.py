@@ -18,7 +18,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.equations import Equations, equations, tied_by
-from graphkin.loops.poses import setting_of
+from graphkin.loops.loop_motion import setting_of
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError

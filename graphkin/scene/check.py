@@ -8,7 +8,14 @@ from collections import Counter
 from collections.abc import Iterator
 
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known_names import check_guide, known_link, known_point, named, place_of, quoted
+from graphkin.scene.known_names import (
+    check_guide,
+    known_link,
+    known_point,
+    named,
+    place_of,
+    quoted,
+)
 from graphkin.scene.link_names import check_names
 from graphkin.scene.model import FRAME, LEADING, At, Branch, Driver, Link, Scene, Side, Way
 from graphkin.scene.quantity import Quantity, shortest

@@ -1,4 +1,4 @@
-"""Groups of class III and higher: which link to try so that dyads do the rest.
+"""Groups of class III and higher: which link to try so that dyads do the rest, or none.
 
 Cutting one constraint of a group leaves a chain that dyads construct; what was cut closes it. Where
 the chain comes to a stand, a link of a group within it is tried as well.
@@ -11,8 +11,17 @@ from collections.abc import Collection, Iterator, Sequence
 from msgspec.structs import replace
 
 from graphkin.scene.model import Driver, Scene
-from graphkin.structure.groups import Crank, Driven, Geared, Group, Higher, Spun, Tie, TriedLink
-from graphkin.structure.instant_groups import at_instant
+from graphkin.structure.groups import (
+    Crank,
+    Driven,
+    Dyad,
+    Geared,
+    Group,
+    Higher,
+    Spun,
+    Tie,
+    TriedLink,
+)
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
     next_driven,
@@ -22,7 +31,39 @@ from graphkin.structure.next_group import (
     settle,
 )
 from graphkin.structure.pairs import Contact, Joint, Pin
-from graphkin.structure.wheel_groups import by_known, turned_by_smaller
+from graphkin.structure.wheel_groups import by_known, pinned_wheels, turned_by_smaller
+
+
+def at_instant(
+    joints: Joints, group: Higher, known: Collection[str], waiting: Collection[Driver]
+) -> Higher:
+    """A group with what constructs its plans, its wheels pinned where they touch.
+
+    The same where no wheel of it touches a known track, or where one would have to be tried all the
+    same; or where an arm and its wheel would close as a dyad, for its three pins lie in line.
+    """
+    wheels = pinned_wheels(joints, group.links, group.placing, known)
+    if not wheels:
+        return group
+    pinned = joints.part(group.links).with_pins([(wheel.joint, wheel.rim) for wheel in wheels])
+    left = [each for each in waiting if {each.link, each.against} & {*group.links}]
+    in_line = [wheel.three for wheel in wheels]
+    grown, found = {*known}, list[Group]()
+    while not grown.issuperset(group.links):
+        each = (
+            next_driven(pinned, grown, left)
+            or next_group(pinned, grown)
+            or next_stretched(pinned, grown, left)
+            or next_tie(pinned, grown)
+        )
+        if each is None:
+            return group
+        if isinstance(each, Dyad) and any({*each.links} <= three for three in in_line):
+            return group
+        found.append(each)
+        settle(each, grown, left)
+    return group if left else replace(group, wheels=wheels, at_instant=tuple(found))
+
 
 MOST_TRIED = 4
 """Links of a group that are tried together at most."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from cmath import phase, rect
 from collections.abc import Callable, Mapping
 from itertools import count, pairwise, product
@@ -13,11 +12,11 @@ from typing import Any
 import tomlkit
 from msgspec import Struct
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import SingleKey
 
 from graphkin.scene.file_limits import tables_of
 from graphkin.scene.model import FRAME, KEYWORDS
 from graphkin.studio.drawn_closure import drawn_closed
+from graphkin.studio.names_in_text import forget, named_anew, raw, renamed, says
 from graphkin.studio.sketch import (
     DrawnWheel,
     Places,
@@ -35,7 +34,6 @@ from graphkin.text.errors import Problem, SceneError
 
 TURN = 0.5
 """The step of angles that a hand draws, in degrees."""
-ASKED = ("velocity", "acceleration", "omega", "epsilon", "slides", "centres", "poles")
 
 
 class Act(Struct, frozen=True):
@@ -422,58 +420,6 @@ def refuse_join(work: Builder, first: str, second: str) -> None:
                 raise SceneError(Problem(both, found, "a pin of another link"))
 
 
-PLACED = ("slides", "rolls", "wheel", "wheels")
-"""Keys of a link whose tables name points."""
-NAMING = ("through", "along", "centre", "from", "of")
-"""Keys under which one point or a line of two is named."""
-PHRASES = ("left", "right", "on", "beyond")
-"""How a text begins that says where a point lies."""
-
-
-def renamed(table: Any, gone: str, kept: str) -> None:
-    """Give a point another name, in the keys of a link or driver and in what they say."""
-    for key in list(table):
-        value = table[key]
-        if key in NAMING or (
-            isinstance(raw(value), str)
-            and str(value).split()[:1] != []
-            and str(value).split()[0] in PHRASES
-        ):
-            table[key] = in_words(str(value), gone, kept)
-        elif isinstance(raw(value), list) and key in PLACED:
-            for each in value:
-                renamed(each, gone, kept)
-        elif isinstance(raw(value), dict):
-            renamed(value, gone, kept)
-    body = table.value.body if hasattr(table.value, "body") else []
-    for n, (key, value) in enumerate(body):
-        if key is None or key.key in KEYWORDS or gone not in key.key.split("-"):
-            continue
-        shown = key.as_string()
-        sep = shown[len(shown.rstrip()) :] + key.sep
-        own = SingleKey(in_words(key.key, gone, kept), sep=sep)
-        body[n] = (own, value)
-
-
-def in_words(words: str, gone: str, kept: str) -> str:
-    """A line or phrase with another name for one of its points."""
-    return re.sub(rf"\b{re.escape(gone)}\b", kept, words)
-
-
-def named_anew(ask: Any, gone: str, kept: str) -> None:
-    """Ask of a point under its other name, and once."""
-    for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
-        said = {str(each) for each in ask[key]}
-        for n in reversed(range(len(ask[key]))):
-            point, at, link = str(ask[key][n]).partition("@")
-            if point != gone:
-                continue
-            if f"{kept}{at}{link}" in said:
-                del ask[key][n]
-            else:
-                ask[key][n] = f"{kept}{at}{link}"
-
-
 def turned_driver(work: Builder, link: str, point: str) -> bool:
     """Turn the driver of a link whose point has moved; whether its angle is a number."""
     points, found = work.links[link], False
@@ -512,39 +458,9 @@ def delete(work: Builder, act: Act) -> None:
     for key in ("links", "frame"):
         if key in work.document and not table_of(work.document, key):
             work.document.pop(key)
-    forget(work)
-
-
-def says(point: str, key: str, value: object) -> bool:
-    """Whether a key of a link, or what it says, names a point."""
-    if key in ("wheel", "rolls") and isinstance(value, Mapping):
-        return point in (str(value.get("centre")), str(value.get("through")))
-    if key == "slides" and isinstance(value, Mapping):
-        named = (str(value.get("along", "")), str(value.get("through", "")))
-        return any(point in each.split("-") for each in named)
-    phrase = raw(value)
-    words = phrase.replace("-", " ").split()[1:] if isinstance(phrase, str) else []
-    return point in key.split("-") or point in words
-
-
-def forget(work: Builder) -> None:
-    """Take out drivers, branches and wishes about what is there no longer."""
-    links = work.links
-    known = {*links, *work.fixed, *(point for points in links.values() for point in points)}
-    drivers = work.document.get("drivers", [])
-    for n in reversed(range(len(drivers))):
-        if str(drivers[n].get("turn", drivers[n].get("slide"))) not in known:
-            del drivers[n]
-    if "drivers" in work.document and not len(drivers):
-        work.document.pop("drivers")
-    branches, ask = (table_of(work.document, key) for key in ("branches", "ask"))
-    for key in list(branches):
-        if key not in known or not set(str(branches[key]).replace("-", " ").split()[2:]) <= known:
-            branches.pop(key)
-    for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
-        for n in reversed(range(len(ask[key]))):
-            if not {str(ask[key][n]).partition("@")[0]} <= known:
-                del ask[key][n]
+    left = work.links
+    known = {*left, *work.fixed, *(point for points in left.values() for point in points)}
+    forget(work.document, known)
 
 
 def close(work: Builder, act: Act) -> None:
@@ -556,11 +472,6 @@ KINDS: Mapping[str, Callable[[Builder, Act], None]] = {
     each.__name__: each
     for each in (pivot, bar, plate, block, wheel, driver, move, join, delete, close)
 }
-
-
-def raw(value: object) -> object:
-    """A value without the style in which it is written."""
-    return value.unwrap() if hasattr(value, "unwrap") else value
 
 
 def key_of(link: str) -> int | str:

@@ -1,8 +1,9 @@
-"""What is seen of a scene's text at once: its mistakes in place, sliders, drawings, numbers."""
+"""What is seen of a scene's text at once: mistakes in place, keys, sliders, drawings, numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 from typing import Any
 
 from msgspec import Struct, field, to_builtins
@@ -12,16 +13,85 @@ from graphkin.documents.scaling import shown
 from graphkin.documents.sheet_documents import drawings_of, language_of, lost
 from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import Scene
-from graphkin.scene.read_scene import read_text
-from graphkin.studio.editing_help import editing_help
+from graphkin.scene.model import DRIVEN, JOINED, KEYWORDS, Scene
+from graphkin.scene.read_scene import known_keys, read_text
+from graphkin.studio.mends import units
 from graphkin.studio.panels import Memory, panels, style
 from graphkin.studio.problem_places import MarkedProblem, marked
 from graphkin.studio.result_panel import margins, results, verdict_words
 from graphkin.studio.sliders import sliders
+from graphkin.studio.toml_spans import Span, spans
 from graphkin.text import Words, words
 from graphkin.text.errors import GraphkinError, Problem, SceneError
 from graphkin.text.problems import spoken
+
+LINES = "\n"
+EVERY = f"""
+[parameters.n]
+[frame]
+O = {{ from = 0 }}
+[links.1]
+A = [0, 0]
+P = {{ from = 0 }}
+{LINES.join(f"{key} = {{}}" for key in JOINED)}
+touches = {{}}
+profiles = {{ about = "A" }}
+cam = {{ law = [{{}}] }}
+[links.2]
+O-B = 1
+cam = {{ tip = "roller" }}
+{LINES.join(f"[[drivers]]{LINES}{kind} = 1" for kind in DRIVEN)}
+[branches]
+[ask]
+[sheet]
+[titles]
+[names]
+[notes]
+"""
+"""A table of each kind: the reader tells its keys also where a text has none of the kind yet."""
+
+
+@lru_cache(maxsize=1)
+def every_key() -> dict[str, list[str]]:
+    """The keys of a table of each kind."""
+    return known_keys(EVERY, "every")
+
+
+class EditingHelp(Struct, frozen=True):
+    """``keys`` are those that the reader knows, by the place of their table; ``points``, ``links``
+    and ``parameters`` are the names that the text gives, ``spots`` where each stands, that of a bar
+    AB at its key A-B: its start and end as a browser counts them.
+    """
+
+    keys: dict[str, list[str]]
+    points: list[str]
+    links: list[str]
+    parameters: list[str]
+    spots: dict[str, tuple[int, int]]
+
+
+def editing_help(text: str, name: str) -> EditingHelp:
+    """The help of a text, as far as it can be read."""
+    found = spans(text)
+    points, links, parameters = dict[str, Span](), dict[str, Span](), dict[str, Span]()
+    bars: dict[str, Span] = {}
+    for path, span in found.items():
+        match path:
+            case ("links", str(link)):
+                links.setdefault(link, span)
+            case ("parameters", str(parameter)):
+                parameters.setdefault(parameter, span)
+            case ("frame", str(key)) | ("links", str(_), str(key)) if key not in KEYWORDS:
+                ends = key.split("-")
+                for point in ends:
+                    points.setdefault(point, span)
+                bars.setdefault("".join(ends), span)
+    every = {**parameters, **bars, **links, **points}
+    spots = {each: (units(text[: at.start]), units(text[: at.end])) for each, at in every.items()}
+    known = every_key() | known_keys(text, name)
+    keys = {place: list(dict.fromkeys(own)) for place, own in known.items()}
+    return EditingHelp(keys, [*points], [*links], [*parameters], spots)
+
 
 SETTING = "setting "
 """What begins the place of a problem of a parameter that is set from outside."""

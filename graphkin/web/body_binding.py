@@ -1,4 +1,4 @@
-"""How the mechanism follows: its symbols are drawn once for paper and once in traced numbers."""
+"""How the mechanism and the marks of steps follow: drawn once for paper, once in traced numbers."""
 
 from __future__ import annotations
 
@@ -6,10 +6,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import inf, pi
 from typing import Any
 
+from msgspec import Struct, field
 from msgspec.structs import replace
 
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.link_poses import Disc, Touch
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.gear_symbols import gear
@@ -18,9 +23,10 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline
-from graphkin.numbers.plane import dot
+from graphkin.numbers.plane import Vector, dot
 from graphkin.web.body_pose import BodyPose
-from graphkin.web.field_binder import SPACING, Binding, FieldBinder, Told, still
+from graphkin.web.field_binder import SPACING, Binding, FieldBinder, Told, only_at_start, still
+from graphkin.web.moving_canvas import MovingCanvas, Stroke
 from graphkin.web.moving_field import Local, MovingCoordinate, MovingField
 
 ENDLESS: Rect = (-inf, -inf, inf, inf)
@@ -141,3 +147,47 @@ def stepped(binder: FieldBinder, pose: BodyPose, moved: Any, pitch: float) -> Bo
     since = binder.tape.lifted(moved - float(binder.tape.now(moved)))
     rest = since - (since * (1 / pitch)).do("round") * pitch
     return BodyPose(pose.origin - pose.way * rest, pose.way)
+
+
+class StepStrokes(Struct, frozen=True):
+    """The steps of one field, each drawn in traced numbers as it is drawn on paper."""
+
+    binder: FieldBinder
+    layout: Layout
+    drawn: dict[int, MovingCanvas] = field(default_factory=dict)
+
+    def canvas(self, number: int) -> MovingCanvas:
+        """The strokes of a step; none where its construction is not whole."""
+        if number not in self.drawn:
+            self.drawn[number] = canvas = MovingCanvas(self.binder, self.layout, number)
+            known = self.binder.places.values
+            if number in known:
+                kind, value = construction(canvas.step), known[number]
+                plan = auxiliary_plan(canvas.drawing, number)
+                if kind is not None and kind.is_whole(known):
+                    kind.marks(canvas, canvas.step.role)
+                if plan is not None:
+                    plan.marks(canvas, number)
+                elif isinstance(value, Vector):
+                    canvas.vector(canvas.step.name, "", value.tail, value.tip)
+                    if vector := plan_vector(canvas.step):
+                        canvas.point("", value.tail if vector.back else value.tip)
+        return self.drawn[number]
+
+    def stroke(self, mark: Mark) -> Stroke | None:
+        """The stroke that drew a mark of a step; None of what is drawn on paper alone."""
+        assert mark.step is not None
+        strokes = self.canvas(mark.step).strokes
+        return strokes[mark.part] if mark.part < len(strokes) else None
+
+    def binding(self, mark: Mark) -> Binding:
+        """How a mark of a step follows; what is drawn on paper alone holds for that position."""
+        stroke = self.stroke(mark)
+        if stroke is None:
+            return only_at_start
+        return stroke.head if mark.cls.startswith("arrowhead") else stroke.mark
+
+    def label(self, mark: Mark) -> Binding:
+        """How the label of a step follows."""
+        stroke = self.stroke(mark)
+        return only_at_start if stroke is None else stroke.label

@@ -14,10 +14,9 @@ from graphkin.construction.core.plot import above_foot, stretched
 from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
-from graphkin.web.body_binding import told
+from graphkin.web.body_binding import StepStrokes, told
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
-from graphkin.web.step_binding import StepStrokes
 
 LABELS = ("label", "number", "leader")
 """The classes of a letter and of the circle and the leader that go with it."""

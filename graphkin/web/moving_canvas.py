@@ -18,8 +18,8 @@ from graphkin.construction.core.paper_canvas import BEYOND_TIPS, STRAIGHT
 from graphkin.construction.core.paper_canvas import FAR as ENDLESS
 from graphkin.construction.core.plot import above_foot
 from graphkin.construction.core.program import Plane, Step
-from graphkin.construction.core.too_short import NEAR as SHORTEST
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.segments import NEAR as SHORTEST
+from graphkin.construction.core.segments import TINY
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.symbols import SHORT
 from graphkin.numbers.arithmetic import larger, pick, smaller

@@ -43,10 +43,9 @@ from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.construction.registry import ON_PALETTE
 from graphkin.construction.velocity.image_of_link import alike
-from graphkin.construction.velocity.laid_off_by_rate import LaidOffByRate
 from graphkin.construction.velocity.lines_through import parallel_to, square_to
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
-from graphkin.construction.velocity.turned_velocity import TurnedVelocity
+from graphkin.construction.velocity.turned_velocity import LaidOffByRate, TurnedVelocity
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import symbol, tag_words
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross

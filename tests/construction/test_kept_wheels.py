@@ -16,8 +16,8 @@ from graphkin.construction.rolling.rolling_normal import RollingOnWheel
 from graphkin.loops.assemble import assemble
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Higher, Spun
-from graphkin.structure.mobility import count
 from graphkin.text.errors import GraphkinError, SceneError, StructureError
 from tests.chosen import FOLDER
 

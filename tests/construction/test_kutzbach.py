@@ -10,7 +10,8 @@ from random import Random
 import pytest
 
 from graphkin.construction.core.kind import constructions
-from graphkin.construction.rolling import kutzbach
+from graphkin.construction.core.vocabulary import action
+from graphkin.construction.rolling import kutzbach, ladder
 from graphkin.construction.rolling.kutzbach import LadderPoint, LadderRay, SpeedPole, SpeedRead
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
@@ -185,9 +186,9 @@ def test_a_wrong_speed_is_seen(monkeypatch):
     """The law above is none that any drawing passes."""
     wrong = kutzbach.tip_over.value
     monkeypatch.setattr(
-        kutzbach,
+        ladder,
         "tip_over",
-        kutzbach.action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1])),
+        action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1])),
     )
     mechanism = example("gears-ring")
     omega = mechanism.solve().links["2"].omega

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.result_tables import turning_rows, vector_rows, vectors
 from graphkin.documents.relations import relations as relations_of
 from graphkin.documents.scaling import shown

@@ -5,9 +5,8 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.solution import Solution
-from graphkin.construction.rolling.kutzbach import SPEEDS
 from graphkin.documents.sheet_documents import hand_out, targets_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.result_tables import vectors
 from graphkin.documents.sheet import sheet
 from graphkin.drawing.marks import Text

@@ -9,8 +9,8 @@ import pytest
 
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.freedom import true_mobility
+from graphkin.structure.driver_count import count, kutzbach
 from graphkin.structure.grashof import single_loops
-from graphkin.structure.mobility import count, kutzbach
 from graphkin.text.errors import ClosureError
 from tests.examples.scenes import (
     acceleration,

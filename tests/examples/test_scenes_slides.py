@@ -7,7 +7,7 @@ import math
 import mpmath
 import pytest
 
-from graphkin.structure.mobility import count
+from graphkin.structure.driver_count import count
 from graphkin.text.errors import ClosureError
 from tests.examples.scenes import (
     acceleration,

@@ -9,9 +9,13 @@ from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.driver_count import driver_problem, refuse_drivers, refuse_wrong_drivers
+from graphkin.structure.driver_count import (
+    count,
+    driver_problem,
+    refuse_drivers,
+    refuse_wrong_drivers,
+)
 from graphkin.structure.groups import Higher, Unresolved
-from graphkin.structure.mobility import count
 from graphkin.text.errors import StructureError
 from tests.examples.scenes import mechanism, motion
 from tests.mechanisms import scene_of

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import count, kutzbach
 from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie
 from graphkin.structure.joints import Joints
-from graphkin.structure.mobility import count, kutzbach
 from graphkin.structure.pairs import Contact, Pin, pairs
 from graphkin.text.errors import StructureError
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped

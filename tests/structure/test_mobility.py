@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.structure.mobility import Count, count, gruebler, kutzbach
+from graphkin.structure.driver_count import Count, count, gruebler, kutzbach
 from tests.mechanisms import scene_of
 from tests.structure.test_contacts import ALONE, plates, rack, train
 from tests.structure.test_groups import (

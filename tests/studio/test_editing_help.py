@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from graphkin.studio.editing_help import editing_help, every_key
+from graphkin.studio.look import editing_help, every_key
 from graphkin.studio.mends import Edit
 from graphkin.text.errors import Mend
 from tests.golden.works import small_text

@@ -18,10 +18,9 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.app import WORK
 from graphkin.studio.guard import HEADERS
 from graphkin.studio.page_requests import MOST_BYTES
-from graphkin.studio.server import HOME, Served, serve
+from graphkin.studio.server import HOME, WORK, Served, serve
 from tests.studio.pump import LONG, PUMP, desk_in, ordered, running
 
 JSON = {"Content-Type": "application/json"}

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from graphkin.construction.core.layout import BEYOND
-from graphkin.construction.core.too_short import TINY
-from graphkin.construction.tape.tape_outputs import ran
+from graphkin.construction.core.segments import TINY
+from graphkin.construction.tape.tape_outputs import runner
 from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import Arc
 from graphkin.drawing.symbols import SHORT, head
@@ -62,7 +62,7 @@ def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[flo
         names = (name for each in tracing.closings for name in each.names)
         inputs |= {name: np.array([number]) for name, number in zip(names, state, strict=True)}
     inputs |= {name: np.array([value]) for name, value in figures.items()}
-    outputs = ran(tracing.graph, tracing.tape.outputs, inputs)
+    outputs = runner(tracing.graph, tracing.tape.outputs)(inputs)
     return [float(np.ravel(value)[0]) for value in outputs]
 
 

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.javascript import MATH, script_source
-from graphkin.construction.tape.tape_outputs import ran
+from graphkin.construction.tape.tape_outputs import runner
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
 from graphkin.web.moving import Moving
 from tests.chosen import EVERY
@@ -229,7 +229,7 @@ def test_a_printed_graph_gives_what_numpy_gives(page):
     code += " return rows.map((row) => { const y = []; run(row, y); return y; }); }"
     found = page.evaluate(code, [source, rows])
     for row, values in zip(rows, found, strict=True):
-        there = ran(graph, outputs, dict(zip("ab", row, strict=True)))
+        there = runner(graph, outputs)(dict(zip("ab", row, strict=True)))
         assert values == pytest.approx([float(value) for value in there], rel=1e-14)
 
 

@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from graphkin.construction.core.program import Plane, Program
-from graphkin.construction.rolling.kutzbach import SPEEDS
+from graphkin.construction.core.program import SPEEDS, Plane, Program
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words

@@ -1,19 +1,118 @@
-"""A lab to start from: a folder whose scene and rule are sound, with a word beside each key."""
+"""A lab to start from: a sound scene and rule, with a word beside each key, field and slip."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from graphkin.classroom.lab.fair_ranges import space_of
 from graphkin.classroom.lab.fair_ranges_words import variants_lines
-from graphkin.classroom.lab.items import asked_fields
-from graphkin.classroom.lab.meanings import fields_of, slips
+from graphkin.classroom.lab.items import (
+    ARROW,
+    ARROW_SYMBOL,
+    GREEK,
+    all_fields,
+    asked_fields,
+    place_items,
+    plain,
+    rate_items,
+    slide_items,
+    vector_items,
+)
+from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.proposed_ranges import COURSE
+from graphkin.classroom.lab.slip_names import NAMES
+from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
+from graphkin.drawing.richtext import plain as text_of
+from graphkin.drawing.style import COMPONENTS
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from graphkin.text import words
 from graphkin.text.errors import Problem, SceneError
 from graphkin.writers.files import RESERVED, write_all
+
+QUANTITY = {
+    "velocity": "velocity of {of}",
+    "acceleration": "acceleration of {of}",
+    "omega": "angular velocity of link {of}",
+    "epsilon": "angular acceleration of link {of}",
+    "slide speed": "speed of block {of} along its guide",
+    "slide acceleration": "acceleration of block {of} along its guide",
+    **{each.target: f"{each.words} of link {{of}}" for each in CENTRES},
+}
+"""What each quantity is of which a form asks."""
+COMPONENT = {
+    kind.sign: words("en")(kind.legend).partition(":")[0]
+    for kind in COMPONENTS
+    if kind.sign in GREEK
+}
+"""What each component of an acceleration is called, by its sign."""
+SHEET = {sheet[0]: sheet for sheet in SHEETS}
+"""The sheet with whose letter an arrow's symbol begins."""
+
+
+def fields_of(mechanism: Mechanism) -> Mapping[str, str]:
+    """Every field that a rubric of a mechanism may name, with what it means."""
+    return {name: meaning(item) for name, item in all_fields(mechanism).items()}
+
+
+def kinds() -> Mapping[str, str]:
+    """Every kind of field, by the names that it has for point B, link 3 and block 2, with what it
+    means."""
+    return {item.field: meaning(item) for item in examples()}
+
+
+def examples() -> Iterator[Item]:
+    """A field of each kind."""
+    for vector in VECTORS:
+        yield from vector_items(vector, "B")
+    for rate in RATES:
+        yield from rate_items(rate, "3")
+    yield from slide_items("2", "0")
+    for centre in CENTRES:
+        yield from place_items(centre, "3")
+    for sheet in SHEETS:
+        letter = sheet[0]
+        for kind in (None, *COMPONENT) if letter == "a" else (None,):
+            sign = f"{letter}_BA" + (f"^{kind}" if kind else "")
+            name = f"{letter}_BA" + (f"_{GREEK[kind]}" if kind else "")
+            yield Item(f"{name}_mm", "segment", sign, "mm", ARROW, sign)
+            yield Item(name, "value", sign, "m/s" if letter == "v" else "m/s²", ARROW, sign)
+
+
+def meaning(item: Item) -> str:
+    """What a field means, in a few words."""
+    of = thing(item)
+    if item.what == "sense":
+        ways = "counter-clockwise or clockwise"
+        ways = ways if item.quantity in TURNING else "along the guide as the data say, or against"
+        return f"sense of the {of}: {ways}"
+    if item.what == "segment":
+        return f"{of}: its length in the plan, {item.unit}"
+    if item.what == "place":
+        axis = item.field.removesuffix("_mm")[-1]
+        way = "to the right" if axis == "x" else "up"
+        return f"{of}: {axis} on paper from the first fixed pivot, {way}, {item.unit}"
+    return f"{of}, {item.unit}"
+
+
+def thing(item: Item) -> str:
+    """What a field is of: a quantity, or an arrow of a plan by its letters."""
+    found = ARROW_SYMBOL.fullmatch(item.of) if item.quantity == ARROW else None
+    if found is None:
+        return QUANTITY[item.quantity].format(of=item.of)
+    letter, index, kind = found.groups()
+    name = f"{letter}_{plain(index)}"
+    whole = f"vector {name} of the {SHEET[letter]} plan"
+    return f"{COMPONENT[kind]} of {name}" if kind in COMPONENT else whole
+
+
+def slips() -> Mapping[str, str]:
+    """Every slip by name, with what the student did."""
+    spoken = words("en")
+    return {name: text_of(spoken(f"feedback.slip_{name}")) for name in NAMES}
+
 
 START = Path(__file__).parent / "start"
 FILES = ("scene.toml", "lab.toml")

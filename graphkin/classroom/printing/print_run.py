@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from hashlib import sha256
 from math import ceil
@@ -15,7 +16,6 @@ from graphkin import __version__
 from graphkin.classroom.printing.edition import Edition, Variant
 from graphkin.classroom.printing.file_names import in_the_way, inside, stems
 from graphkin.classroom.printing.journal import Entry, Journal, hash_of, key_of
-from graphkin.classroom.printing.merge import merge
 from graphkin.classroom.printing.personal import lost
 from graphkin.classroom.printing.print_work import Made, PrintOrder, StudentSheets, make
 from graphkin.classroom.printing.workers import chunks, engine, results
@@ -27,6 +27,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import PageError, Problem
 from graphkin.writers.files import put_in_place, sweep
 from graphkin.writers.lock import locked
+from graphkin.writers.pdf_join import PdfPart, join
 
 FOLDER = "print"
 """Where the files come, in the class folder."""
@@ -244,3 +245,52 @@ def spoken(edition: Edition, wishes: PrintRequest) -> str:
     """
     mechanism = Mechanism(read_text(edition.scene, edition.lab.name))
     return language_of(mechanism, wishes.language).language
+
+
+Members = Sequence[tuple[Variant, Sequence[str]]]
+"""Students in order, each with the names of the PDF files that are put in."""
+
+
+def merge(
+    journal: Journal, lab: str, view: str, members: Members, language: str, force: bool
+) -> Path | None:
+    """Write the file of a view, if it does not stand already; None where nobody has pages.
+
+    It has a bookmark for each student. Raises PageError when another file is in its way.
+    """
+    if not members:
+        return None
+    name, title = f"class-{view}.pdf", f"{lab}, {view}"
+    entries = {n: found for e in journal.entries.values() for n, found in e.files.items()}
+    hashes = [[entries[name] for name in names] for _, names in members]
+    marks = [bookmark(variant) for variant, _ in members]
+    key = key_of(title, language, marks, hashes)
+    path = inside(journal.folder, name)
+    if journal.finished(name, key):
+        return path
+    if os.path.lexists(path) and name not in journal.entries and not force:
+        raise PageError(in_the_way(journal.folder, [name]))
+    aside = path.with_name(f".graphkin-{os.getpid()}-{view}.part")
+    try:
+        with aside.open("wb") as stream:
+            join(parts(journal.folder, members), stream, title, language)
+        journal.write([Entry(name, key, {name: hash_of(aside)})])
+        aside.replace(path)
+    except BaseException:
+        with suppress(OSError):
+            aside.unlink()
+        raise
+    return path
+
+
+def parts(folder: Path, members: Members) -> Iterator[PdfPart]:
+    """The files of the students one after another, a bookmark where each student begins."""
+    for variant, names in members:
+        for number, name in enumerate(names):
+            yield PdfPart(folder / name, "" if number else bookmark(variant))
+
+
+def bookmark(variant: Variant) -> str:
+    """What a student is called in the list beside the pages."""
+    name = variant.name or variant.id
+    return f"{name}, {variant.group}" if variant.group else name

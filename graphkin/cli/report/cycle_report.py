@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from graphkin.cli.report.piece_words import pieces_words
+from graphkin.cli.report.piece_words import at_words, length_words, pieces_words, short
 from graphkin.cli.report.solution_record import plain, settings_words
-from graphkin.cli.report.sweep_words import at_words, length_words, short
 from graphkin.text.plain_table import labelled, listed
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Driver, Link, Scene
 from graphkin.scene.quantity import SI, exact
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Tie
-from graphkin.structure.mobility import count
 from graphkin.text.errors import GraphkinError, StructureError
 from graphkin.text.plain_table import listed
 

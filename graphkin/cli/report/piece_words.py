@@ -1,4 +1,4 @@
-"""The pieces of a cycle in words: which closures [branches] states where."""
+"""The places of a sweep and the pieces of a cycle in words: which closures are stated where."""
 
 from __future__ import annotations
 
@@ -6,13 +6,39 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
-from graphkin.cli.report.sweep_words import at_words
 from graphkin.scene.model import Closure
+from graphkin.scene.quantity import SI
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
     from graphkin.motion.pieces import Piece
+    from graphkin.motion.sweep import Sweep
     from graphkin.scene.model import Branch
+
+NOTHING = 1e-12
+"""A length, in the scene's unit, that is rounding."""
+
+
+def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
+    """A place of the sweep, such as φ = 28.955°."""
+    head = f"{sweep.coordinate.letter} = " if name else ""
+    if sweep.what == "turn":
+        return f"{head}{at:.3f}°".replace("-0.000°", "0.000°")
+    if sweep.what == "time":
+        return f"{head}{short(at)} s"
+    return head + length_words(sweep, at)
+
+
+def length_words(sweep: Sweep, value: float) -> str:
+    """A length in the scene's unit."""
+    unit = sweep.original.units["length"]
+    size = value / float(SI[unit][0])
+    return f"{short(size if abs(size) > NOTHING else 0.0)} {unit}"
+
+
+def short(value: float) -> str:
+    """A number with at most six digits."""
+    return f"{value + 0.0:.6g}"
 
 
 def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from graphkin.scene.model import FRAME, Driver, Scene, joined_words, link_words
 from graphkin.scene.quantity import SI
+from graphkin.structure.driver_count import count
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
 from graphkin.structure.groups import Group
-from graphkin.structure.mobility import count
 from graphkin.structure.pairs import all_pairs, sharers
 from graphkin.text.plain_table import labelled, listed
 

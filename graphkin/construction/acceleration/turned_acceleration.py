@@ -14,7 +14,7 @@ from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
-from graphkin.construction.velocity.laid_off_by_rate import (
+from graphkin.construction.velocity.turned_velocity import (
     LaidOffAboutPivot,
     by_bar,
     falls,

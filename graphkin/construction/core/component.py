@@ -14,8 +14,7 @@ from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Effect, Part, Plane, Program
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.segments import letter_at
-from graphkin.construction.core.too_short import TINY, is_short
+from graphkin.construction.core.segments import TINY, is_short, letter_at
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene

@@ -9,8 +9,12 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_pairs import closures, of_guide, tracks, wheels
-from graphkin.construction.core.line_words import axis_of
-from graphkin.construction.core.naming import angle_symbol, driver_index, speed_symbol
+from graphkin.construction.core.naming import (
+    angle_symbol,
+    axis_of,
+    driver_index,
+    speed_symbol,
+)
 from graphkin.construction.core.parameter_words import (
     after_parameter,
     is_derived,

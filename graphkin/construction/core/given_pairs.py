@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from graphkin.construction.core.bases import under
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, constructions
-from graphkin.construction.core.line_words import axis_of, heading, straight
+from graphkin.construction.core.naming import axis_of, heading, straight
 from graphkin.construction.core.parameter_words import after_parameter
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.quantities import written

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
     from graphkin.construction.core.relation import Relation
-K = TypeVar("K", bound="Construction")
+K = TypeVar("K", bound=Roles)
 
 
 class Construction(Roles, frozen=True):

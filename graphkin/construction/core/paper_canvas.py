@@ -18,7 +18,7 @@ from graphkin.construction.core.layout import BEYOND, SWEEP, arc_span
 from graphkin.construction.core.plan_marks import name_point, put_locus, put_point, put_pole
 from graphkin.construction.core.plot import Plot, above_foot, line_part, middle
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.too_short import NEAR, TINY
+from graphkin.construction.core.segments import NEAR, TINY
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark

@@ -12,7 +12,7 @@ from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.quantities import OnPaper
-from graphkin.construction.core.too_short import TINY
+from graphkin.construction.core.segments import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label
 from graphkin.drawing.marks import CircleMark, LineMark

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.kind import lies_along
-from graphkin.construction.core.line_words import heading
 from graphkin.construction.core.link_poses import lettered
+from graphkin.construction.core.naming import heading
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action

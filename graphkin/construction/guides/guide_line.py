@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.line_words import heading
-from graphkin.construction.core.naming import drawn_amount, way_of
+from graphkin.construction.core.naming import drawn_amount, heading, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
 from graphkin.drawing.symbol_markup import symbol

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.line_words import heading, place
-from graphkin.construction.core.naming import angle_symbol, drawn_amount
+from graphkin.construction.core.naming import angle_symbol, drawn_amount, heading, place
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive
 from graphkin.construction.core.vocabulary import action

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.line_words import axis_of
-from graphkin.construction.core.naming import angle_symbol, way_of
+from graphkin.construction.core.naming import angle_symbol, axis_of, way_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Higher, Tie

@@ -18,8 +18,7 @@ from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import Misclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.links.placed_point import place_point
-from graphkin.construction.links.plate_points import plate_points
+from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,
     rolled_to,

@@ -15,8 +15,14 @@ from graphkin.construction.acceleration.turned_acceleration import TurnedAcceler
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.line_words import heading
-from graphkin.construction.core.naming import NAUGHT, drawn_between, drawn_in, has_no_length, sense
+from graphkin.construction.core.naming import (
+    NAUGHT,
+    drawn_between,
+    drawn_in,
+    has_no_length,
+    heading,
+    sense,
+)
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
@@ -25,7 +31,7 @@ from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.higher_class.divided_point import CrossedLine, DividedPoint
 from graphkin.construction.step_sentences import point_parts, point_sentence
 from graphkin.construction.velocity.image_of_link import CrossedImage, ImageOfLink, TranslatedImage
-from graphkin.construction.velocity.laid_off_by_rate import LaidOffAboutPivot, LaidOffByRate
+from graphkin.construction.velocity.turned_velocity import LaidOffAboutPivot, LaidOffByRate
 from graphkin.drawing.style import OWN_LINES
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol, tag_words
 from graphkin.numbers.plane import Line as Carrier

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.line_words import axis_of
-from graphkin.construction.core.naming import angle_symbol
+from graphkin.construction.core.naming import angle_symbol, axis_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import in_degrees
 from graphkin.construction.core.vocabulary import action, ray

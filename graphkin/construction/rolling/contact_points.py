@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
-from graphkin.construction.core.line_words import straight
 from graphkin.construction.core.link_poses import lettered
-from graphkin.construction.core.naming import arrow_of, drawn_amount, way_of
+from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane

@@ -20,8 +20,7 @@ from graphkin.construction.links.counted_turn import (
     turned_ahead,
 )
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.links.placed_point import place_point
-from graphkin.construction.links.plate_points import plate_points
+from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.rolling.contact_points import (
     CentreOfBelt,
     CentrePath,

@@ -19,7 +19,7 @@ from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
-from graphkin.construction.core.too_short import laid_off
+from graphkin.construction.core.segments import laid_off
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -15,7 +15,7 @@ from graphkin.construction.core.vocabulary import sum_of
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.links.placed_point import place_point
+from graphkin.construction.links.plate_points import place_point
 from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
 from graphkin.construction.rolling.touching import by_contact

@@ -99,11 +99,6 @@ def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> 
         return math.nan
 
 
-def ran(graph: Graph, outputs: Sequence[int], inputs: Mapping[str, Any]) -> list[Any]:
-    """The values of outputs for arrays of inputs, each array of the same length."""
-    return runner(graph, outputs)(inputs)
-
-
 def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
     """Some outputs as a function of arrays of inputs, each array of the same length."""
     import numpy as np

@@ -1,28 +1,132 @@
-"""The velocity of a pin about a pivot by a known turning: ω times the bar, perpendicular to it."""
+"""Vectors of the plans that a rate gives, such as that of a turned pin: from a known point."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import has_no_length, rate_symbol, vector_of
-from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.quantities import OMEGA
-from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.vocabulary import action
-from graphkin.construction.velocity.laid_off_by_rate import (
-    LaidOffAboutPivot,
-    by_bar,
-    falls,
-    length_drawn,
-    rate_words,
+from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.naming import (
+    drawn_between,
+    driver_of_rate,
+    has_no_length,
+    is_driven,
+    rate_symbol,
+    vector_of,
 )
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.quantities import OMEGA, in_mm
+from graphkin.construction.core.relation import Relation, answer, figure, length_of
+from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.vocabulary import action
+from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
+
+
+class LaidOffByRate(Construction, frozen=True):
+    """A vector that a rate gives, or two that follow from both rates of one link."""
+
+    @abstractmethod
+    def tried_rate(self, role: str) -> int | None:
+        """The rate by which an auxiliary plan lays off a role's vector; None for others."""
+
+    @abstractmethod
+    def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
+        """What a sentence about the vector that ends in a role speaks of."""
+
+
+class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
+    """Vectors of a pin about a pivot by the rates of their ``link``."""
+
+    link: str
+
+    def is_of_driver(self, drawing: Drawing, rate: int) -> bool:
+        """Whether it is that of a crank on the frame, of which the driver's own relations tell."""
+        driver = driver_of_rate(drawing, rate)
+        if driver is None or self.p not in drawing.scene.frame.points:
+            return False
+        return self.link in (driver.link, driver.against)
+
+    def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
+        """What a known turning gives: rate times bar, or its square for what leads to the pivot."""
+        value = abs(float(drawing.trace.values[rate]))
+        length = length_of(drawing, self.p, self.q)
+        square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
+        size = value * value * length if square else value * length
+        remark = drawing.words("calculation.square_to", bar=self.bar)
+        driver = driver_of_rate(drawing, rate)
+        if driver is not None and self.link not in ("", driver.link, driver.against):
+            own = symbol(f"{letter}_{self.link}")
+            remark = f"{remark}; {own} = {rate_symbol(drawing, rate, letter)}"
+        if square:
+            remark = laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
+        return Relation(
+            symbol(f"{drawing.vector.letter}_{self.index}{signed(sign)}"),
+            f"{rate_symbol(drawing, rate, letter)}{square}·{self.bar}",
+            f"{figure(drawing, value, 6)}{square}·{figure(drawing, length)}",
+            answer(drawing, size),
+            drawing.vector.caret_unit,
+            remark,
+            over=((self.p, self.q),),
+        )
+
+
+def signed(sign: str) -> str:
+    """The sign of a component as it stands in a symbol."""
+    return f"^{sign}" if sign else ""
+
+
+def length_drawn(drawing: Drawing, tail: int, tip: int) -> str:
+    """How long a vector is drawn in its plan, in mm, without the unit."""
+    plane = drawing.trace.program.steps[tip].plane
+    return in_mm(drawing.words, drawn_between(drawing, tail, tip, plane))
+
+
+def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
+    """How a sentence says the length of a driven pin's vector: by its bar, or in mm.
+
+    It joins to its ``fields`` how many times as long as the bar that is.
+    """
+    times = drawing.scales.of_bar(drawing.kind) if is_driven(drawing, rate) else 0.0
+    fields["m"] = figure(drawing, times)
+    return {0.0: "-scaled", 1.0: ""}.get(times, "-times")
+
+
+def falls(drawing: Drawing, number: int, start: str) -> str:
+    """The key of the sentence of a point that falls on its vector's ``start``: its rate is nought.
+
+    No rate is told of an auxiliary plan, which tries it.
+    """
+    if not start:
+        return "step.falls-end"
+    return "step.falls" if number in drawing.auxiliary else "step.falls-nought"
+
+
+def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
+    """The rate by which a step lays off a vector; one that is tried is named by its link."""
+    plan = auxiliary_plan(drawing, number)
+    if plan is not None and link:
+        own, lead = symbol(f"{letter}_{link}"), plan.turned_by(rate)
+        if lead not in ("", link):
+            return f"{own} = {symbol(f'{letter}_{lead}')}"
+        if lead or drawing.trace.program.steps[rate].name not in drawing.scene.links:
+            return own
+    return rate_symbol(drawing, rate, letter) + source_of_rate(drawing, number, rate)
+
+
+def source_of_rate(drawing: Drawing, number: int, rate: int) -> str:
+    """From what of this plan a rate is found, where it is taken the first time."""
+    steps = drawing.trace.program.steps
+    kind, action = construction(steps[rate]), steps[number].action
+    first = next(user for user in drawing.children[rate] if steps[user].action is action)
+    return kind.source_of_rate(drawing) if kind and first == number else ""
 
 
 @action("turned-velocity")

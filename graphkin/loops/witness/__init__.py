@@ -6,7 +6,7 @@ nor, beside singular positions, below the share that rounding has in the limit, 
 of a quantity that is nought everywhere is not taken for a difference.
 """
 
+from graphkin.loops.witness.differences import sure_of
 from graphkin.loops.witness.examine import compare, examine
-from graphkin.loops.witness.sure_quantities import sure_of
 
 __all__ = ["compare", "examine", "sure_of"]

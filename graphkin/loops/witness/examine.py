@@ -23,10 +23,9 @@ from graphkin.loops.branch_closures import closure_numbers, closures, other_clos
 from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.closing_groups import Group, groups, speaks_of, stages
 from graphkin.loops.equations import Equations, equations
-from graphkin.loops.loop_motion import Motion
+from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
 from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
 from graphkin.loops.newton_start import Start, start_values
-from graphkin.loops.poses import pose_of, setting_of, unknowns_of
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.loops.witness.differences import (
     LEAST_LIMIT,

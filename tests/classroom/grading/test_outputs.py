@@ -19,13 +19,13 @@ import pytest
 from click.testing import CliRunner
 from msgspec.structs import replace
 
-from graphkin.classroom.grading import class_report, gradebook_csv
+from graphkin.classroom.grading import class_report, gradebook_xlsx
 from graphkin.classroom.grading.class_marking import Class, graded_class
 from graphkin.classroom.grading.class_pictures import pictures
 from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
 from graphkin.classroom.grading.gradebook import GradebookError, filled
-from graphkin.classroom.grading.gradebook_csv import read_gradebook
+from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
 from graphkin.classroom.grading.graded import Answer, Taker
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import differences, marks_table, read_marks
@@ -189,9 +189,9 @@ def test_cells_of_a_gradebook_are_those_that_a_spreadsheet_reads(tmp_path):
 
 def test_a_gradebook_of_too_many_cells_is_not_read_to_its_end(tmp_path, monkeypatch):
     seen = []
-    cell = gradebook_csv.cell
-    monkeypatch.setattr(gradebook_csv, "MOST_CELLS", 50)
-    monkeypatch.setattr(gradebook_csv, "cell", lambda raw: seen.append(raw) or cell(raw))
+    cell = gradebook_xlsx.cell
+    monkeypatch.setattr(gradebook_xlsx, "MOST_CELLS", 50)
+    monkeypatch.setattr(gradebook_xlsx, "cell", lambda raw: seen.append(raw) or cell(raw))
     with pytest.raises(GradebookError, match="more than 50 cells"):
         book(tmp_path, "id,mark\n" + "\n" * 1000)
     assert len(seen) == 50

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from graphkin.classroom.grading.answers import read_answers
 from graphkin.classroom.grading.gradebook import GradebookError, filled
-from graphkin.classroom.grading.gradebook_csv import read_gradebook
+from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
 from graphkin.classroom.grading.marks_tables import read_marks
 from graphkin.classroom.grading.submissions import sender, submissions
 from graphkin.classroom.roster.roster_errors import RosterError

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.classroom.grading.answer_numbers import read_answer
-from graphkin.classroom.grading.senses import sense_of
+from graphkin.classroom.grading.answer_numbers import read_answer, sense_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.text import LANGUAGES, words
 

@@ -8,8 +8,7 @@ from collections.abc import Mapping
 import pytest
 
 from graphkin.classroom.lab.items import all_fields
-from graphkin.classroom.lab.meanings import QUANTITY, fields_of, kinds, slips
-from graphkin.classroom.lab.new_lab import new_lab
+from graphkin.classroom.lab.new_lab import QUANTITY, fields_of, kinds, new_lab, slips
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, SLIDING, VECTORS
