@@ -769,6 +769,13 @@ class Reader(Trials):
         self.put(name, self.at(s) + self.driven_way(of, kind) * number(drawn))
 
     @says(
+        "from its end lay off (?P<kind>[av])_\\{[^}]*\\}(?:\\^\\{r\\})? ∥ "
+        "(?P<of>guide [^,]*), ⟨drawn:number⟩ mm: ⟨name⟩"
+    )
+    def driven_slide_on(self, kind: str, of: str, drawn: str, name: str) -> None:
+        self.put(name, self.its_end() + self.driven_way(of, kind) * number(drawn))
+
+    @says(
         "⟨name⟩, the instantaneous centre of link ⟨k:number⟩, is (?:its fixed pin )?⟨p⟩(?:, "
         "whose velocity is zero)?"
     )

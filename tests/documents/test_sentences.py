@@ -59,7 +59,26 @@ def test_every_length_of_the_calculation_is_given_or_measured_before(both):
     assert drawn_before
 
 
+def test_every_point_that_a_sentence_speaks_of_has_a_letter(both):
+    """A point without one would leave its gap empty, between two spaces."""
+    assert not [said for said in all_said(both) if "  " in said]
+
+
 # --- trial plans ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_a_trial_goes_on_from_the_end_of_a_component_without_a_letter(language):
+    """The Coriolis component under E ends in a point of the trial plan that bears no name."""
+    said = [one.markup for one in sentences(drawings("platform-3rpr", None, language)[1])]
+    end = {
+        "en": "from its end lay off",
+        "ro": "din capătul ei se ia",
+        "it": "dal suo estremo riportare",
+    }
+    ways = [re.search(rf"; {end[language]} (\S+) ∥", markup) for markup in said]
+    assert [way[1] for way in ways if way] == [symbol("a_B4B^r")] * 2
+    assert not [markup for markup in said if "  " in markup]
 
 
 @pytest.mark.parametrize("name", HIGHER)

@@ -348,6 +348,13 @@ def laid_off(program: Program, number: int) -> LaidOff | None:
     return kind if isinstance(kind, LaidOff) and kind.corner == number else None
 
 
+def end_before(drawing: Drawing, number: int) -> int:
+    """A step of a plan; where it is the end of a component too short to be drawn, where that is
+    laid off."""
+    laid = laid_off(drawing.trace.program, number)
+    return laid.start if laid is not None and laid.is_short(drawing) else number
+
+
 def index_before(program: Program, number: int) -> str:
     """The index of the component that ends in a point of a plan; nothing where none does."""
     kind = construction(program.steps[number])

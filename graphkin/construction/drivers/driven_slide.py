@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.component import end_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import driver_index, driver_of_rate, has_no_length, vector_of
 from graphkin.construction.core.pen import Pen
@@ -64,7 +65,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         steps = drawing.trace.program.steps
         return {
             **self.symbols(),
-            "s": symbol(letter_at(drawing, self.start)),
+            "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
             "name": symbol(steps[self.image].name),
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
@@ -81,7 +82,8 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         if has_no_length(drawing, self.image):
             key, rate = self.fallen(drawing, fields["s"])
             return drawing.words(key, rate=rate, **fields)
-        return drawing.words("step.driven-slide", **fields)
+        key = "step.driven-slide" if fields["s"] else "step.driven-slide-end"
+        return drawing.words(key, **fields)
 
     def fallen(self, drawing: Drawing, start: str) -> tuple[str, str]:
         """The key of the sentence where nothing is laid off, and the rate that is told in it."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.component import end_before, laid_off
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Plane
@@ -126,14 +126,12 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through which point it is drawn, or which end of the component laid off before."""
-        steps = drawing.trace.program.steps
-        laid = laid_off(drawing.trace.program, self.start)
-        letter, key = letter_at(drawing, self.start), "parallel-to"
-        if laid is not None and laid.is_short(drawing):
-            letter = steps[laid.start].name
-        elif letter and not steps[self.start].name:
+        steps, start = drawing.trace.program.steps, end_before(drawing, self.start)
+        letter, key = letter_at(drawing, start), "parallel-to"
+        if letter and not steps[start].name:
             key = "parallel-to-foot"
         elif not letter:
+            laid = laid_off(drawing.trace.program, start)
             back = laid is not None and laid.back
             key = "parallel-to-tail" if back else "parallel-to-end"
         fields = {"guide": self.way(drawing), "vector": self.vector_along(drawing, self.line)}
