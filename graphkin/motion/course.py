@@ -268,7 +268,7 @@ class Course(Struct, frozen=True, dict=True):
 
 def closed_in(margins: Reals) -> Flags:
     """Which columns of margins close: all is placed, and no two loci lie on one another."""
-    return np.isfinite(margins).all(axis=0) & (margins >= NOISE).all(axis=0)
+    return np.asarray((np.isfinite(margins) & (margins >= NOISE)).all(axis=0))
 
 
 def spread(value: Any, count: int) -> Any:
