@@ -444,9 +444,7 @@ def missed(
             name = contact_name(last)
             if isinstance(group, Higher):
                 name = SlippingName(name)
-            return coupled_train.missed(
-                pen, last, group.closing, kind.quantity, kind.part, name
-            )
+            return coupled_train.missed(pen, last, group.closing, kind.quantity, kind.part, name)
         case Tie(link, Pin(point=p), Pin(point=q)):
             p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
