@@ -5,7 +5,7 @@ import io
 from fractions import Fraction
 from itertools import cycle as in_turn
 from itertools import product
-from math import cos, pi
+from math import cos, pi, radians
 from pathlib import Path
 
 import numpy as np
@@ -884,7 +884,16 @@ E = [90, 10]
 Q = [0, 0]
 C = [70, 0]
 slides = { on = 3, through = "W", angle = 0 }
-cam = { on = 1, tip = "roller", base = 40, roller = 10, side = "left", law = [{ to = 180, rise = 0.2, motion = "cycloidal" }, { to = 360, rise = -0.2, motion = "cycloidal" }] }
+[links.2.cam]
+on = 1
+tip = "roller"
+base = 40
+roller = 10
+side = "left"
+law = [
+  { to = 180, rise = 5, motion = "cycloidal" },
+  { to = 360, rise = -5, motion = "cycloidal" },
+]
 [links.3]
 W-Z = 60
 [links.4]
@@ -901,12 +910,12 @@ velocity = ["W"]
 
 
 def test_a_lever_may_be_a_block_on_a_bar_that_comes_later():
-    """It swings about its pin on the cam's carrier all the same, by the law alone: 0.2 rad of rise
+    """It swings about its pin on the cam's carrier all the same, by the law alone: 5 degrees of rise
     in half a turn, cycloidal."""
     lever = Mechanism(read_text(LEVER_ON_A_BAR, "lever"))
     found = lever.solve()
     assert lever.scene.cams["2"].lever is not None
     assert lever.witness(found).agrees
     share = 70 / 180
-    rate = 0.2 / pi * (1 - cos(2 * pi * share)) * 5
+    rate = radians(5) / pi * (1 - cos(2 * pi * share)) * 5
     assert abs(found.links["2"].omega) == pytest.approx(rate, rel=1e-9)
