@@ -910,7 +910,7 @@ velocity = ["W"]
 
 
 def test_a_lever_may_be_a_block_on_a_bar_that_comes_later():
-    """It swings about its pin on the cam's carrier all the same, by the law alone: 5 degrees of rise
+    """It swings about its pin on the cam's carrier all the same, by its law alone: 5° of rise
     in half a turn, cycloidal."""
     lever = Mechanism(read_text(LEVER_ON_A_BAR, "lever"))
     found = lever.solve()
