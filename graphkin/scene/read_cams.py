@@ -92,8 +92,8 @@ def read_cam(
     """One cam, as ``{ on, tip, base, roller, law, start, … }``; None where none can be."""
     findings = measures.findings
     before = len(findings.problems)
-    swings = not links[follower].slides
     on = link_name(table.at("on"), table.take("on"), findings, CAM)
+    swings = on is None or is_lever(follower, on, links)
     seat = seat_of(follower, on, table, links) if on is not None else None
     slides = seat is not None and seat.slides
     tip = choice(table, "tip", TIPS)
@@ -208,6 +208,35 @@ def lever_of(
     return tips[0], CamLever(pins[0], SIDES[side], face)
 
 
+def pinned_to(follower: str, on: str, links: Mapping[str, Link]) -> list[str]:
+    """The links, but the cam's, to which a follower is pinned."""
+    own = {*links[follower].points}
+    beside = (name for name in links if name not in (on, follower))
+    return [name for name in beside if own & {*links[name].points}]
+
+
+def is_lever(follower: str, on: str, links: Mapping[str, Link]) -> bool:
+    """Whether a follower swings about a pin: one that does not slide, or on another link than that
+    which carries the cam."""
+    own = links[follower]
+    if not own.slides or on not in links:
+        return not own.slides
+    slid = {slide.on for slide in own.slides}
+    if any(name in links and name != on and seated(on, name, links) for name in slid):
+        return False
+    held = (name for name in pinned_to(follower, on, links) if name not in slid)
+    return any(seated(on, name, links) for name in held)
+
+
+def seated(on: str, carrier: str, links: Mapping[str, Link]) -> Seat | None:
+    """How a cam is joined to a link, by one pin or by its guide there; None where it is not."""
+    guides = [slide for slide in links[on].slides[:1] if slide.on == carrier]
+    pivots = [point for point in links[on].points if point in links[carrier].points]
+    if guides and links[on].points:
+        return Seat(carrier, links[on].points[0], True)
+    return Seat(carrier, pivots[0], False) if len(pivots) == 1 else None
+
+
 def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> Seat | None:
     """The link that carries both the cam and its follower, and how the cam is joined to it."""
     findings, own = table.findings, links[follower]
@@ -215,7 +244,7 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
         expected = listed(name for name in links if name != follower)
         findings.add(table.at("on"), f"link {on}", f"the link of the cam: {expected}")
         return None
-    if own.slides:
+    if not is_lever(follower, on, links):
         carriers = [own.slides[0].on]
         if len(own.slides) > 1 or carriers[0] not in links or not own.points or on in carriers:
             found = f"link {follower} does not slide on a guide beside the cam"
@@ -223,23 +252,15 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
             findings.add(table.place, found, expected, OTHER_CAMS)
             return None
     else:
-        carriers = [
-            name
-            for name, link in links.items()
-            if name not in (on, follower) and {*link.points} & {*own.points}
-        ]
+        carriers = pinned_to(follower, on, links)
         if not carriers:
             found = f"link {follower} neither slides on a guide nor swings about a pin"
             expected = "slides = { on = 0, … }, or one point of the frame and the tip as the next"
             findings.add(table.place, found, expected)
             return None
     for name in carriers:
-        guides = [slide for slide in links[on].slides[:1] if slide.on == name]
-        pivots = [point for point in links[on].points if point in links[name].points]
-        if guides and links[on].points:
-            return Seat(name, links[on].points[0], True)
-        if len(pivots) == 1:
-            return Seat(name, pivots[0], False)
+        if seat := seated(on, name, links):
+            return seat
     who = " or ".join(map(named, carriers))
     if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
         hint = "let the plate slide and the follower's guide stand still: both move alike"

@@ -14,7 +14,6 @@ from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
 from graphkin.text.errors import Problem, StructureError
 
-TIPS = "a plank on rollers of different sizes tips as they roll, which is not constructed"
 TOUCH = 1e-9
 """Gap between wheels that touch, as a share of their distance, that rounding may leave."""
 
@@ -245,17 +244,20 @@ def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
 def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
     """What to write where a wheel rolls on one of some tracks that nothing keeps there.
 
-    Where wheels of several sizes, all kept, roll on it, that this is not constructed.
+    Where the link of the track slides across it, which way its axes lie.
     """
     for track in tracks:
         rolled = [(k, r) for k in scene.every_link for r in k.rolls if r.through is not None]
         wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
+        along = (unit(scene, rolling.angle) for _, rolling in wheels)
+        if scene.link(track).slides and any(abs(each.imag) > LEVEL for each in along):
+            return (
+                f"link {track} slides across the track: the x axis of a block lies along its guide,"
+                " write angle = 0"
+            )
         loose = next((link.name for link, rolling in wheels if not rolling.keeper), None)
         if loose is not None:
             return keeper_asked(scene.links, loose, track)
-        rims = [link.rim for link, _ in wheels]
-        if any(not of_one_size(rims[0], rim) for rim in rims[1:]):
-            return TIPS
     return ""
 
 

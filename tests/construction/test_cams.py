@@ -5,6 +5,7 @@ import io
 from fractions import Fraction
 from itertools import cycle as in_turn
 from itertools import product
+from math import cos, pi, radians
 from pathlib import Path
 
 import numpy as np
@@ -866,3 +867,55 @@ def test_the_table_of_a_cycle_has_the_pressure_angle_of_such_a_cam(name):
         assert float(row[f"pressure_{follower} [deg]"]) == pytest.approx(slope, abs=1e-6)
         checked += 1
     assert checked > 25
+
+
+LEVER_ON_A_BAR = """
+graphkin = 1
+title = "Cam lever that is a block on a later bar"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+Q = [100, 0]
+V = [60, 150]
+[links.1]
+O-M = 20
+[links.2]
+E = [90, 10]
+Q = [0, 0]
+C = [70, 0]
+slides = { on = 3, through = "W", angle = 0 }
+[links.2.cam]
+on = 1
+tip = "roller"
+base = 40
+roller = 10
+side = "left"
+law = [
+  { to = 180, rise = 5, motion = "cycloidal" },
+  { to = 360, rise = -5, motion = "cycloidal" },
+]
+[links.3]
+W-Z = 60
+[links.4]
+V-W = 110
+[[drivers]]
+turn = 1
+angle = 70
+speed = 5
+[branches]
+2 = "forward"
+[ask]
+velocity = ["W"]
+"""
+
+
+def test_a_lever_may_be_a_block_on_a_bar_that_comes_later():
+    """It swings about its pin on the cam's carrier all the same, by its law alone: 5° of rise
+    in half a turn, cycloidal."""
+    lever = Mechanism(read_text(LEVER_ON_A_BAR, "lever"))
+    found = lever.solve()
+    assert lever.scene.cams["2"].lever is not None
+    assert lever.witness(found).agrees
+    share = 70 / 180
+    rate = radians(5) / pi * (1 - cos(2 * pi * share)) * 5
+    assert abs(found.links["2"].omega) == pytest.approx(rate, rel=1e-9)

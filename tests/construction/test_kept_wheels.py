@@ -399,14 +399,11 @@ def test_rollers_that_are_not_alike_lead_no_plank(old, new):
         made(text.replace(old, new)).solve()
 
 
-def test_wheels_of_two_sizes_under_a_plank_are_refused_by_name():
-    """No wheel leads a plank that wheels alone hold: as dyads the parallel tracks are singular."""
-    text = (FOLDER / "plank-rollers.toml").read_text(encoding="utf-8")
-    text = text.replace('"D", radius = "r"', '"D", radius = 40')
-    text = text.replace(
-        'slide = 3\nposition = 70\nspeed = "v"', 'roll = 1\nposition = 70\nspeed = "v"'
-    )
-    with pytest.raises(StructureError, match="hold link 3, a straight track, by wheels and pins"):
+def test_a_track_across_the_way_of_its_block_is_told_as_such():
+    """The axes of a strand lie along its guide: a track at 90 degrees to them leads nothing."""
+    text = (FOLDER / "hoist-differential.toml").read_text(encoding="utf-8")
+    text = text.replace('on = 2, through = "B", angle = 0', 'on = 2, through = "B", angle = 90')
+    with pytest.raises(StructureError, match="link 2 slides across the track"):
         made(text).solve()
 
 
@@ -620,8 +617,14 @@ def test_rollers_on_a_slope_keep_a_plank_parallel_to_it():
     assert (motion.points["P"].position / along).imag == pytest.approx(0.08)
     other = SLOPE.replace("length = 200, angle = 20 }", "length = 200, angle = 21 }")
     assert other != SLOPE
-    with pytest.raises(StructureError, match="hold link 3, a straight track"):
-        made(other + "[[drivers]]\nroll = 1\nposition = 20\nspeed = 100\n").solve()
+    driver = "[[drivers]]\nroll = 1\nposition = 20\nspeed = 100\n"
+    with pytest.raises(StructureError, match="closure 1"):
+        made(other + driver).solve()
+    leaning = made(other + driver + '[branches]\n3 = "closure 1"\n')
+    motion = leaning.solve()
+    assert leaning.witness(motion).agrees
+    assert motion.links["3"].omega == pytest.approx(0, abs=1e-12)
+    assert abs((motion.points["P"].position / along).imag - 0.08) > 1e-4
 
 
 def test_a_rod_pulls_a_plank_on_rollers_of_one_size():
