@@ -270,5 +270,6 @@ def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
     moving = [name for name in links if name != FRAME]
     return (
         f"if a pin and the wheel of {whose} alone hold link {track}, "
-        f"write link = {quoted(next_name(moving))} in rolls of {whose}"
+        f"write link = {quoted(next_name(moving))} in rolls of {whose}: "
+        "a block of that name is put in, which keeps the wheel on its track"
     )

@@ -118,7 +118,8 @@ def test_a_track_that_only_seems_to_be_led_may_have_its_keeper_by_name():
     text = scene_text("structure/track-held-by-its-wheel")
     assert refused(text).endswith(
         "; or, if a pin and the wheel of link 7 alone hold link 8, "
-        "write link = 15 in rolls of link 7"
+        "write link = 15 in rolls of link 7: "
+        "a block of that name is put in, which keeps the wheel on its track"
     )
     assert refused(text.replace('side = "right"', 'side = "right", link = 15')) == ""
 
