@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction import step_marks
 from graphkin.construction.core.component import crowded_pins
@@ -34,15 +35,16 @@ from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
+from graphkin.documents.step_visibility import TOGETHER
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.bare_stretches import at_bare_stretches
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
-from graphkin.drawing.label import segment_of
+from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
-from graphkin.drawing.style import OWN_LINES, VECTORS
+from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text.errors import PageError
 
@@ -90,11 +92,7 @@ def sheet(
 ) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout, written = layout or lay_out(drawing), written or writing(drawing, view)
-    both = boards(drawing, layout, view)
-    if Moved.TRIALS in written.moved:
-        both[1].labels = [label for label in both[1].labels if label.cls != OWN_LINES]
-        both[1].notes.append(drawing.words("page.trials_moved"))
-    (left, detail), (right, other) = parted(*both)
+    (left, detail), (right, other) = parted(*boards(drawing, layout, view))
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
@@ -209,8 +207,7 @@ def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
     head, moved = heading(drawing, view)
     foot, more, said = below(drawing, view)
-    trials = sum(bool(drawing.trace.program.steps[n].name) for n in drawing.auxiliary)
-    if view == "key" and trials >= TRIALS:
+    if view == "key" and has_many_trials(drawing):
         moved.add(Moved.TRIALS)
     return Writing(head, foot, frozenset(moved | more), said)
 
@@ -249,16 +246,44 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
 
 
 def boards(
-    drawing: Drawing, layout: Layout, view: str, said: Sequence[Sentence] | None = None
+    drawing: Drawing, layout: Layout, view: str, said: Sequence[Sentence] = ()
 ) -> tuple[FieldContent, FieldContent]:
-    """Both fields; the letters of the construction that no sentence says are dispensable there."""
+    """Both fields; the letters of the construction that no sentence says are dispensable there.
+
+    Points of many trial plans have no letters, but on the pages that grow, whose sentences are
+    ``said``.
+    """
     both = left_board(drawing, layout, view), right_board(drawing, layout, view)
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
         told = " ".join(each.markup for each in said or sentences(drawing))
         both[0].dispensable = [label for label in letters if label.markup not in told]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
+    if view == "key" and not said and has_many_trials(drawing):
+        both[1].labels = [*without_trials(drawing, both[1].labels)]
+        both[1].notes.append(drawing.words("page.trials_moved"))
     return both
+
+
+def has_many_trials(drawing: Drawing) -> bool:
+    """Whether so many points of trial plans have names that these stand on a sheet of their own."""
+    steps = drawing.trace.program.steps
+    return sum(bool(steps[number].name) for number in drawing.auxiliary) >= TRIALS
+
+
+def without_trials(drawing: Drawing, labels: Iterable[Label]) -> Iterator[Label]:
+    """The labels of a plan without the letters of points of trial plans."""
+    steps = drawing.trace.program.steps
+    trials = {steps[number].name for number in drawing.auxiliary}
+    for label in labels:
+        letters = zip(label.name.split(), TOGETHER.split(label.markup), strict=False)
+        kept = [letter for letter in letters if letter[0] not in trials]
+        if segment_of(label) or not trials & {*label.name.split()}:
+            yield label
+        elif kept:
+            names, markups = zip(*kept, strict=True)
+            markup = " ≡ ".join(markups)
+            yield replace(label, name=" ".join(names), markup=markup, cls=drawing.kind)
 
 
 def is_thin(mark: Mark) -> bool:
