@@ -238,6 +238,8 @@ def test_results_of_measured_lengths_have_no_more_digits_than_these_however_larg
     """A speed of 1e50 rad/s is as many digits as one of 10: m/s and m/s² by powers of ten."""
     fast = NAMED.format(crank="A", rocker="B").replace("speed = 10", "speed = 1e50")
     pages = calculation(drawings_from(fast, language), "key")
-    figures = re.findall(r"\d[\d.,]*(?=·10[⁰¹²³⁴⁵⁶⁷⁸⁹])", " ".join((mark.markup for mark in texts(pages))))
+    figures = re.findall(
+        r"\d[\d.,]*(?=·10[⁰¹²³⁴⁵⁶⁷⁸⁹])", " ".join((mark.markup for mark in texts(pages)))
+    )
     assert len(figures) > 20
     assert max(len(figure) for figure in figures) <= 7
