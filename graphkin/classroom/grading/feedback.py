@@ -13,12 +13,12 @@ from graphkin.classroom.grading.feedback_rows import (
     FeedbackRow,
     decision_words,
     points_words,
-    printable,
     rows,
     safe,
 )
 from graphkin.classroom.grading.graded import Graded, Status
 from graphkin.classroom.lab.lab_model import Rubric
+from graphkin.classroom.printing.personal import called
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -149,10 +149,9 @@ def feedback_pages(graded: Graded, title: str, rubric: Rubric, words: Words) -> 
 
 
 def name_of(graded: Graded) -> str:
-    """A student's name and group, or the id, as markup with only signs that the lettering has."""
+    """A student's name and group, or the id, as on the sheets, as markup."""
     student = graded.taker.student
-    text = ", ".join(filter(None, (student.name or student.id, student.group)))
-    return escape(printable(text))
+    return escape(called(student.name, student.id, student.group))
 
 
 def fitting(markup: str) -> str:
