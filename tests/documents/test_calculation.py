@@ -14,6 +14,7 @@ from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN
+from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import (
     OTHERS,
     VARIANTS,
@@ -230,3 +231,15 @@ def test_pages_begin_with_a_heading_where_that_takes_no_more_of_them(lines, begi
     pages = laid_out(rows, solved=True)
     assert [page[0][1].heading for page in pages] == begin
     assert [row for page in pages for _, row in page] == rows
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_results_of_measured_lengths_have_no_more_digits_than_these_however_large(language):
+    """A speed of 1e50 rad/s is as many digits as one of 10: m/s and m/s² by powers of ten."""
+    fast = NAMED.format(crank="A", rocker="B").replace("speed = 10", "speed = 1e50")
+    pages = calculation(drawings_from(fast, language), "key")
+    figures = re.findall(
+        r"\d[\d.,]*(?=·10[⁰¹²³⁴⁵⁶⁷⁸⁹])", " ".join((mark.markup for mark in texts(pages)))
+    )
+    assert len(figures) > 20
+    assert max(len(figure) for figure in figures) <= 7
