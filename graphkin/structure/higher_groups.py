@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.scene.model import Driver, Scene
+from graphkin.scene.model import Driver, Scene, of_one_size
 from graphkin.structure.groups import (
     Crank,
     Driven,
@@ -194,9 +194,30 @@ def over_rolled(
         for pair in joints.others[link]:
             if not isinstance(pair, Contact) or pair.arm is None or pair.alike or pair in used:
                 continue
-            if {*pair.links, pair.arm} <= {*grown}:
+            if {*pair.links, pair.arm} <= {*grown} and not keeps_parallel(joints, pair):
                 return pair
     return None
+
+
+def keeps_parallel(joints: Joints, contact: Contact) -> bool:
+    """Whether a wheel of the same size rolls between the same two straight tracks.
+
+    They stay parallel then, however the wheels roll: nothing is found from that.
+    """
+    own = contact.links[0]
+    rolling = (pair for pair in joints.others[contact.links[1]] if isinstance(pair, Contact))
+    return any(
+        of_one_size(contact.wheel, other.wheel)
+        and len(tracks_of(joints, own) & tracks_of(joints, other.links[0])) > 1
+        for other in rolling
+        if other.links[0] != own
+    )
+
+
+def tracks_of(joints: Joints, wheel: str) -> set[str]:
+    """The links on whose straight tracks a wheel rolls."""
+    pairs = (pair for pair in joints.others[wheel] if isinstance(pair, Contact))
+    return {pair.links[1] for pair in pairs if pair.track is None and pair.links[0] == wheel}
 
 
 def rolled_by(group: Group) -> Iterator[Contact]:
