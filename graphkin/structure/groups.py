@@ -298,9 +298,7 @@ class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
 
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
-    ``spun`` the first driver that turns one of its links against a known one, about a pin that
-    moves, where there are wheels; ``led`` are drivers, as written, that reach one of them.
+    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones.
     ``asked`` is what to write where a wheel on such a track may need a link that keeps it there.
     """
 
@@ -308,8 +306,6 @@ class Unresolved(Struct, frozen=True):
     driven: tuple[Driver, ...] = ()
     tracks: tuple[str, ...] = ()
     wedged: tuple[str, ...] = ()
-    spun: Driver | None = None
-    led: tuple[str, ...] = ()
     asked: str = ""
 
     @property

@@ -303,31 +303,6 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
 
 
-def spun_afar(
-    joints: Joints, known: Collection[str], links: Sequence[str], driven: Sequence[Driver]
-) -> Driver | None:
-    """The first of some drivers that turns one of its links against a known one, where some of the
-    links that do not stand have wheels; or against one that does not stand, where wheels alone
-    join what it turns to all others."""
-    if not any(isinstance(pair, Contact) for link in links for pair in joints.others[link]):
-        return None
-    turning = [each for each in driven if each.kind == "turn"]
-    against_known = (d for d in turning if len({d.link, d.against} & {*known}) == 1)
-    by_wheels = (d for d in turning if any(only_wheels(joints, *e) for e in ends_of(d)))
-    return next(against_known, None) or next(by_wheels, None)
-
-
-def ends_of(driver: Driver) -> tuple[tuple[str, str], tuple[str, str]]:
-    """The link that a driver moves with that against which it does, and the other way round."""
-    return (driver.link, driver.against), (driver.against, driver.link)
-
-
-def only_wheels(joints: Joints, link: str, holder: str) -> bool:
-    """Whether wheels or belts alone join a link to others than its holder."""
-    beside = [pair for pair in joints.others[link] if holder not in pair.links]
-    return bool(beside) and all(isinstance(pair, Contact) for pair in beside)
-
-
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
     """The train of fewest links that closes once one link on a known pin is tried.
 
