@@ -170,7 +170,9 @@ def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved]
 def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
     """The sheet's title and the bar that checks the print; where the data may begin.
 
-    Velocity and acceleration sheets have titles of one height, with as many lines.
+    Velocity and acceleration sheets have titles of one height, with as many lines: one, else two of
+    small lettering, which stay clear of the frame and the data. A sheet that goes on, with a
+    ``remark``, has room for two of larger lettering.
     """
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
@@ -179,9 +181,12 @@ def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, f
     lines, height, rows = [escape(name)], 5.0, 1
     longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
     if extent(escape(longest), height)[0] > TITLE:
-        height = next((h for h in (3.5, 2.5) if len(wrapped(longest, TITLE, h)) <= 2), 1.8)
+        most = ((3.5, 2 if remark else 1), (2.5, 2))
+        height = next((h for h, few in most if len(wrapped(longest, TITLE, h)) <= few), 1.8)
         lines, rows = wrapped(name, TITLE, height), len(wrapped(longest, TITLE, height))
-    low, data = (top + 7.6, top + 12.4) if rows == 1 else (top + 9.4, top + 13.4)
+    low, data = top + 7.6, top + 12.4
+    if rows > 1:
+        low, data = (top + 12.5, top + 18.0) if remark else (top + 8.6, top + 13.4)
     marks: list[Mark] = [
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)

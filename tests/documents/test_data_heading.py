@@ -5,10 +5,11 @@ from itertools import cycle
 import pytest
 
 from graphkin.documents.data_heading import NAME, data, data_heading
-from graphkin.documents.sheet import sheet
-from graphkin.drawing.areas import AREA
+from graphkin.documents.sheet import sheet, title_line
+from graphkin.drawing.areas import A3_AREA, AREA
 from graphkin.drawing.marks import LineMark, Text, reach
 from tests.chosen import HALVES
+from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
 
@@ -55,3 +56,15 @@ def test_below_a_title_of_two_lines_data_leave_room_for_captions_of_two(which):
             mark.y for mark in data_heading(drawing, "key", 24, 23.4) if isinstance(mark, Text)
         )
         assert lowest <= AREA[1] - 3.4 - 4.0
+
+
+@pytest.mark.parametrize("remark", ["", ", continued"])
+@pytest.mark.parametrize("count", [1, 5, 7, 9, 11, 14, 18, 22])
+def test_a_title_of_any_length_stands_clear_of_the_frame_and_of_the_data(count, remark):
+    """1.5 mm from the frame, 0.5 mm from letters of 2.5 mm."""
+    named = NAMED.format(crank="A", rocker="B")
+    for drawing in drawings_from(named, title="Quick gearing " * count):
+        marks, _, foot = title_line(drawing, remark)
+        boxes = [reach(mark) for mark in marks if isinstance(mark, Text) and mark.name == "title"]
+        assert min(box[1] for box in boxes) >= A3_AREA[1] + 1.5
+        assert max(box[3] for box in boxes) <= foot - 2.5 - 0.5
