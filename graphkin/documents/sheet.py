@@ -54,8 +54,8 @@ LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
 """So many triangles at one pin are shown enlarged."""
-TRIALS = 24
-"""So many named points of trial plans have their names on a continuation sheet."""
+MANY = 24
+"""So many named auxiliary points of a plan have their names on a continuation sheet."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -68,7 +68,7 @@ class Moved(Enum):
     MEMBERS = "members"
     CONSTRUCTION = "construction"
     TABLES = "tables"
-    TRIALS = "trials"
+    AUXILIARY = "auxiliary"
 
 
 class Writing(Struct, frozen=True):
@@ -212,8 +212,8 @@ def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
     head, moved = heading(drawing, view)
     foot, more, said = below(drawing, view)
-    if view == "key" and has_many_trials(drawing):
-        moved.add(Moved.TRIALS)
+    if view == "key" and has_many_auxiliary(drawing):
+        moved.add(Moved.AUXILIARY)
     return Writing(head, foot, frozenset(moved | more), said)
 
 
@@ -255,7 +255,7 @@ def boards(
 ) -> tuple[FieldContent, FieldContent]:
     """Both fields; the letters of the construction that no sentence says are dispensable there.
 
-    Points of many trial plans have no letters, but on the pages that grow, whose sentences are
+    Many auxiliary points have no letters, but on the pages that grow, whose sentences are
     ``said``.
     """
     both = left_board(drawing, layout, view), right_board(drawing, layout, view)
@@ -264,26 +264,26 @@ def boards(
         told = " ".join(each.markup for each in said or sentences(drawing))
         both[0].dispensable = [label for label in letters if label.markup not in told]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
-    if view == "key" and not said and has_many_trials(drawing):
-        both[1].labels = [*without_trials(drawing, both[1].labels)]
+    if view == "key" and not said and has_many_auxiliary(drawing):
+        both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
         both[1].notes.append(drawing.words("page.trials_moved"))
     return both
 
 
-def has_many_trials(drawing: Drawing) -> bool:
-    """Whether so many points of trial plans have names that these stand on a sheet of their own."""
+def has_many_auxiliary(drawing: Drawing) -> bool:
+    """Whether so many auxiliary points have names that these stand on a sheet of their own."""
     steps = drawing.trace.program.steps
-    return sum(bool(steps[number].name) for number in drawing.auxiliary) >= TRIALS
+    return sum(bool(steps[number].name) for number in drawing.auxiliary) >= MANY
 
 
-def without_trials(drawing: Drawing, labels: Iterable[Label]) -> Iterator[Label]:
-    """The labels of a plan without the letters of points of trial plans."""
+def without_auxiliary(drawing: Drawing, labels: Iterable[Label]) -> Iterator[Label]:
+    """The labels of a plan without the letters of auxiliary points."""
     steps = drawing.trace.program.steps
-    trials = {steps[number].name for number in drawing.auxiliary}
+    auxiliary = {steps[number].name for number in drawing.auxiliary}
     for label in labels:
         letters = zip(label.name.split(), TOGETHER.split(label.markup), strict=False)
-        kept = [letter for letter in letters if letter[0] not in trials]
-        if segment_of(label) or not trials & {*label.name.split()}:
+        kept = [letter for letter in letters if letter[0] not in auxiliary]
+        if segment_of(label) or not auxiliary & {*label.name.split()}:
             yield label
         elif kept:
             names, markups = zip(*kept, strict=True)

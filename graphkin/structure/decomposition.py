@@ -51,7 +51,7 @@ def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) ->
         next_coupled(joints, known)
         or next_higher(joints, known, waiting)
         or next_coupled(joints, known, idle=True)
-        or next_higher(joints, known, waiting, rolling=True)
+        or next_higher(joints, known, waiting, by_wheels=True)
     )
 
 

@@ -212,6 +212,10 @@ class Stretched(Struct, frozen=True):
         return titled(self)
 
 
+Last = Tie | Driver | Contact
+"""What closes a group that is tried: a link, a given motion, a wheel that must not slip."""
+
+
 class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
@@ -224,7 +228,7 @@ class Higher(Struct, frozen=True):
 
     tried: TriedLink
     chain: tuple[Group, ...]
-    last: Tie | Driver | Contact
+    last: Last
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
     wheels: tuple[PinnedWheel, ...] = ()
     at_instant: tuple[Group, ...] = ()

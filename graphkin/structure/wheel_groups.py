@@ -13,7 +13,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.scene.findings import natural
-from graphkin.scene.model import Driver, Scene, link_words
+from graphkin.scene.model import Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.one_link import Driven, OneLink, TriedLink
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
@@ -301,6 +301,57 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
         for link in links
     }
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
+
+
+def let_slip(joints: Joints, known: Collection[str]) -> Joints:
+    """The same pairs, without the wheels of which nothing follows until their arm is known."""
+    every = [pair for pairs in joints.others.values() for pair in pairs]
+    rolling = (pair for pair in every if isinstance(pair, Contact) and pair.arm is not None)
+    return joints.without([pair for pair in rolling if pair.arm not in known])
+
+
+def over_rolled(
+    joints: Joints, known: Collection[str], grown: Collection[str], chain: Sequence[Any]
+) -> Contact | None:
+    """A wheel that stands with all that it touches, and of whose rolling nothing followed yet."""
+    used = [pair for group in chain for pair in rolled_by(group)]
+    for link in (each for each in joints.unknown(known) if each in grown):
+        for pair in joints.others[link]:
+            if not isinstance(pair, Contact) or pair.arm is None or pair.alike or pair in used:
+                continue
+            if pair.needs <= {*grown} and not keeps_parallel(joints, pair):
+                return pair
+    return None
+
+
+def keeps_parallel(joints: Joints, contact: Contact) -> bool:
+    """Whether a wheel of the same size rolls between the same two straight tracks.
+
+    They stay parallel then, however the wheels roll: nothing is found from that.
+    """
+    own = contact.links[0]
+    rolling = (pair for pair in joints.others[contact.links[1]] if isinstance(pair, Contact))
+    return any(
+        of_one_size(contact.wheel, other.wheel)
+        and len(tracks_of(joints, own) & tracks_of(joints, other.links[0])) > 1
+        for other in rolling
+        if other.links[0] != own
+    )
+
+
+def tracks_of(joints: Joints, wheel: str) -> set[str]:
+    """The links on whose straight tracks a wheel rolls."""
+    pairs = (pair for pair in joints.others[wheel] if isinstance(pair, Contact))
+    return {pair.links[1] for pair in pairs if pair.track is None and pair.links[0] == wheel}
+
+
+def rolled_by(group: Any) -> Iterator[Contact]:
+    """The contacts by which the wheels of a group have been turned."""
+    for each in getattr(group, "chain", ()):
+        yield from rolled_by(each)
+    pairs = (*getattr(group, "outer", ()), *getattr(group, "contacts", ()))
+    last = getattr(group, "last", None)
+    yield from (pair for pair in (*pairs, last) if isinstance(pair, Contact))
 
 
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
