@@ -239,7 +239,7 @@ def test_results_of_measured_lengths_have_no_more_digits_than_these_however_larg
     fast = NAMED.format(crank="A", rocker="B").replace("speed = 10", "speed = 1e50")
     pages = calculation(drawings_from(fast, language), "key")
     figures = re.findall(
-        r"\d[\d.,]*(?=·10[⁰¹²³⁴⁵⁶⁷⁸⁹])", " ".join((mark.markup for mark in texts(pages)))
+        r"\d[\d.,]*(?=·10[⁰¹²³⁴⁵⁶⁷⁸⁹])", " ".join(mark.markup for mark in texts(pages))
     )
     assert len(figures) > 20
     assert max(len(figure) for figure in figures) <= 7
