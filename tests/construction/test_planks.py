@@ -1,4 +1,4 @@
-"""Planks that lie on two rollers of different sizes: a wheel that must not slip closes the group."""
+"""Planks on two rollers of different sizes: a wheel that must not slip closes the group."""
 
 from __future__ import annotations
 
