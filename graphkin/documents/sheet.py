@@ -46,6 +46,7 @@ from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.scene.requests import LINKS_ASKED
 from graphkin.text.errors import PageError
 
 TITLE = 182.0
@@ -403,6 +404,7 @@ def asked(drawing: Drawing) -> list[str]:
         names: tuple[str, ...] = getattr(ask, key)
         if names and any(each.kind in shown for each in some if each.words):
             what = f"slides_{drawing.kind}" if key == "slides" else key
-            mentioned = words("list_mark").join(symbol(lettered(name)) for name in names)
+            told = (escape(n) if key in LINKS_ASKED else symbol(lettered(n)) for n in names)
+            mentioned = words("list_mark").join(told)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
     return found or ([words("ask.for_accelerations")] if ask.anything else [])
