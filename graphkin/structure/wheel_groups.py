@@ -12,12 +12,14 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.numbers.plane import Line, cross
 from graphkin.scene.findings import natural
 from graphkin.scene.model import Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.one_link import Driven, OneLink, TriedLink
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
-from graphkin.structure.touching_wheels import radius
+from graphkin.structure.touching_wheels import radius, track_line
+from graphkin.structure.turning import LEVEL
 from graphkin.text.plain_table import listed
 
 FREE = 1e-12
@@ -325,24 +327,36 @@ def over_rolled(
 
 
 def keeps_parallel(joints: Joints, contact: Contact) -> bool:
-    """Whether a wheel of the same size rolls between the same two straight tracks.
+    """Whether a wheel of the same size rolls between the same two straight lines.
 
     They stay parallel then, however the wheels roll: nothing is found from that.
     """
-    own = contact.links[0]
-    rolling = (pair for pair in joints.others[contact.links[1]] if isinstance(pair, Contact))
-    return any(
-        of_one_size(contact.wheel, other.wheel)
-        and len(tracks_of(joints, own) & tracks_of(joints, other.links[0])) > 1
-        for other in rolling
-        if other.links[0] != own
-    )
+    own, on = contact.links
+    tracks = straight_tracks(joints, own)
+    for pair in joints.others[on]:
+        if not isinstance(pair, Contact) or pair.links[0] == own:
+            continue
+        others = straight_tracks(joints, pair.links[0])
+        shared = [on for on in tracks.keys() & others.keys() if same_line(tracks[on], others[on])]
+        if len(shared) > 1 and of_one_size(contact.wheel, pair.wheel):
+            return True
+    return False
 
 
-def tracks_of(joints: Joints, wheel: str) -> set[str]:
-    """The links on whose straight tracks a wheel rolls."""
+def straight_tracks(joints: Joints, wheel: str) -> dict[str, Line]:
+    """The links on whose straight tracks a wheel rolls, with the lines of these there."""
     pairs = (pair for pair in joints.others[wheel] if isinstance(pair, Contact))
-    return {pair.links[1] for pair in pairs if pair.track is None and pair.links[0] == wheel}
+    return {
+        pair.links[1]: track_line(joints.scene, pair.rolling)
+        for pair in pairs
+        if pair.track is None and pair.links[0] == wheel
+    }
+
+
+def same_line(one: Line, other: Line) -> bool:
+    """Whether two lines along unit vectors are one, but for rounding."""
+    ways = other.along, other.point - one.point
+    return all(abs(cross(one.along, way)) <= LEVEL * abs(way) for way in ways)
 
 
 def rolled_by(group: Any) -> Iterator[Contact]:
