@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Collection, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
@@ -130,9 +131,12 @@ def dyad_closure(
 
     ``before`` are the values that the program has as the scene states it.
     """
+    words = words_of(scene, point, dyad, way)
+    if way > 0 and before:
+        place = before.get(program.targets.get(("position", point), -1))
+        return GroupClosure(words, place if isinstance(place, complex) else None, True, "")
     step = program.steps[number]
     other = replaced(program, number, replace(step, extra=(way * step.extra[0], *step.extra[1:])))
-    words = words_of(scene, point, dyad, way)
     return closure(scene, other, number, words, point, every, chosen=way > 0, before=before)
 
 
@@ -195,15 +199,14 @@ def closure(
 ) -> GroupClosure:
     """A closure in words: where it puts a point (m), and what then cannot be drawn.
 
-    ``number`` is the step that picks it: what does not depend on that is as ``before``, and all of
-    the ``chosen`` one. ``every`` are the steps that place all points.
+    ``number`` is the step that picks it: what does not depend on that is as ``before``. ``every``
+    are the steps that place all points, in order.
     """
     target = ("position", point)
-    if chosen and before:
-        place = before.get(program.targets.get(target, -1))
-        return GroupClosure(words, place if isinstance(place, complex) else None, chosen, "")
-    changed = program.descendants(number, every)
-    known = {step: value for step, value in before.items() if step not in changed}
+    later = every[bisect_left(every, number) :]
+    known = {**before}
+    for step in program.descendants(number, later):
+        known.pop(step, None)
     try:
         trace, failing = run_positions(scene, program, every, known), ""
     except StepFailed as failed:

@@ -311,27 +311,44 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
 def led_together(part: Equations, unknowns: Reals) -> Reals:
     """Unknowns (1, K + m) where guides that lead one point have it in one place.
 
-    They are guides of one link, or of a link and of a block that slides on it, as of a plank on
-    rollers.
+    They are guides of one link and of the blocks that slide along it, as of a plank on rollers or
+    of racks on which one wheel rolls. Where the link itself has the point, that is the place.
     """
-    found = unknowns.copy()
-    led: dict[tuple[str, str], list[int]] = {}
+    found, places = unknowns.copy(), dict[tuple[str, str], Complexes]()
     blocks = {g.block: j for j, g in enumerate(part.guides) if g.turns_alike and g.first}
-    for j, guide in enumerate(part.guides):
-        led.setdefault((guide.on, guide.point), []).append(j)
-    for (on, point), (first, *others) in led.items():
+
+    def carriers(link: str) -> list[int]:
+        """The guides along which a link slides, and what it slides on, as far as these lead."""
+        under: list[int] = []
+        while link in blocks and blocks[link] not in under:
+            under.append(blocks[link])
+            link = part.guides[under[-1]].on
+        return under
+
+    under = {guide.on: carriers(guide.on) for guide in part.guides}
+    for j in sorted(range(len(part.guides)), key=lambda j: len(under[part.guides[j].on])):
+        on, point = part.guides[j].on, part.guides[j].point
+        below = under[on]
+        root = part.guides[below[-1]].on if below else on
+        place = places.get((root, point), part.bodies[root].get(point))
         if not point:
             continue
-        foot = foot_of(part, found, first)
-        for j in others:
-            slide_to(part, found, j, foot)
-        for block, under in blocks.items():
-            guide = part.guides[under]
-            if guide.on == on and (block, point) in led:
-                way = (foot - foot_of(part, found, under)) * np.conj(guide.along)
-                for j in led[block, point]:
-                    slide_to(part, found, j, way)
+        if place is None:
+            place = foot_of(part, found, j)
+            for k in below:
+                place = foot_of(part, found, k) + (place - own(part, k)) * part.guides[k].along
+            places[root, point] = place
+            continue
+        for k in reversed(below):
+            place = own(part, k) + (place - foot_of(part, found, k)) * np.conj(part.guides[k].along)
+        slide_to(part, found, j, place)
     return found
+
+
+def own(part: Equations, j: int) -> Complexes:
+    """Where a guide's block has the point that it leads, in its own axes."""
+    guide = part.guides[j]
+    return np.ravel(part.bodies[guide.block][guide.point])
 
 
 def foot_of(part: Equations, unknowns: Reals, j: int) -> Complexes:

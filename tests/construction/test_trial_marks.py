@@ -7,12 +7,16 @@ from pathlib import Path
 
 import pytest
 
+from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
+from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.plane import Vector
+from graphkin.scene.read_scene import read_text
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+PLANS = {"omega": "velocity", "epsilon": "acceleration"}
 HIGHER = (
     "rapid-return",
     "rod-and-wheel",
@@ -95,3 +99,21 @@ def test_the_share_is_measured_where_a_crossing_finds_a_point(higher):
         assert is_called(steps[by_hand], "share-on-line")
         one, two = trace.values[by_hand], trace.values[number]
         assert abs(one - two) < 1e-9 * max(abs(two), 1.0)
+
+
+@pytest.mark.parametrize("angle", [85, 91.85, 95, 291.85])
+@pytest.mark.parametrize("tried", ["omega", "epsilon"])
+def test_trials_stay_beside_a_plan_of_a_group_that_hardly_holds(angle, tried):
+    """Where two guides all but meet in the centre of a lever, no point of a trial lies farther from
+    its right place than half as far again as the whole plan reaches."""
+    text = (SCENES / "rapid-return.toml").read_text().replace("angle = 35", f"angle = {angle}")
+    some = Mechanism(read_text(text, "rapid-return", None, {}))
+    steps, values = some.program.steps, some.trace(by_hand=True).values
+    for number, step in enumerate(steps):
+        if is_called(step, "share") and step.part.value.startswith(PLANS[tried]):
+            points = [d for d in constructions(some.program, DividedPoint) if d.share == number]
+            whole = max(abs(values[d.value]) for d in points)
+            ends = [(d, end) for d in points for end in (d.first, d.second)]
+            assert all(abs(values[end] - values[d.value]) < 1.5 * whole for d, end in ends)
+            way = max(abs(values[d.second] - values[d.first]) for d in points)
+            assert way > 0.3 * whole, "the trials of some point stand well apart"

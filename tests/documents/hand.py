@@ -24,7 +24,7 @@ WAYS = {"to the right": 1, "to the left": -1, "upwards": 1j, "downwards": -1j}
 GLOSS = re.compile(rf" ?\(({NAME}) is the point of link [^)]* coincident with ({NAME})\)")
 POLE_GLOSS = re.compile(rf" ?\(({NAME}) is the image of ({NAME}), for ({NAME}) is the pole\)")
 PLAN = re.compile(
-    rf"(first|second) trial plan, with (?:a round number[^)]*\), )?({TURNING}) = "
+    rf"(first|second) trial plan, with (?:a (?:round )?number[^)]*\), )?({TURNING}) = "
     rf"(0|{NUMBER} rad/s(?:\^\{{2\}})? (counter-)?clockwise): "
 )
 LAST = {"first": "I", "second": "II"}

@@ -33,6 +33,9 @@ TOGETHER = 64
 """Elements that are closed at once."""
 MOST = 1_000_000
 """Places at which cells are looked at together."""
+MIDDLE, WIDER = 0.9, 2.0
+"""A misfit ranges as far as this share of its values, in the middle, so many times over at most:
+where lines are all but parallel it grows without bound, and no cell would ever be left out."""
 TRACES = 40
 """Places to both sides of a closure at which a locus is drawn."""
 TRACED = 0.02
@@ -211,8 +214,11 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             ] or [self.extended(stage, known, scale, row, place)]
             for k, misfit in enumerate(stage.misfits):
                 spans = np.array([part.spans[k] for part in parts])
-                ends = np.fmin.reduce(spans[:, 0]), np.fmax.reduce(spans[:, 1])
-                ranges[misfit] = ends[1] - ends[0]
+                low, least, most, high = (
+                    all_of.reduce(ends)
+                    for all_of, ends in zip((np.fmin, np.fmin, np.fmax, np.fmax), spans.T, strict=True)
+                )
+                ranges[misfit] = np.fmin(high - low, WIDER * (most - least))
             side = self.grid_of_shares()[1] / self.across
             kept = [part.kept(ranges[[*stage.misfits]], side) for part in parts]
             row, place = (np.concatenate(column) for column in zip(*kept, strict=True))
@@ -290,16 +296,14 @@ class Corners(NamedTuple):
     reaches: list[Array]
 
     @property
-    def spans(self) -> list[tuple[float, float]]:
-        """The least and the largest value of each misfit; NaN without any."""
+    def spans(self) -> list[Array]:
+        """The least value of each misfit, where the middle ones begin and end, and the largest; NaN
+        without any."""
         import numpy as np
 
-        return [
-            (np.fmin.reduce(each, axis=None), np.fmax.reduce(each, axis=None))
-            if each.size
-            else (np.nan, np.nan)
-            for each in self.misfits
-        ]
+        shares = (0.0, (1 - MIDDLE) / 2, (1 + MIDDLE) / 2, 1.0)
+        finite = (each[np.isfinite(each)] for each in self.misfits)
+        return [np.quantile(x, shares) if x.size else np.full(len(shares), np.nan) for x in finite]
 
     def kept(self, ranges: Array, side: Array) -> tuple[Array, Array]:
         """The cells along one more unknown in which all misfits may vanish: rows and places."""

@@ -52,6 +52,8 @@ INTRODUCED = {
 }
 """The words for a plan with what it assumes: whether it lies within another, whether it is the
 second of its two."""
+NOT_ROUND = {"step.trial-2": "step.trial-2-near", "step.trial-in-2": "step.trial-in-2-near"}
+"""The words for a second plan whose number has more than two digits."""
 GOING_ON = {
     "step.trial-1": "step.trial-1-on",
     "step.trial-2": "step.trial-2-on",
@@ -197,6 +199,8 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         if not first:
             return drawing.words(GOING_ON[key], how=how, **fields)
         what, size = self.assumed(drawing, self.points(drawing))
+        if has_many_digits(float(drawing.trace.values[self.rate])):
+            key = NOT_ROUND.get(key, key)
         return drawing.words(key, what=what, amount=size, how=how, **fields)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
@@ -327,6 +331,11 @@ def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -
     steps = drawing.trace.program.steps
     listed = drawing.words("list_mark").join(symbol(steps[number].name) for number in numbers)
     return drawing.words(f"step.{key}", name=listed, list=listed, **fields)
+
+
+def has_many_digits(size: float) -> bool:
+    """Whether a number has more digits than two, to six."""
+    return len(f"{abs(size):.5e}".split("e")[0].rstrip("0")) > len("1.5")
 
 
 def amount(drawing: Drawing, size: float, unit: str) -> str:

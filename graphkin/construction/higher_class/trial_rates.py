@@ -28,6 +28,13 @@ LARGER = 1.25
 """How much larger than the right plan alone it may be with its trials."""
 WITHIN = (0.15, 0.85)
 """Where between its trials the right plan shall lie."""
+BESIDE = 0.75
+"""What a number of further digits beside the right rate is worse than a round one, for each trial.
+
+Where the group hardly holds, a round rate that is not just the right one moves points far away.
+"""
+STEPS = {1.0: 0.0, 2.0: 0.05, 5.0: 0.05}
+"""First digits of the steps of which such numbers are multiples, and what each is worse."""
 MOVING = 0.8
 """What a first trial is worse in which the link moves than one in which it is at rest."""
 
@@ -110,6 +117,8 @@ def chosen_rates(spread: Spread) -> tuple[float, float]:
     enough = APART * spread.whole / spread.reach
     size = abs(spread.rate) or enough
     worse = {0.0: -MOVING, **dict(candidates(min(size, enough), max(size, enough)))}
+    for number, amount in beside(spread.rate, enough):
+        worse.setdefault(number, amount)
     boxes = {rate: spread.box(rate) for rate in worse}
     right = spread.box(spread.rate)
     faults = {}
@@ -134,3 +143,16 @@ def candidates(least: float, most: float) -> Iterator[tuple[float, float]]:
             size = digit * 10.0**power if power >= 0 else digit / 10.0**-power
             yield size, worse
             yield -size, worse
+
+
+def beside(rate: float, enough: float) -> Iterator[tuple[float, float]]:
+    """Numbers on both sides of a rate, in steps of about ``enough`` and less, each with what it is
+    worse."""
+    power = floor(log10(enough))
+    for digit, worse in STEPS.items():
+        for exponent in (power, power - 1):
+            below = floor(rate / (digit * 10.0**exponent))
+            for count in range(below - 1, below + 3):
+                multiple = count * digit
+                number = multiple * 10.0**exponent if exponent >= 0 else multiple / 10.0**-exponent
+                yield number, BESIDE + worse
