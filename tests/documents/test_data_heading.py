@@ -5,13 +5,14 @@ from itertools import cycle
 import pytest
 
 from graphkin.documents.data_heading import NAME, data, data_heading
-from graphkin.documents.sheet import sheet, title_line
+from graphkin.documents.sheet import Moved, sheet, title_line, writing
 from graphkin.drawing.areas import A3_AREA, AREA
 from graphkin.drawing.marks import LineMark, Text, reach
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
+from tests.scene_files import scene_text
 
 WHICH = [*((name, None) for name in HALVES[0]), *((lab, 7) for lab in SHIPPED)]
 
@@ -68,3 +69,15 @@ def test_a_title_of_any_length_stands_clear_of_the_frame_and_of_the_data(count, 
         boxes = [reach(mark) for mark in marks if isinstance(mark, Text) and mark.name == "title"]
         assert min(box[1] for box in boxes) >= A3_AREA[1] + 1.5
         assert max(box[3] for box in boxes) <= foot - 2.5 - 0.5
+
+
+@pytest.mark.parametrize("language", ["en", "ro"])
+def test_long_data_stand_on_the_sheet_where_lines_may_end_within_them(language):
+    """Six data about rollers, each half a line long, are four lines together (Italian: five)."""
+    for drawing in drawings_from(scene_text("documents/plank-pulled"), language):
+        written = writing(drawing, "task")
+        assert Moved.DATA not in written.moved
+        lines = [mark for mark in written.head if isinstance(mark, Text) and mark.name == NAME]
+        said = " ".join(mark.markup for mark in lines)
+        assert len(lines) <= 4 and all(datum.said in said for datum in data(drawing, solved=False))
+        assert max(reach(mark)[2] for mark in lines) < AREA[2]
