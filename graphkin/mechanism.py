@@ -29,7 +29,7 @@ from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import CoupledTrain, Group, Higher
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import GraphkinError, Problem, SceneError
 from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
@@ -64,6 +64,15 @@ def load(name: str | Path, /, **settings: object) -> Mechanism:
     Raises SceneError or StructureError with everything that is wrong.
     """
     return Mechanism(read_scene(scene_files.find(str(name)), settings))
+
+
+def wrong_with_structure(scene: Scene) -> tuple[Problem, ...]:
+    """Everything that keeps the links of a scene from being put together; nothing if they can."""
+    try:
+        write(scene, Mechanism(scene).groups)
+    except GraphkinError as error:
+        return error.problems
+    return ()
 
 
 LAST = 6

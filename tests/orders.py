@@ -13,8 +13,7 @@ from random import Random
 from typing import Any
 
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import Closure
-from graphkin.scene.phrases import KEYWORDS
+from graphkin.scene.model import KEYWORDS, Closure
 
 
 class AsWritten(str):

@@ -122,7 +122,9 @@ def check_lab(name: str) -> None:
     if outcome.spoilt:
         unfair = outcome.unfair + len(outcome.coarse)
         if kept := {name for name, _ in outcome.by_keys}:
-            complain(f"{len(kept)} of a class of {len(outcome.compared)} have unfair data")
+            have = "has" if len(kept) == 1 else "have"
+            complain(f"{len(kept)} of a class of {len(outcome.compared)} {have} unfair data")
         if unfair:
-            complain(f"{unfair} of {len(outcome.many)} variants are unfair")
+            are = "is" if unfair == 1 else "are"
+            complain(f"{unfair} of {len(outcome.many)} variants {are} unfair")
         leave(FAILED)

@@ -15,6 +15,7 @@ from graphkin.cli.folder_options import class_argument
 from graphkin.cli.options import formats_option, ink_option, jobs_option, language_option
 
 if TYPE_CHECKING:
+    from graphkin.classroom.printing.edition import Variant
     from graphkin.classroom.printing.print_run import Outcome, Tell
     from graphkin.drawing.style import Ink
 
@@ -136,12 +137,23 @@ def progress(what: str = "students") -> Iterator[Tell]:
     yield line
 
 
+def lost_words(variant: Variant) -> str:
+    """What is said of a student with signs in the name or group that are not printed."""
+    from graphkin.classroom.printing.personal import UNKNOWN, is_readable, lost
+
+    whole = ", ".join(filter(None, (variant.name, variant.group)))
+    signs, instead = " ".join(lost(whole)), f"{UNKNOWN} stands for each"
+    if variant.name and not is_readable(variant.name):
+        instead = "the id stands for the name"
+    return f'{variant.id}: the font of the sheets lacks {signs} of "{whole}"; {instead}'
+
+
 def report(outcome: Outcome) -> None:
     """Say what came of a run: the files for the printer, and who got none and why."""
     if outcome.left:
         complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
     for variant in outcome.lost:
-        complain(f'{variant.id}: "{variant.name}" has signs that the font of the sheets lacks: ?')
+        complain(lost_words(variant))
     for line in outcome.strange:
         complain(line)
     for variant, problems in outcome.refused:

@@ -50,7 +50,7 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
 
 
 def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:
-    """The caption of a plan that is drawn again, so many times as large, for its trial plans."""
+    """The caption of a plan that is drawn again, so many times as large, with auxiliary points."""
     words, factor = drawing.words, scale_of(drawing, drawing.plane) / 1000
     said = words(f"page.{drawing.kind}_heading", k=figure(drawing, factor / times))
     larger = "" if times == 1 else words("page.as_large", m=figure(drawing, times))

@@ -1,5 +1,5 @@
 """The sheets on which goes on what has no room beside the drawings: data, sentences, tables, and
-the points of trial plans with their names."""
+auxiliary points with their names."""
 
 from __future__ import annotations
 
@@ -52,8 +52,8 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[
     So many sentences as are said before are left out there.
     Raises PageError where a sentence or a row of a table is longer than a sheet is wide.
     """
-    if Moved.TRIALS in moved:
-        return with_trials(drawing, rest(drawing, view, moved - {Moved.TRIALS}, said))
+    if Moved.AUXILIARY in moved:
+        return with_trials(drawing, rest(drawing, view, moved - {Moved.AUXILIARY}, said))
     if not moved:
         return []
     try:
@@ -77,7 +77,7 @@ def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[
 def with_trials(drawing: Drawing, sheets: list[list[Mark]]) -> list[list[Mark]]:
     """The sheets with the plan beside the words of the last, or on a sheet of its own.
 
-    It is drawn again as large as there is room for, and the points of its trials have names.
+    It is drawn again as large as there is room for, and its auxiliary points have names.
     """
     head, x, y = title_line(drawing, drawing.words("page.continued"))
     top = y + GAP

@@ -8,7 +8,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data
 from graphkin.drawing.areas import AREA
 from graphkin.drawing.marks import LineMark, Mark, Text, box
-from graphkin.drawing.richtext import are_clear, extent, flowed
+from graphkin.drawing.richtext import are_clear, extent, flowed, words_of
 from graphkin.text.errors import PageError, Problem
 
 NAME = "data"
@@ -83,15 +83,20 @@ def ruled(valued: Sequence[Datum], widths: Sequence[float], x: float, top: float
 def in_lines(drawing: Drawing, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
     """All data in two lines, or in three, of smaller lettering only where signs would touch.
 
-    Three lines end where their signs are clear of each other.
+    Three lines end where their signs are clear of each other. Lines end within a datum only where
+    nothing else does: long data have room beside the drawings then.
     They stay clear of the fields' captions, also where a title of two lines moves them down.
     """
     first, *pieces = (datum.said for datum in found)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
     width = AREA[2] - x - 3
-    for height, leading, room, near in LINES:
+    parted = words_of("; ".join(pieces))
+    for told, mark, (height, leading, room, near) in (
+        *((pieces, "; ", look) for look in LINES),
+        *((parted, " ", look) for look in LINES if look[0] < LETTERS),
+    ):
         for less in SHORTER if near else SHORTER[:1]:
-            lines = flowed(pieces, "; ", width - less, height)
+            lines = flowed(told, mark, width - less, height)
             fits = len(lines) <= room and y + (len(lines) - 1) * leading <= LOWEST
             if fits and (not near or are_clear(lines, height, leading)):
                 return [

@@ -11,6 +11,7 @@ from graphkin.construction.centres.relative_centre import RelativeCentre
 from graphkin.construction.core.curve_marks import ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.paper_canvas import WITHIN
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.links.plates import corners_of, farthest
@@ -55,7 +56,7 @@ def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Centre, complex
             continue
         value = kind.value(drawing)
         point = drawing.place(value)
-        if point is None or field.holds(point, 2.0) or not kind.lines_to(drawing):
+        if point is None or field.holds(point, WITHIN) or not kind.lines_to(drawing):
             continue
         if abs(point - value.start) * field.mm > FARTHEST * (field.rect[2] - field.rect[0]):
             continue

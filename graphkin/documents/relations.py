@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from msgspec.structs import replace
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
+from graphkin.construction.cams.cam_relations import of_cams
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
@@ -47,18 +48,25 @@ ROOM = ". . . . . . . ."
 def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Section]:
     """The sections of the calculation, in the order of the work.
 
-    The data of one that is not solved leave out what it asks.
+    The data of one that is not solved leave out what it asks. What a cam's centre of curvature is
+    driven at follows once that is found.
     """
     first = drawings[0]
+    driver = [r for d in first.scene.drivers for r in of_driver(first, d)]
+    own = [section for drawing in drawings for section in sections_of(drawing)]
+    cams = list(of_cams(first, [r.symbols for _, found in [("", driver), *own] for r in found]))
+    after = tuple(f"·{relation.left}" for relation in cams if relation.result)
+    driven = [relation for relation in driver if after and relation.symbols.endswith(after)]
     sections: list[Section] = [
         ("data", [data_line(first, solved=solved)]),
         ("structure", list(of_structure(first)) if solved else []),
-        ("driver", [r for d in first.scene.drivers for r in of_driver(first, d)]),
+        ("driver", [relation for relation in driver if relation not in driven]),
         ("scales", list(of_scales(first))),
+        ("cams", cams + driven),
     ]
-    own = [section for drawing in drawings for section in sections_of(drawing)]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
-    measured = [r for p, q in used if (r := of_length(first, p, q)) is not None]
+    lengths = (of_length(first, p, q) for p, q in used)
+    measured = [each for each in lengths if each is not None and each not in cams]
     return [*sections, ("lengths", measured), *own]
 
 

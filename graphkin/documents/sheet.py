@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction import step_marks
 from graphkin.construction.core.component import crowded_pins
@@ -34,16 +35,18 @@ from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
+from graphkin.documents.step_visibility import TOGETHER
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.bare_stretches import at_bare_stretches
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
-from graphkin.drawing.label import segment_of
+from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
-from graphkin.drawing.style import OWN_LINES, VECTORS
+from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.scene.requests import LINKS_ASKED
 from graphkin.text.errors import PageError
 
 TITLE = 182.0
@@ -52,8 +55,8 @@ LEADING = 4.6
 """Distance of lines of text in mm."""
 CROWD = 3
 """So many triangles at one pin are shown enlarged."""
-TRIALS = 24
-"""So many named points of trial plans have their names on a continuation sheet."""
+MANY = 24
+"""So many named auxiliary points of a plan have their names on a continuation sheet."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -66,7 +69,7 @@ class Moved(Enum):
     MEMBERS = "members"
     CONSTRUCTION = "construction"
     TABLES = "tables"
-    TRIALS = "trials"
+    AUXILIARY = "auxiliary"
 
 
 class Writing(Struct, frozen=True):
@@ -90,11 +93,7 @@ def sheet(
 ) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     layout, written = layout or lay_out(drawing), written or writing(drawing, view)
-    both = boards(drawing, layout, view)
-    if Moved.TRIALS in written.moved:
-        both[1].labels = [label for label in both[1].labels if label.cls != OWN_LINES]
-        both[1].notes.append(drawing.words("page.trials_moved"))
-    (left, detail), (right, other) = parted(*both)
+    (left, detail), (right, other) = parted(*boards(drawing, layout, view))
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
@@ -172,7 +171,9 @@ def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved]
 def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
     """The sheet's title and the bar that checks the print; where the data may begin.
 
-    Velocity and acceleration sheets have titles of one height, with as many lines.
+    Velocity and acceleration sheets have titles of one height, with as many lines: one, else two of
+    small lettering, which stay clear of the frame and the data. A sheet that goes on, with a
+    ``remark``, has room for two of larger lettering.
     """
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
@@ -181,9 +182,12 @@ def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, f
     lines, height, rows = [escape(name)], 5.0, 1
     longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
     if extent(escape(longest), height)[0] > TITLE:
-        height = next((h for h in (3.5, 2.5) if len(wrapped(longest, TITLE, h)) <= 2), 1.8)
+        most = ((3.5, 2 if remark else 1), (2.5, 2))
+        height = next((h for h, few in most if len(wrapped(longest, TITLE, h)) <= few), 1.8)
         lines, rows = wrapped(name, TITLE, height), len(wrapped(longest, TITLE, height))
-    low, data = (top + 7.6, top + 12.4) if rows == 1 else (top + 9.4, top + 13.4)
+    low, data = top + 7.6, top + 12.4
+    if rows > 1:
+        low, data = (top + 12.5, top + 18.0) if remark else (top + 8.6, top + 13.4)
     marks: list[Mark] = [
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)
@@ -209,9 +213,8 @@ def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
     head, moved = heading(drawing, view)
     foot, more, said = below(drawing, view)
-    trials = sum(bool(drawing.trace.program.steps[n].name) for n in drawing.auxiliary)
-    if view == "key" and trials >= TRIALS:
-        moved.add(Moved.TRIALS)
+    if view == "key" and has_many_auxiliary(drawing):
+        moved.add(Moved.AUXILIARY)
     return Writing(head, foot, frozenset(moved | more), said)
 
 
@@ -249,16 +252,44 @@ def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
 
 
 def boards(
-    drawing: Drawing, layout: Layout, view: str, said: Sequence[Sentence] | None = None
+    drawing: Drawing, layout: Layout, view: str, said: Sequence[Sentence] = ()
 ) -> tuple[FieldContent, FieldContent]:
-    """Both fields; the letters of the construction that no sentence says are dispensable there."""
+    """Both fields; the letters of the construction that no sentence says are dispensable there.
+
+    Many auxiliary points have no letters, but on the pages that grow, whose sentences are
+    ``said``.
+    """
     both = left_board(drawing, layout, view), right_board(drawing, layout, view)
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
         told = " ".join(each.markup for each in said or sentences(drawing))
         both[0].dispensable = [label for label in letters if label.markup not in told]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
+    if view == "key" and not said and has_many_auxiliary(drawing):
+        both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
+        both[1].notes.append(drawing.words("page.trials_moved"))
     return both
+
+
+def has_many_auxiliary(drawing: Drawing) -> bool:
+    """Whether so many auxiliary points have names that these stand on a sheet of their own."""
+    steps = drawing.trace.program.steps
+    return sum(bool(steps[number].name) for number in drawing.auxiliary) >= MANY
+
+
+def without_auxiliary(drawing: Drawing, labels: Iterable[Label]) -> Iterator[Label]:
+    """The labels of a plan without the letters of auxiliary points."""
+    steps = drawing.trace.program.steps
+    auxiliary = {steps[number].name for number in drawing.auxiliary}
+    for label in labels:
+        letters = zip(label.name.split(), TOGETHER.split(label.markup), strict=False)
+        kept = [letter for letter in letters if letter[0] not in auxiliary]
+        if segment_of(label) or not auxiliary & {*label.name.split()}:
+            yield label
+        elif kept:
+            names, markups = zip(*kept, strict=True)
+            markup = " ≡ ".join(markups)
+            yield replace(label, name=" ".join(names), markup=markup, cls=drawing.kind)
 
 
 def is_thin(mark: Mark) -> bool:
@@ -373,6 +404,7 @@ def asked(drawing: Drawing) -> list[str]:
         names: tuple[str, ...] = getattr(ask, key)
         if names and any(each.kind in shown for each in some if each.words):
             what = f"slides_{drawing.kind}" if key == "slides" else key
-            mentioned = words("list_mark").join(symbol(lettered(name)) for name in names)
+            told = (escape(n) if key in LINKS_ASKED else symbol(lettered(n)) for n in names)
+            mentioned = words("list_mark").join(told)
             found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
     return found or ([words("ask.for_accelerations")] if ask.anything else [])

@@ -62,7 +62,7 @@ def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()
             rank_words = ROMAN[min(rank, len(ROMAN) - 1)]
             return words("calculation.group_higher", links=links, rank=rank_words, order=order)
         case Higher():
-            key = "closed" if isinstance(group.last, Driver) else "rolling"
+            key = "closed" if isinstance(group.last, Driver) else "unslipping"
             return words(f"calculation.group_{key}", links=links)
         case Tie() if isinstance(group.first, Sliding):
             return words("calculation.group_led", links=links)

@@ -59,7 +59,7 @@ def settle(loops: Equations, values: Reals, told: Mask, known: Mask, part: Mask)
 def unrolled(loops: Equations, part: Mask) -> Mask:
     """The coordinates along bars of a group that touch a wheel which is known before.
 
-    A wheel is as far on its track as it has come, also one that rolls on a known track and leads a
+    A wheel is as far on its track as it has come, also one on a known track that leads a
     bar; a bar touches its wheel where the bar's angle says, and that is counted within half a turn
     as one that only pins tell.
     """

@@ -29,8 +29,8 @@ from graphkin.text.errors import GraphkinError
 Reals = np.ndarray[Any, np.dtype[Any]]
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Branches = Mapping[str, Branch]
-NOISE = 1e-8
-"""Sine of a crossing of loci that may lie on one another: the root of what rounding leaves."""
+NOISE = 1e-9
+"""Sine of a crossing of loci that lie on one another, but for rounding."""
 PLACES = ("position", "slide", "axis", "rolled")
 """Targets that say where the mechanism stands."""
 
@@ -200,8 +200,12 @@ class Course(Struct, frozen=True, dict=True):
             return {number: self.closures.closed(solver, known, at)}
 
     def closes(self, at: Any) -> Flags:
-        """Whether everything can be placed, for each u (N,)."""
+        """Whether everything can be placed, and in one way, for each u (N,)."""
         return closed_in(self.margins(at))
+
+    def is_placed(self, at: Any) -> Flags:
+        """Whether everything has a place, if rounding alone gives it one, for each u (N,)."""
+        return np.asarray(np.isfinite(self.margins(at)).all(axis=0))
 
     def run(
         self, at: Any, targets: Iterable[Target] | None = None, *, geometric: bool = False

@@ -179,6 +179,7 @@ def dead(course: Course, inside: float, outside: float) -> Event:
     last = last_closing(course.closes, inside, outside)
     way = 1.0 if outside > inside else -1.0
     past = last + way * max(1e-9 * course.sweep.grid_step, 8 * float(np.spacing(abs(last))))
+    last = last_closing(course.is_placed, last, past)
     failing = np.flatnonzero(~np.isfinite(course.margins(np.array([past]))[:-1, 0]))
     steps = (course.crossings[failing[0]],) if failing.size else ()
     return Event("dead", last, steps, past)

@@ -175,7 +175,7 @@ class DrawnInk(Struct, frozen=True):
         round_it = (full[:, :-BEYOND] - full[:, BEYOND:]).max(axis=1)
         half = turns.size // 2
         arms = drawn[:, :BEYOND].mean(axis=1) - drawn[:, -2:].mean(axis=1)
-        across = np.minimum(arms, np.roll(arms, half, axis=1)).max(axis=1)
+        across = np.minimum(arms[:, :half], arms[:, half:]).max(axis=1)
         marked = np.maximum(round_it, across)
         best = int(marked.argmax())
         if marked[best] < MARKED:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from msgspec import Struct, field
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
@@ -117,7 +119,7 @@ def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Fi
         found, expected, hint = missing(sketch, point, placed)
         if found:
             findings.add(f"{sketch.place}.{point}", found, expected, hint)
-    if len(findings.problems) == before:
+    if len(findings.problems) == before and not refuse_circle(sketch, waiting, findings):
         names = ", ".join(waiting)
         findings.add(
             sketch.place,
@@ -125,6 +127,22 @@ def explain(sketch: LinkKeys, waiting: list[str], placed: set[str], findings: Fi
             "each point by points written before it",
             "give coordinates [x, y], or lengths and a side",
         )
+
+
+def refuse_circle(sketch: LinkKeys, points: Iterable[str], findings: Findings) -> bool:
+    """Note the first points that are laid off by lengths and angles from one another, if any."""
+    for point in points:
+        circle = [point]
+        while (polar := sketch.polars.get(circle[-1])) and polar.start not in circle:
+            circle.append(polar.start)
+        if polar is not None and polar.start == point:
+            found = f"{', '.join(circle)} are placed from one another, in a circle"
+            if len(circle) == 1:
+                found = f"{point} is placed from itself"
+            expected = f"coordinates of one point, such as {point} = [0, 0]"
+            findings.add(f"{sketch.place}.{point}", found, expected)
+            return True
+    return False
 
 
 def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, Hint]:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from graphkin.scene.findings import Table
-from graphkin.scene.link_keys import LinkKeys, explain, read_sketch, spare
+from graphkin.scene.link_keys import LinkKeys, explain, read_sketch, refuse_circle, spare
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import Angled, Apart, At, OnLine, Placing, Polar, Side, Triangle
 from graphkin.scene.phrases import OnWords
@@ -109,8 +109,9 @@ class Placer:
         first, unit = self.sketch.points[0], self.layout.unit
         place = f"{self.sketch.place}.{first}"
         if first in self.sketch.words or first in self.sketch.polars:
-            others = "the link begins with it, and its first point is the origin"
-            self.findings.add(place, others, "a length or coordinates above it")
+            if not refuse_circle(self.sketch, [first], self.findings):
+                others = "the link begins with it, and its first point is the origin"
+                self.findings.add(place, others, "a length or coordinates above it")
             self.sketch.broken = True
         nought = exact(0, unit, place)
         self.placings[first] = At(first, nought, nought)

@@ -25,10 +25,13 @@ from graphkin.scene.requests import read_ask, read_branches, read_languages, rea
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
 from graphkin.text import paths
 from graphkin.text.errors import GraphkinError, Mend, Problem, SceneError
+from graphkin.text.hooks import service
 
 FORMAT = 1
 """Version of the scene format that is read."""
 MOST_LINKS = 500
+CHOSEN = {"ask", "branches", "notes", "titles"}
+"""The tables that no link hangs on."""
 SPELLINGS = {
     **dict.fromkeys(("rpm", "r.p.m.", "rot/min", "1/min", "min^-1", "rev/mn"), "rev/min"),
     **dict.fromkeys(("rad/sec", "radians/s", "1/s", "s^-1"), "rad/s"),
@@ -90,8 +93,26 @@ def read_into(
     top.finish()
     check_scene(scene, findings)
     scene = replace(scene, ask=read_ask(asked, findings, scene))
+    note_structure(scene, findings)
     findings.stop()
     return scene
+
+
+def note_structure(scene: Scene, findings: Findings) -> None:
+    """Beside what is wrong with what is chosen and asked alone, note what is wrong with the links.
+
+    What is asked does not change these, and a branch with a problem is taken out; nothing is said
+    of a branch that is missing, for one with a problem may be meant for it.
+    """
+    tables = {problem.place.partition(".")[0] for problem in findings.problems}
+    if not findings.problems or not tables <= CHOSEN:
+        return
+    wrong = {name for name in scene.branches if findings.inside(f"branches.{name}")}
+    left = {name: branch for name, branch in scene.branches.items() if name not in wrong}
+    for problem in service("wrong_with_structure")(replace(scene, branches=left)):
+        table, _, name = problem.place.partition(".")
+        if "branches" not in tables or table != "branches" or name in left:
+            findings.extend([problem])
 
 
 def check_version(top: Table, findings: Findings) -> None:

@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.known_names import quoted
 from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
-from graphkin.structure.pairs import Pin, Sliding
 from graphkin.structure.touching_wheels import asked_of
-from graphkin.structure.wheel_groups import next_coupled, spun_afar, tracks_held, wedged_wheels
+from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
 ALONG = 1e-9
@@ -53,7 +51,7 @@ def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) ->
         next_coupled(joints, known)
         or next_higher(joints, known, waiting)
         or next_coupled(joints, known, idle=True)
-        or next_higher(joints, known, waiting, rolling=True)
+        or next_higher(joints, known, waiting, by_wheels=True)
     )
 
 
@@ -62,24 +60,7 @@ def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
-    spun, led = spun_afar(joints, known, links, driven), reaching(joints, known, links)
-    return Unresolved(links, driven, held, wedged, spun, led, asked_of(joints.scene, held))
-
-
-def reaching(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
-    """The drivers, as written, of those links that a pin or a slide joins to a known one.
-
-    Where there are none, of those that another pair moves against a known one.
-    """
-    lower, higher = list[str](), list[str]()
-    for link in links:
-        for pair in joints.between(link, known):
-            if isinstance(pair, Pin):
-                lower.append(f"turn = {quoted(link)}")
-            elif pair.moved_by and pair.links[0] == link:
-                found = lower if isinstance(pair, Sliding) else higher
-                found.append(f"{pair.moved_by} = {quoted(link)}")
-    return tuple(lower or higher)
+    return Unresolved(links, driven, held, wedged, asked_of(joints.scene, held))
 
 
 def refuse_far_guides(scene: Scene) -> None:

@@ -212,6 +212,10 @@ class Stretched(Struct, frozen=True):
         return titled(self)
 
 
+Last = Tie | Driver | Contact
+"""What closes a group that is tried: a link, a given motion, a wheel that must not slip."""
+
+
 class Higher(Struct, frozen=True):
     """A group of class III or more: once one link is tried, the others follow as dyads.
 
@@ -224,7 +228,7 @@ class Higher(Struct, frozen=True):
 
     tried: TriedLink
     chain: tuple[Group, ...]
-    last: Tie | Driver | Contact
+    last: Last
     joints: tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
     wheels: tuple[PinnedWheel, ...] = ()
     at_instant: tuple[Group, ...] = ()
@@ -298,9 +302,7 @@ class Unresolved(Struct, frozen=True):
     """What is left when no driver and no group applies.
 
     ``driven`` are the drivers that move two of its links against one another, ``tracks`` those of
-    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones,
-    ``spun`` the first driver that turns one of its links against a known one, about a pin that
-    moves, where there are wheels; ``led`` are drivers, as written, that reach one of them.
+    its links that carry straight tracks of wheels, ``wedged`` the wheels between two known ones.
     ``asked`` is what to write where a wheel on such a track may need a link that keeps it there.
     """
 
@@ -308,8 +310,6 @@ class Unresolved(Struct, frozen=True):
     driven: tuple[Driver, ...] = ()
     tracks: tuple[str, ...] = ()
     wedged: tuple[str, ...] = ()
-    spun: Driver | None = None
-    led: tuple[str, ...] = ()
     asked: str = ""
 
     @property

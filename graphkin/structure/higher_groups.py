@@ -6,7 +6,7 @@ the chain comes to a stand, a link of a group within it is tried as well.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 
 from msgspec.structs import replace
 
@@ -18,6 +18,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    Last,
     Spun,
     Tie,
     TriedLink,
@@ -30,8 +31,14 @@ from graphkin.structure.next_group import (
     next_tie,
     settle,
 )
-from graphkin.structure.pairs import Contact, Joint, Pin
-from graphkin.structure.wheel_groups import by_known, pinned_wheels, turned_by_smaller
+from graphkin.structure.pairs import Joint, Pin
+from graphkin.structure.wheel_groups import (
+    by_known,
+    let_slip,
+    over_rolled,
+    pinned_wheels,
+    turned_by_smaller,
+)
 
 
 def at_instant(
@@ -70,22 +77,22 @@ MOST_TRIED = 4
 
 
 def next_higher(
-    joints: Joints, known: Collection[str], waiting: list[Driver], *, rolling: bool = False
+    joints: Joints, known: Collection[str], waiting: list[Driver], *, by_wheels: bool = False
 ) -> Higher | None:
     """The smallest group that closes after the fewest links have been tried, as written first.
 
     Of two wheels that turn one another the larger is tried: all round it the smaller goes farther.
     A link is tried among those that pairs and drivers join it to: no other can follow it.
-    ``rolling`` also finds those that only a wheel closes which must not slip.
+    ``by_wheels`` also finds those that only a wheel closes which must not slip.
     """
     for count in range(1, MOST_TRIED + 1):
-        if least := least_tried(joints, known, waiting, count, rolling):
+        if least := least_tried(joints, known, waiting, count, by_wheels):
             return at_instant(joints, least, known, waiting)
     return None
 
 
 def least_tried(
-    joints: Joints, known: Collection[str], waiting: list[Driver], count: int, rolling: bool
+    joints: Joints, known: Collection[str], waiting: list[Driver], count: int, by_wheels: bool
 ) -> Higher | None:
     """The smallest group that closes after so many links have been tried."""
     tied = [{driver.link, driver.against} for driver in waiting]
@@ -98,7 +105,7 @@ def least_tried(
     found = [
         group
         for one in triable(joints, known)
-        for group in closing(part_of[one.link], known, waiting, one, count, rolling)
+        for group in closing(part_of[one.link], known, waiting, one, count, by_wheels)
     ]
     scene = joints.scene
     return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
@@ -128,7 +135,7 @@ def closing(
     waiting: list[Driver],
     tried: TriedLink,
     count: int,
-    rolling: bool,
+    by_wheels: bool,
 ) -> Iterator[Higher]:
     """The group that closes when a link's place is taken as known, if one does.
 
@@ -137,9 +144,9 @@ def closing(
     grown, left, count = {*known, tried.link}, list(waiting), count - 1
     chain: list[Group] = []
     while True:
-        last: Tie | Driver | Contact | None = over_given(joints, known, grown, left)
+        last: Last | None = over_given(joints, known, grown, left)
         last = last or next_tie(joints, grown)
-        if rolling and last is None:
+        if by_wheels and last is None:
             last = over_rolled(joints, known, grown, chain)
         if isinstance(last, Tie) and not isinstance(last.first, Pin):
             return
@@ -149,8 +156,8 @@ def closing(
             next_driven(joints, grown, left)
             or next_group(joints, grown)
             or next_stretched(joints, grown, left)
-            or (next_group(let_slip(joints, grown), grown) if rolling else None)
-            or (least_tried(joints, grown, left, count, rolling) if count else None)
+            or (next_group(let_slip(joints, grown), grown) if by_wheels else None)
+            or (least_tried(joints, grown, left, count, by_wheels) if count else None)
         )
         if group is None:
             return
@@ -178,46 +185,14 @@ def over_given(
     return None
 
 
-def let_slip(joints: Joints, known: Collection[str]) -> Joints:
-    """The same pairs, without the wheels of which nothing follows until their arm is known."""
-    every = [pair for pairs in joints.others.values() for pair in pairs]
-    rolling = (pair for pair in every if isinstance(pair, Contact) and pair.arm is not None)
-    return joints.without([pair for pair in rolling if pair.arm not in known])
-
-
-def over_rolled(
-    joints: Joints, known: Collection[str], grown: Collection[str], chain: Sequence[Group]
-) -> Contact | None:
-    """A wheel that stands with all that it touches, and of whose rolling nothing followed yet."""
-    used = [pair for group in chain for pair in rolled_by(group)]
-    for link in (each for each in joints.unknown(known) if each in grown):
-        for pair in joints.others[link]:
-            if not isinstance(pair, Contact) or pair.arm is None or pair.alike or pair in used:
-                continue
-            if {*pair.links, pair.arm} <= {*grown}:
-                return pair
-    return None
-
-
-def rolled_by(group: Group) -> Iterator[Contact]:
-    """The contacts by which the wheels of a group have been turned."""
-    if isinstance(group, Higher):
-        parts = (pair for each in group.chain for pair in rolled_by(each))
-        yield from (*parts, *([group.last] if isinstance(group.last, Contact) else ()))
-    pairs = (*getattr(group, "outer", ()), *getattr(group, "contacts", ()))
-    yield from (pair for pair in pairs if isinstance(pair, Contact))
-
-
-def needed_by(last: Tie | Driver | Contact) -> set[str]:
+def needed_by(last: Last) -> set[str]:
     """The links that must stand before what closes a group does."""
     match last:
         case Driver():
             return {last.link, last.against}
-        case Contact(arm=str() as arm):
-            return {*last.links, arm}
-        case Contact():
-            return {*last.links}
-    return supports(last)
+        case Tie():
+            return supports(last)
+    return last.needs
 
 
 def supports(group: Group) -> set[str]:

@@ -103,7 +103,7 @@ class ContactName(str):
 
 
 class SlippingName(ContactName):
-    """The name of a point of contact at which trials slip: of either link it has its own image."""
+    """The name of a point of contact where wheels may slip: of either link it has its own image."""
 
     __slots__ = ()
 
@@ -171,6 +171,11 @@ class Contact(Struct, frozen=True):
         if belt is None or belt.crossed or self.track is None:
             return False
         return of_one_size(self.wheel, self.track)
+
+    @property
+    def needs(self) -> set[str]:
+        """The links that must stand before it can be seen whether it slips."""
+        return {*self.links} if self.arm is None else {*self.links, self.arm}
 
     def wheel_of(self, link: str) -> Wheel:
         """The wheel of one of its links."""

@@ -12,12 +12,14 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.numbers.plane import Line, cross
 from graphkin.scene.findings import natural
-from graphkin.scene.model import Driver, Scene, link_words
+from graphkin.scene.model import Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.one_link import Driven, OneLink, TriedLink
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
-from graphkin.structure.touching_wheels import radius
+from graphkin.structure.touching_wheels import radius, track_line
+from graphkin.structure.turning import LEVEL
 from graphkin.text.plain_table import listed
 
 FREE = 1e-12
@@ -303,29 +305,67 @@ def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) 
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
 
 
-def spun_afar(
-    joints: Joints, known: Collection[str], links: Sequence[str], driven: Sequence[Driver]
-) -> Driver | None:
-    """The first of some drivers that turns one of its links against a known one, where some of the
-    links that do not stand have wheels; or against one that does not stand, where wheels alone
-    join what it turns to all others."""
-    if not any(isinstance(pair, Contact) for link in links for pair in joints.others[link]):
-        return None
-    turning = [each for each in driven if each.kind == "turn"]
-    against_known = (d for d in turning if len({d.link, d.against} & {*known}) == 1)
-    by_wheels = (d for d in turning if any(only_wheels(joints, *e) for e in ends_of(d)))
-    return next(against_known, None) or next(by_wheels, None)
+def let_slip(joints: Joints, known: Collection[str]) -> Joints:
+    """The same pairs, without the wheels of which nothing follows until their arm is known."""
+    every = [pair for pairs in joints.others.values() for pair in pairs]
+    rolling = (pair for pair in every if isinstance(pair, Contact) and pair.arm is not None)
+    return joints.without([pair for pair in rolling if pair.arm not in known])
 
 
-def ends_of(driver: Driver) -> tuple[tuple[str, str], tuple[str, str]]:
-    """The link that a driver moves with that against which it does, and the other way round."""
-    return (driver.link, driver.against), (driver.against, driver.link)
+def over_rolled(
+    joints: Joints, known: Collection[str], grown: Collection[str], chain: Sequence[Any]
+) -> Contact | None:
+    """A wheel that stands with all that it touches, and of whose rolling nothing followed yet."""
+    used = [pair for group in chain for pair in rolled_by(group)]
+    for link in (each for each in joints.unknown(known) if each in grown):
+        for pair in joints.others[link]:
+            if not isinstance(pair, Contact) or pair.arm is None or pair.alike or pair in used:
+                continue
+            if pair.needs <= {*grown} and not keeps_parallel(joints, pair):
+                return pair
+    return None
 
 
-def only_wheels(joints: Joints, link: str, holder: str) -> bool:
-    """Whether wheels or belts alone join a link to others than its holder."""
-    beside = [pair for pair in joints.others[link] if holder not in pair.links]
-    return bool(beside) and all(isinstance(pair, Contact) for pair in beside)
+def keeps_parallel(joints: Joints, contact: Contact) -> bool:
+    """Whether a wheel of the same size rolls between the same two straight lines.
+
+    They stay parallel then, however the wheels roll: nothing is found from that.
+    """
+    own, on = contact.links
+    tracks = straight_tracks(joints, own)
+    for pair in joints.others[on]:
+        if not isinstance(pair, Contact) or pair.links[0] == own:
+            continue
+        others = straight_tracks(joints, pair.links[0])
+        shared = [on for on in tracks.keys() & others.keys() if same_line(tracks[on], others[on])]
+        if len(shared) > 1 and of_one_size(contact.wheel, pair.wheel):
+            return True
+    return False
+
+
+def straight_tracks(joints: Joints, wheel: str) -> dict[str, Line]:
+    """The links on whose straight tracks a wheel rolls, with the lines of these there."""
+    pairs = (pair for pair in joints.others[wheel] if isinstance(pair, Contact))
+    return {
+        pair.links[1]: track_line(joints.scene, pair.rolling)
+        for pair in pairs
+        if pair.track is None and pair.links[0] == wheel
+    }
+
+
+def same_line(one: Line, other: Line) -> bool:
+    """Whether two lines along unit vectors are one, but for rounding."""
+    ways = other.along, other.point - one.point
+    return all(abs(cross(one.along, way)) <= LEVEL * abs(way) for way in ways)
+
+
+def rolled_by(group: Any) -> Iterator[Contact]:
+    """The contacts by which the wheels of a group have been turned."""
+    for each in getattr(group, "chain", ()):
+        yield from rolled_by(each)
+    pairs = (*getattr(group, "outer", ()), *getattr(group, "contacts", ()))
+    last = getattr(group, "last", None)
+    yield from (pair for pair in (*pairs, last) if isinstance(pair, Contact))
 
 
 def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:

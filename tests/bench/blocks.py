@@ -52,7 +52,8 @@ def inner(node: ast.AST, name: str, count: list[int]) -> Iterator[Block]:
         if not (isinstance(found, list) and found):
             continue
         chained = isinstance(node, ast.If) and found[0].col_offset == node.col_offset  # an elif
-        if count and isinstance(found[0], ast.stmt) and not chained:
+        beside = isinstance(node, FUNCTIONS) and found[0].lineno == node.lineno  # an overload
+        if count and isinstance(found[0], ast.stmt) and not chained and not beside:
             yield Block(name, count[0], head(found), found[-1].end_lineno)
             count[0] += 1
         for each in found:

@@ -8,12 +8,12 @@ from math import atan, cos
 
 import mpmath
 import pytest
-from graphkin.structure.mobility import count
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Higher
 from graphkin.structure.pairs import Contact
 from tests.chosen import FOLDER

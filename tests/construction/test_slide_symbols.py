@@ -3,10 +3,19 @@ line of the field's edge; what bears the frame stays clear of the notes."""
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
-from graphkin.construction.guides.slide_symbols import AWAY, LEAST, REACH, clear_of_pivots, rails_of
+from graphkin.construction.guides.slide_symbols import (
+    AWAY,
+    LEAST,
+    REACH,
+    clear_of_pivots,
+    merged,
+    rails_of,
+)
 from tests.documents.made_up import field_of, made_up
 
 SCENE = """
@@ -47,3 +56,17 @@ def test_many_places_at_once_give_what_each_gives_alone():
     low, high = span(np.array(list(SPANS), float))
     expected = np.array(list(SPANS.values())).T
     assert (low, high) == (pytest.approx(expected[0]), pytest.approx(expected[1]))
+
+
+def test_parts_of_a_guide_less_than_two_millimetres_apart_are_drawn_as_one():
+    """Whatever lies in whatever: the drawn parts hold every one of them, 2 mm or more apart."""
+    chance = np.random.default_rng(3)
+    for _ in range(200):
+        lows = chance.uniform(0, 60, 6)
+        parts = [*zip(lows, lows + chance.uniform(0.5, 12, 6), strict=True)]
+        drawn = [*merged(parts)]
+        assert all(any(low <= a and b <= high for low, high in drawn) for a, b in parts)
+        assert all(late - end >= 2 for (_, end), (late, _) in pairwise(drawn))
+        ends = {each for part in parts for each in part}
+        assert {each for part in drawn for each in part} <= ends
+    assert [*merged([(7.0, 9.0), (0.0, 2.0), (3.9, 5.0)])] == [(0.0, 5.0), (7.0, 9.0)]

@@ -9,11 +9,19 @@ import pytest
 
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.rate_relations import of_gears
-from graphkin.documents.calculation import CalculationRow, calculation, laid_out
+from graphkin.documents.calculation import (
+    BOTTOM,
+    BY_HAND,
+    LINE,
+    CalculationRow,
+    calculation,
+    laid_out,
+)
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN
+from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import (
     OTHERS,
     VARIANTS,
@@ -230,3 +238,28 @@ def test_pages_begin_with_a_heading_where_that_takes_no_more_of_them(lines, begi
     pages = laid_out(rows, solved=True)
     assert [page[0][1].heading for page in pages] == begin
     assert [row for page in pages for _, row in page] == rows
+
+
+def test_lines_to_be_filled_in_stand_as_far_apart_as_takes_no_more_pages():
+    """Whatever their number: on the last page, too, the next wider distance would not hold them."""
+    for count in range(1, 120):
+        rows = [CalculationRow("")] * count
+        pages = laid_out(rows, solved=False)
+        assert len(pages) == len(laid_out(rows, solved=True))
+        for line in (line for line in BY_HAND if count > 1):
+            held = 1 + int((BOTTOM - pages[0][0][0]) / line + 1e-9)
+            apart = pages[0][1][0] - pages[0][0][0] if len(pages[0]) > 1 else LINE
+            assert apart >= line - 1e-9 or count > held * len(pages), (count, line)
+            assert any(apart == pytest.approx(each) for each in (*BY_HAND, LINE))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_results_of_measured_lengths_have_no_more_digits_than_these_however_large(language):
+    """A speed of 1e50 rad/s is as many digits as one of 10: m/s and m/s² by powers of ten."""
+    fast = NAMED.format(crank="A", rocker="B").replace("speed = 10", "speed = 1e50")
+    pages = calculation(drawings_from(fast, language), "key")
+    figures = re.findall(
+        r"\d[\d.,]*(?=·10[⁰¹²³⁴⁵⁶⁷⁸⁹])", " ".join(mark.markup for mark in texts(pages))
+    )
+    assert len(figures) > 20
+    assert max(len(figure) for figure in figures) <= 7

@@ -5,12 +5,14 @@ from itertools import cycle
 import pytest
 
 from graphkin.documents.data_heading import NAME, data, data_heading
-from graphkin.documents.sheet import sheet
-from graphkin.drawing.areas import AREA
+from graphkin.documents.sheet import Moved, sheet, title_line, writing
+from graphkin.drawing.areas import A3_AREA, AREA
 from graphkin.drawing.marks import LineMark, Text, reach
 from tests.chosen import HALVES
+from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
+from tests.scene_files import scene_text
 
 WHICH = [*((name, None) for name in HALVES[0]), *((lab, 7) for lab in SHIPPED)]
 
@@ -55,3 +57,27 @@ def test_below_a_title_of_two_lines_data_leave_room_for_captions_of_two(which):
             mark.y for mark in data_heading(drawing, "key", 24, 23.4) if isinstance(mark, Text)
         )
         assert lowest <= AREA[1] - 3.4 - 4.0
+
+
+@pytest.mark.parametrize("remark", ["", ", continued"])
+@pytest.mark.parametrize("count", [1, 5, 7, 9, 11, 14, 18, 22])
+def test_a_title_of_any_length_stands_clear_of_the_frame_and_of_the_data(count, remark):
+    """1.5 mm from the frame, 0.5 mm from letters of 2.5 mm."""
+    named = NAMED.format(crank="A", rocker="B")
+    for drawing in drawings_from(named, title="Quick gearing " * count):
+        marks, _, foot = title_line(drawing, remark)
+        boxes = [reach(mark) for mark in marks if isinstance(mark, Text) and mark.name == "title"]
+        assert min(box[1] for box in boxes) >= A3_AREA[1] + 1.5
+        assert max(box[3] for box in boxes) <= foot - 2.5 - 0.5
+
+
+@pytest.mark.parametrize("language", ["en", "ro"])
+def test_long_data_stand_on_the_sheet_where_lines_may_end_within_them(language):
+    """Six data about rollers, each half a line long, are four lines together (Italian: five)."""
+    for drawing in drawings_from(scene_text("documents/plank-pulled"), language):
+        written = writing(drawing, "task")
+        assert Moved.DATA not in written.moved
+        lines = [mark for mark in written.head if isinstance(mark, Text) and mark.name == NAME]
+        said = " ".join(mark.markup for mark in lines)
+        assert len(lines) <= 4 and all(datum.said in said for datum in data(drawing, solved=False))
+        assert max(reach(mark)[2] for mark in lines) < AREA[2]

@@ -7,14 +7,16 @@ from itertools import pairwise
 import pytest
 
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.set_lengths import divided, inverse
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
-from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet import asked, sheet
 from graphkin.drawing.areas import SCHEME, TABLES
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import LANGUAGES, words
+from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import collisions, drawings
 from tests.mechanisms import SHIPPED
 
@@ -129,3 +131,22 @@ def test_rows_of_a_task_are_high_enough_for_a_hand():
     assert ruled
     for rows in ruled.values():
         assert min(b - a for a, b in pairwise(sorted(rows))) >= 6.5
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_link_is_called_on_a_task_as_everywhere_else(language):
+    """Upright, its number in line, as in the list of links; points are lettered."""
+    text = NAMED.format(crank="A1", rocker="B").replace("rocker", "r1").replace("coupler", "plank")
+    for drawing in drawings_from(text, language):
+        points, links = asked(drawing)
+        assert f"{symbol('A1')}, {symbol('B')}" in points
+        assert "plank, r1" in links
+
+
+@pytest.mark.parametrize(
+    ("times", "said"), [(0.75, "4/3"), (0.15, "20/3"), (0.5, "2"), (0.4, "2.5"), (0.2, "5")]
+)
+def test_vectors_longer_than_in_the_plan_are_so_many_times_as_they_can_be_laid_off(times, said):
+    (drawing, _) = drawings_from(NAMED.format(crank="A", rocker="B"))
+    assert inverse(drawing, times) == said
+    assert divided(drawing, "v", times) == f"{said}·v"

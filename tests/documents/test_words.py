@@ -218,6 +218,7 @@ TELLING = (
     "excavator-relative",
     "klein-engine",
     "mobility-cam",
+    "plank-axle",
     "platform-3rpr",
     "roller-plates",
 )

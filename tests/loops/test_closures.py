@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Certifier
+from graphkin.loops.assemble import assembled
+from graphkin.loops.branch_closures import closures, moved_by, settled_of
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
 from graphkin.loops.witness import compare
@@ -112,3 +115,16 @@ def test_digits_are_those_of_the_closure_that_has_the_number(beyond, read):
 def solved_at(read, text: str) -> complex:
     """Where A stands in the sixth closure."""
     return Mechanism(read(text)).trace([("position", "A")]).value("position", "A")
+
+
+@pytest.mark.parametrize("off", [1e-5, 1e-8, 1e-11])
+def test_a_nearly_closed_position_is_led_on_to_the_closure(off, read):
+    """However far the unknowns of its group are off: none is lost, all end where they closed."""
+    scene = read(CLASS_III.replace("ANGLE", "101"))
+    part = equations(scene)
+    (group,) = groups(scene, part)
+    moving = moved_by(part, group)
+    found = closures(part, assembled(scene, part), group)
+    pushed = found + off * moving * np.cos(np.arange(found.size)).reshape(found.shape)
+    assert len(found) > 1
+    assert settled_of(part, pushed, moving) == pytest.approx(found, abs=1e-9)

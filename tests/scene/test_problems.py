@@ -309,6 +309,24 @@ def test_every_problem_is_told_at_once(problems: Finders) -> None:
     assert str(found[0]) == "links.6.A-B: -40; expected a number above 0"
 
 
+def test_what_is_wrong_with_the_links_is_told_beside_what_is_asked(problems: Finders) -> None:
+    """A link that hangs loose is told with an unknown branch; not so where a length is unread."""
+    found = problems("[ask]", 'Q = "left of A-B"\n[links.9]\nA-X = 10\n[ask]')
+    assert [problem.place for problem in found] == ["branches.Q", "drivers"]
+    found = problems("[ask]", 'Q = "left of A-B"\n[links.9]\nA-X = -10\n[ask]')
+    assert [problem.place for problem in found] == ["links.9.A-X", "branches.Q"]
+    found = problems("[ask]", "[links.9]\nA-X = 10\n[ask]\nomega = [12]")
+    assert [problem.place for problem in found] == ["ask.omega[0]", "drivers"]
+
+
+def test_a_branch_that_nothing_chooses_is_told_beside_an_unknown_one(problems: Finders) -> None:
+    """But none is asked for that is missing: the unknown one may be meant for it."""
+    found = problems("[branches]", '[branches]\nQ = "left of A-B"\n2 = "closure 9"')
+    assert [problem.place for problem in found] == ["branches.Q", "branches.2"]
+    found = problems("[branches]\nB", "[branches]\nQ")
+    assert [problem.place for problem in found] == ["branches.Q"]
+
+
 SETTINGS = [
     ({"n": 31}, "setting n", "n = 31 is out of range", "n from 1 to 30 in steps of 1"),
     ({"n": "7.5"}, "setting n", "n = 7.5 is off the step", "in steps of 1"),

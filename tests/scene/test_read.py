@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene.model import Apart, At, Closure, Scene, Side, Slide, Triangle, Way
+from graphkin.scene.phrases import branch_words
 from graphkin.scene.quantity import exact
 from graphkin.scene.read_scene import read_scene, read_text
 from tests.scene_files import scene_text
@@ -149,3 +150,20 @@ def test_a_float_setting_is_the_decimal_it_shows(changed: Callable[..., Scene]) 
 def test_reading_needs_no_numpy() -> None:
     code = "import sys, graphkin.scene.read_scene; sys.exit('numpy' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[2])
+
+
+@pytest.mark.parametrize(
+    ("words", "branch"),
+    [
+        ("closure 1", Closure(1)),
+        ("closure 9999", Closure(9999)),
+        ("closure 10000", None),
+        ("closure -1", None),
+        ("closure one", None),
+        ("forward", Way(1)),
+        ("backward", Way(-1)),
+        ("onward", None),
+    ],
+)
+def test_a_branch_is_a_way_or_a_closure_of_four_digits_at_most(words, branch):
+    assert branch_words(words) == branch

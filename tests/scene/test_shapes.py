@@ -122,6 +122,17 @@ BROKEN = {
     'O-A = 40\nO-B = 30\nA-B = 30\nB = "leftish of O-A"': ("B", '"leftish of O-A"', "left of"),
     'O-A = 40\nB = { from = "X", length = 3, angle = 0 }': ("B", "from names X", ""),
     'B = { from = "O", length = 3, angle = 0 }\nO-A = 3': ("B", "first point is the origin", ""),
+    'A = { from = "O", length = 3, angle = 0 }\nO = { from = "A", length = 3, angle = 9 }': (
+        "A",
+        "A, O are placed from one another, in a circle",
+        "coordinates of one point, such as A = [0, 0]",
+    ),
+    'O = [0,0]\nA = {from = "B", length = 3, angle = 0}\nB = {from = "A", length = 3, angle = 9}': (
+        "A",
+        "A, B are placed from one another, in a circle",
+        "coordinates of one point",
+    ),
+    'A = { from = "A", length = 3, angle = 0 }': ("A", "A is placed from itself", "A = [0, 0]"),
     'C = "left of O-A"\nO-A = 3\nO-C = 3\nA-C = 3': ("C", "first point is the origin", ""),
     "O-A = 40\nA-O = 40": ("A-O", "the length O-A is written above", ""),
     "O-A = 40\nA-B = 3\nO-A-B = 3\nB-A-O = 3": ("B-A-O", "the angle O-A-B is written above", ""),

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.scene import file_limits
-from graphkin.scene.phrases import LEADING
+from graphkin.scene.model import LEADING, LINK_KEYS
 from graphkin.text.errors import Mend, Problem
 from graphkin.text.problems import GAP, sentences, spoken
 from tests.studio.pump import PUMP, desk_in, ordered, seen
@@ -31,6 +31,7 @@ ENGLISH = re.compile(
     r"\b(?:the|is|of|and|not|which|with|than|has|have|that|these|does|one|another|give|write|take)\b"
 )
 CODE = re.compile(r'"[^"]*"|\{[^{}]*\}|\[[^]]*\]')
+CONSTANT = {"LEADING": LEADING, "LINK_KEYS": LINK_KEYS}
 FOREIGN = ("it", "ro")
 
 
@@ -61,9 +62,7 @@ def text_of(node: ast.expr) -> str | None:
     return "".join(
         str(part.value)
         if isinstance(part, ast.Constant)
-        else LEADING
-        if ast.unparse(part.value) == "LEADING"
-        else f"X{next(numbered)}"
+        else CONSTANT.get(ast.unparse(part.value)) or f"X{next(numbered)}"
         for part in node.values
     )
 

@@ -19,7 +19,7 @@ from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text import words
 from graphkin.web import frames
-from graphkin.web.animation_pictures import EDGE, Stage, stage
+from graphkin.web.animation_pictures import BAR, EDGE, SMALL, STEEPEST, Stage, scale_bar, stage
 from graphkin.web.fixed_parts import STILL
 from graphkin.web.frame_marks import cut, mechanism_seen, plan_box
 from graphkin.web.frames import GROWN, FrameSequence, motion
@@ -147,6 +147,29 @@ def test_nothing_leaves_its_field_and_scales_stay(name):
                 assert box[1] > field.rect[1] - room, (name, moment.at, mark)
                 assert box[2] < field.rect[2] + room, (name, moment.at, mark)
                 assert box[3] < field.rect[3] + room, (name, moment.at, mark)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_bar_of_a_scale_is_as_long_as_it_says_and_stands_right_of_its_caption(name):
+    """In every pane: round, at most 30 mm, between two ends of 2 mm, told to its left."""
+    set_up = stage(shown(name), words("en"))
+    for field, caption, unit, size in set_up.captions:
+        bar, *ends, told = scale_bar(field, unit, size, words("en"))
+        number, _, said = told.markup.partition(" ")
+        assert (bar.x2 - bar.x1) == pytest.approx(float(number) * size * field.mm)
+        assert float(number) / 10 ** np.floor(np.log10(float(number)) + SLACK) in (1, 2, 2.5, 5)
+        assert said == unit.replace("/s2", "/s^2") or "^" in said
+        assert [(end.x1, end.x2, end.y2 - end.y1) for end in ends] == [
+            (x, x, pytest.approx(2)) for x in (bar.x1, bar.x2)
+        ]
+        assert {(end.y1 + end.y2) / 2 for end in ends} == {bar.y1} == {bar.y2}
+        assert bar.x2 == pytest.approx(field.rect[2] - 4)
+        longest = min(BAR, (field.rect[2] - field.rect[0]) / 2 - 4)
+        assert longest / STEEPEST - SLACK <= bar.x2 - bar.x1 <= longest + SLACK
+        box, head = reach(told), Text(field.rect[0] + 3, field.rect[1] + 4.5, caption, "", SMALL)
+        assert field.rect[0] < box[0] < box[2] < bar.x1
+        assert reach(head)[2] < box[0] or reach(head)[3] < box[1]
+        assert field.rect[1] < box[1] < bar.y1 < box[3] + 1
 
 
 @lru_cache

@@ -229,6 +229,18 @@ def test_a_page_stays_small(name):
     assert "</" not in source and "<!--" not in source and "http" not in source
 
 
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_every_pin_of_the_mechanism_can_be_taken_hold_of(name):
+    """Those of the driver lead it; of one driver none leads a figure."""
+    sheets, found = page_of(name)
+    for sheet, grips in zip(sheets, found.data["grips"], strict=True):
+        circles = [mark for mark in sheet.left if isinstance(mark, CircleMark)]
+        pins = {mark.name for mark in circles if mark.cls.split()[0] == "pin"}
+        assert {pin for _, pin, _, _ in grips} == pins
+        assert {pin for _, pin, driven, _ in grips if driven} == pins & {*found.driven.pins}
+        assert {number for *_, number in grips} == {-1}
+
+
 def test_nothing_stands_still_that_can_move():
     """Every example moves, groups of class III among them."""
     assert {still(named(name)) for name in WHICH} == {None}

@@ -13,12 +13,12 @@ from graphkin.classroom.grading.feedback_rows import (
     FeedbackRow,
     decision_words,
     points_words,
-    printable,
     rows,
     safe,
 )
 from graphkin.classroom.grading.graded import Graded, Status
 from graphkin.classroom.lab.lab_model import Rubric
+from graphkin.classroom.printing.personal import called
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -149,15 +149,14 @@ def feedback_pages(graded: Graded, title: str, rubric: Rubric, words: Words) -> 
 
 
 def name_of(graded: Graded) -> str:
-    """A student's name and group, or the id, as markup with only signs that the lettering has."""
+    """A student's name and group, or the id, as on the sheets, as markup."""
     student = graded.taker.student
-    text = ", ".join(filter(None, (student.name or student.id, student.group)))
-    return escape(printable(text))
+    return escape(called(student.name, student.id, student.group))
 
 
 def fitting(markup: str) -> str:
     """A markup of a head or foot, cut where it is too long."""
-    return markup if extent(markup, LETTER)[0] <= 105 else markup[:60].rstrip("\\") + "…"
+    return markup if extent(markup, LETTER)[0] <= 105 else shortened(markup, 105, LETTER)
 
 
 Block = tuple[float, list[Mark]]
@@ -186,12 +185,27 @@ def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> It
 
 def text_block(markup: str, height: float) -> Block:
     """A paragraph."""
-    lines = flowed(words_of(markup), " ", RIGHT - LEFT, height)
+    lines = flowed(list(pieces(markup, RIGHT - LEFT, height)), " ", RIGHT - LEFT, height)
     leading = LEADING * max(height / LETTER, 0.85)
     marks: list[Mark] = [
         Text(LEFT, (i + 1) * leading, line, "caption", height) for i, line in enumerate(lines)
     ]
     return len(lines) * leading + ROOM, marks
+
+
+def pieces(markup: str, width: float, height: float) -> Iterator[str]:
+    """The words of a markup; one that is wider than a line in pieces that are not."""
+    for word in words_of(markup):
+        if extent(word, height)[0] <= width:
+            yield word
+            continue
+        piece = ""
+        for sign in map(escape, plain(word)):
+            if piece and extent(piece + sign, height)[0] > width:
+                yield piece
+                piece = ""
+            piece += sign
+        yield piece
 
 
 def head_block(words: Words) -> Block:
@@ -205,7 +219,8 @@ def row_block(row: FeedbackRow, spacing: Spacing) -> Block:
     """A field: its cells, and below them why."""
     marks: list[Mark] = columns(row.cells, LEADING)
     tells = not (spacing.is_brief and row.status is Status.RIGHT)
-    why = flowed(words_of(row.why), " ", RIGHT - LEFT - INDENT, SMALL) if tells else []
+    room = RIGHT - LEFT - INDENT
+    why = flowed(list(pieces(row.why, room, SMALL)), " ", room, SMALL) if tells else []
     y = LEADING
     for line in why:
         y += spacing.line
@@ -222,7 +237,8 @@ def columns(texts: Sequence[str], y: float) -> list[Mark]:
     for i, (text, width) in enumerate(zip(texts, WIDTHS, strict=True)):
         if text:
             height = LETTER if extent(text, LETTER)[0] <= width - 1 else SMALL
-            shown = text if extent(text, height)[0] <= width - 1 else shortened(text, width - 1)
+            fits = extent(text, height)[0] <= width - 1
+            shown = text if fits else shortened(text, width - 1, SMALL)
             if i == 0:
                 marks.append(Text(x, y, shown, "table", height))
             else:
@@ -231,10 +247,10 @@ def columns(texts: Sequence[str], y: float) -> list[Mark]:
     return marks
 
 
-def shortened(markup: str, width: float) -> str:
-    """A plain markup cut to a width in small lettering."""
+def shortened(markup: str, width: float, height: float) -> str:
+    """A plain markup cut to a width in a lettering."""
     text = plain(markup)
-    while text and extent(escape(text) + "…", SMALL)[0] > width:
+    while text and extent(escape(text) + "…", height)[0] > width:
         text = text[:-1]
     return escape(text) + "…"
 

@@ -283,9 +283,12 @@ def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, i
         words = (
             f'"{column}" is {"several columns" if found else "no column"}'
             if column
-            else (f"{len(found)} columns are empty")
+            else f"{len(found)} columns are empty"
+            if found
+            else "no column is empty"
         )
-        meant = [head[i] for i in found] or [text for text in head if text]
+        meant = [head[i] for i in found or lacking_columns(book, ids) if head[i]]
+        meant = meant or [text for text in head if text]
         names = ", ".join(f'"{text}"' for text in meant)
         raise GradebookError(
             Problem(book.name, words, f"one of {names}", "name the column with --column")
@@ -303,6 +306,12 @@ def marked_columns(book: GradebookTable, ids: int) -> set[int]:
     return {
         i for row in of_students(book, ids) for i, each in enumerate(row) if each.text not in EMPTY
     }
+
+
+def lacking_columns(book: GradebookTable, ids: int) -> list[int]:
+    """The columns in which some student has nothing."""
+    rows = of_students(book, ids)
+    return [i for i in range(len(book.rows[0])) if any(text_at(row, i) in EMPTY for row in rows)]
 
 
 def is_comment(head: str) -> bool:

@@ -11,6 +11,7 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.variant_scales import Scaling
 from graphkin.construction.core.drawn_scene import ENDLESS
 from graphkin.construction.core.layout import held_beside, room_below
+from graphkin.construction.core.paper_canvas import WITHIN
 from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.areas import AREA
 from graphkin.drawing.scale import Extent
@@ -18,8 +19,6 @@ from graphkin.numbers.arithmetic import larger
 from graphkin.numbers.plane import Ratio
 
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
-EDGE = 2.0
-"""How far from the edge of its field a centre must lie to be marked in it, in mm."""
 Array = Any
 
 
@@ -49,7 +48,7 @@ def held(
         point = placed(sheet, value)
         x = (point.real - (left + right) / 2) * mm
         y = (point.imag - (bottom + top) / 2) * mm + lift
-        yield name, (abs(x) <= field.width / 2 - EDGE) & (abs(y) <= room / 2 - EDGE)
+        yield name, (abs(x) <= field.width / 2 - WITHIN) & (abs(y) <= room / 2 - WITHIN)
 
 
 def poles_of(sheet: VariantSheet) -> Iterator[Array]:

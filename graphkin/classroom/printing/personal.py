@@ -38,10 +38,20 @@ class Owner(Struct, frozen=True):
 
 
 def owner(variant: Variant) -> Owner:
-    """Whose the sheets of a variant are; a student without a name is called by the id."""
-    name = writable(variant.name) or writable(variant.id) or UNKNOWN
-    group = writable(variant.group)
-    return Owner(shortened(f"{name}, {group}" if group else name), variant.code)
+    """Whose the sheets of a variant are."""
+    return Owner(shortened(called(variant.name, variant.id, variant.group)), variant.code)
+
+
+def called(name: str, ident: str, group: str) -> str:
+    """A student's name and group in signs of the sheet's font; one without a name, or of whose
+    name it has no letter, is called by the id."""
+    known = writable(name) if is_readable(name) else writable(ident) or UNKNOWN
+    return ", ".join(filter(None, (known, writable(group))))
+
+
+def is_readable(name: str) -> bool:
+    """Whether the font has some letter of a name."""
+    return any(sign.isalnum() for sign in writable(name))
 
 
 def writable(text: str) -> str:
@@ -55,9 +65,10 @@ def writable(text: str) -> str:
     return "".join(found).strip()
 
 
-def lost(text: str) -> bool:
-    """Whether some signs of a text are printed as ?."""
-    return writable(text).count(UNKNOWN) > text.count(UNKNOWN)
+def lost(text: str) -> tuple[str, ...]:
+    """The signs of a text that are printed as ?, each once."""
+    signs = dict.fromkeys(normalize("NFC", text))
+    return tuple(sign for sign in signs if sign != UNKNOWN and writable(sign) == UNKNOWN)
 
 
 def shortened(text: str) -> str:

@@ -220,7 +220,9 @@ def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> di
     for what, others in wanted.items():
         if what not in where:
             heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
-            hint = next((meant(cell, what) for cell in sheet.head if meant(cell, what)), "")
+            is_head = not any(cell.isdecimal() for cell in sheet.head)
+            hints = (meant(cell, what) for cell in sheet.head if is_head)
+            hint = next(filter(None, hints), "")
             why = "; the lab's formula needs the student's number" if what == "number" else ""
             told.add(
                 sheet.name,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -358,30 +358,28 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
 
     def law_words(self, drawing: Drawing) -> str:
         """The follower's displacement, with its link's index, and its derivatives, by numbers."""
-        unit, values = drawing.scene.units["length"], drawing.trace.values
-        numbers = (values[self.lift], values[self.rate], values[self.bend])
-        cam, one = drawing.scene.cams[self.follower], drawing.length(1.0)
-        k = escape(self.follower)
-        if cam.slides:
-            return self.plate_words(drawing, cam, one)
-        if cam.lever:
-            angle, rate, bend = degrees(numbers[0]), *numbers[1:]
-            s, rate, bend = (drawing.words.fixed(each, 3) for each in (angle, rate, bend))
-            return drawing.words("page.cam_swing", k=k, s=s, rate=rate, bend=bend)
-        s, rate, bend = (drawing.words.fixed(drawing.length(each), 3) for each in numbers)
-        return drawing.words("page.cam_law", k=k, s=s, rate=rate, bend=bend, unit=unit)
+        return ", ".join(
+            f"{name} = {number}{'' if unit in ('', '°') else ' '}{unit}"
+            for name, number, unit in self.law_values(drawing)
+        )
 
-    def plate_words(self, drawing: Drawing, cam: Cam, one: float) -> str:
-        """The same of a plate, whose coordinate has ``one`` unit of length in a metre."""
-        unit, values, words = drawing.scene.units["length"], drawing.trace.values, drawing.words
-        at, rate, bend = (values[each] for each in (self.lift, self.rate, self.bend))
-        if cam.lever:
-            numbers = degrees(at), rate / one, bend / one**2
-        else:
-            numbers = at * one, rate, bend / one
-        s, slope, turn = (words.significant(each, 5) for each in numbers)
-        key = "page.cam_plate_swing" if cam.lever else "page.cam_plate_law"
-        return words(key, k=escape(self.follower), s=s, rate=slope, bend=turn, unit=unit)
+    def law_values(self, drawing: Drawing) -> Iterator[tuple[str, str, str]]:
+        """The displacement and its two derivatives: each with its symbol, number and unit.
+
+        A derivative is by the cam's angle, or by the coordinate of a plate.
+        """
+        cam, words, one = drawing.scene.cams[self.follower], drawing.words, drawing.length(1.0)
+        mm, k = drawing.scene.units["length"], escape(self.follower)
+        at, rate, bend = (drawing.trace.values[each] for each in (self.lift, self.rate, self.bend))
+        letter, per = ("ψ" if cam.lever else "s"), (1.0 if cam.lever else one)
+        units = ["°", "", ""] if cam.lever else [mm] * 3
+        numbers = [degrees(at) if cam.lever else at * one, rate * per, bend * per]
+        if cam.slides:
+            units[1:] = (f"{mm}⁻¹", f"{mm}⁻²") if cam.lever else ("", f"{mm}⁻¹")
+            numbers[1:] = numbers[1] / one, numbers[2] / one**2
+        for prime, number, unit in zip(("", "′", "″"), numbers, units, strict=True):
+            told = words.significant(number, 5) if cam.slides else words.fixed(number, 3)
+            yield f"*{letter}*{prime}_{{{k}}}", told, unit
 
 
 def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:

@@ -268,15 +268,6 @@ def no_construction(group: Group) -> StructureError:
             wheels = f"wheels {', '.join(group.wedged)}"
         found = f"hold {wheels} between two tracks that are not parallel"
         return StructureError(Problem(place, found, "parallel tracks", SLIPPING))
-    if group.spun is not None:
-        found = (
-            f"are moved by the driver of link {group.spun.link} only by way of wheels, "
-            "about a pin that moves"
-        )
-        hint = (
-            f"write {' or '.join(group.led)} for it: the radii tell how fast" if group.led else ""
-        )
-        return StructureError(Problem(place, found, LED, hint))
     found = "do not close after four of them are tried at once"
     hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
     return StructureError(Problem(place, found, CLOSING, hint))
@@ -285,5 +276,4 @@ def no_construction(group: Group) -> StructureError:
 HELD = "a track that slides, is driven, or belongs to the frame"
 LEVEL = "wheels of one size on one track keep it parallel to that: write slides = { … } for it"
 SLIPPING = "where a wheel slips on one of them, a block at its centre slides beside that instead"
-LED = "a driver of a link that the frame, or another link that stands, holds"
 CLOSING = "links that close on known ones, two at a time or after some of them have been tried"

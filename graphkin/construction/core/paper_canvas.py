@@ -39,8 +39,8 @@ RING = 1.9
 """The same radius around a pin that is a centre, in mm."""
 DOT = 0.5
 """Radius of a small point, in mm."""
-WITHIN = 2.0
-"""How far from the edge of its field a centre lies that is marked there, in mm."""
+WITHIN = 2.5
+"""How far from the edge of its field a centre lies that is marked there, in mm: with its cross."""
 LAST = 20.0
 """How much of a ray to a far centre its name belongs to, in mm."""
 STRAIGHT = 1e6

@@ -300,7 +300,7 @@ def is_input(step: Step) -> bool:
 def image(point: str) -> str:
     """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3.
 
-    Both points where links touch have one image there, for nothing slips but in trials.
+    Both points where links touch have one image there, unless its name says that they slip.
     """
     name, link = ends_of(point)
     own = is_in_scene(point) or isinstance(point, SlippingName)

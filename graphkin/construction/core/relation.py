@@ -111,6 +111,10 @@ def answer(drawing: Drawing, value: float) -> str:
     return drawing.words.significant(value, 4)
 
 
+POWERS = 1e6
+"""From which size numbers are written by powers of ten."""
+
+
 class RulerReading(Struct, frozen=True):
     """A drawn length as it is told to be read: to 0.1 mm, one below 1 mm in two digits."""
 
@@ -122,9 +126,12 @@ class RulerReading(Struct, frozen=True):
         return drawing.words.fixed(self.millimetres, -round(log10(self.unit)))
 
     def times(self, drawing: Drawing, scale: float) -> tuple[str, str]:
-        """It times a scale factor, and what that gives, in as many digits as it carries."""
-        last = min(ceil(log10(scale * self.unit / 2)), 0)
-        value = round(rounded(scale) * self.millimetres, -last)
+        """It times a scale factor, and what that gives, in as many digits as it carries; a number
+        that is written without a power of ten to its units."""
+        value = rounded(scale) * self.millimetres
+        last = ceil(log10(scale * self.unit / 2))
+        last = last if value >= POWERS else min(last, 0)
+        value = round(value, -last)
         if not value:
             return f"{figure(drawing, scale)}·0", "0"
         told = drawing.words.significant(value, max(floor(log10(value)) - last + 1, 1))

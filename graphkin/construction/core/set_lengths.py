@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from math import isclose
+
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.relation import figure
 
@@ -30,9 +33,15 @@ def divided(drawing: Drawing, what: str, times: float) -> str:
     """Markup of a length divided by a number, or multiplied where that is below one."""
     if times == 1:
         return what
-    return (
-        f"{what}/{figure(drawing, times)}" if times > 1 else f"{figure(drawing, 1 / times)}·{what}"
-    )
+    return f"{what}/{figure(drawing, times)}" if times > 1 else f"{inverse(drawing, times)}·{what}"
+
+
+def inverse(drawing: Drawing, times: float) -> str:
+    """One by a number as it is told: 4/3 where the decimal of it does not end."""
+    part = Fraction(1 / times).limit_denominator(9)
+    if part.denominator % 3 == 0 and isclose(part, 1 / times, rel_tol=1e-9):
+        return str(part)
+    return figure(drawing, 1 / times)
 
 
 def beside_plan(drawing: Drawing, kind: str) -> str:
@@ -40,5 +49,6 @@ def beside_plan(drawing: Drawing, kind: str) -> str:
     times = drawing.scales.times(kind)
     if times == 1:
         return ""
-    key, m = ("page.shorter", times) if times > 1 else ("page.longer", 1 / times)
-    return drawing.words(key, m=figure(drawing, m))
+    if times > 1:
+        return drawing.words("page.shorter", m=figure(drawing, times))
+    return drawing.words("page.longer", m=inverse(drawing, times))

@@ -143,6 +143,12 @@ def difference(a: Real, b: Real) -> Real:
     return a - b
 
 
+@action("product")
+def product(a: Real, b: Real) -> Real:
+    """The product of two numbers."""
+    return a * b
+
+
 @action("speed-at-rim")
 def speed_at_rim(rate: Real, radius: Real) -> Real:
     """The speed of a wheel's centre along the line that its rim keeps to, as it turns at a rate."""

@@ -90,7 +90,7 @@ def draw_crank(
     swept = drawn_angle(drawing, driver)
     zero, end = phase(base) * DEGREE, crank_end(drawing, driver)
     ray = across(centre, field.way(base), radius + 6, 0)
-    board.marks.append(LineMark(*centre, *ray, "centre-line", f"x {driver.link}"))
+    board.marks += within([LineMark(*centre, *ray, "centre-line", f"x {driver.link}")], field.rect)
     if driver.of is None and not lies_along(drawing, driver.link, end):
         tip = across(centre, field.way(base * turn_by(swept / DEGREE)), radius + 6, 0)
         board.marks.append(LineMark(*centre, *tip, "centre-line", f"axis {driver.link}"))

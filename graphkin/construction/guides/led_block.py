@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from msgspec import Struct
 
@@ -16,6 +16,7 @@ from graphkin.structure.pairs import Leading, Sliding
 
 if TYPE_CHECKING:
     from graphkin.construction.rolling.wheel_images import LedWheel
+    from graphkin.structure.pairs import Contact
 
 
 class LedBlock(Struct, frozen=True):
@@ -71,6 +72,10 @@ class LedBlock(Struct, frozen=True):
         return None
 
 
+@overload
+def led_by(pair: Contact) -> LedWheel: ...
+@overload
+def led_by(pair: Leading) -> LedBlock | LedWheel: ...
 def led_by(pair: Leading) -> LedBlock | LedWheel:
     """What a pair with a known link gives in each drawing."""
     if isinstance(pair, Sliding):

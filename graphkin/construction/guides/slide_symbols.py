@@ -97,7 +97,7 @@ def merged(parts: Iterable[tuple[float, float]]) -> Iterator[tuple[float, float]
     while ends:
         low, high = ends.pop(0)
         while ends and ends[0][0] < high + 2:
-            high = ends.pop(0)[1]
+            high = max(high, ends.pop(0)[1])
         yield low, high
 
 

@@ -10,7 +10,7 @@ from graphkin.construction.core.naming import angle_symbol, axis_of, way_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Higher, Tie
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -60,16 +60,6 @@ class ClosedGroup(Construction, frozen=True):
         return self.group.tried.link
 
     # --- where it is cut -------------------------------------------------------------------------
-
-    @property
-    def driver(self) -> Driver | None:
-        """The driver that waits until the group is closed; None where a link is cut off."""
-        return self.group.last if isinstance(self.group.last, Driver) else None
-
-    @property
-    def contact(self) -> Contact | None:
-        """The contact at which the group closes where nothing slips; None for others."""
-        return self.group.last if isinstance(self.group.last, Contact) else None
 
     @property
     def guide(self) -> str:
@@ -123,14 +113,14 @@ class ClosedGroup(Construction, frozen=True):
         listed = escape(", ".join(seen(drawing, self.closes)))
         (tried,) = seen(drawing, [self.group.tried.link])
         fields = {"k": escape(tried), "n": str(self.number), "list": listed}
-        if self.contact is not None:
-            fields |= {"c": symbol(self.contact.wheel.centre), "t": symbol(self.contact.letter)}
-            whole = drawing.words("step.close-contact", **fields)
-            within = drawing.words("list_mark").join(self.tried_within(drawing))
-            return f"{whole}; {within}" if within else whole
-        if self.driver is not None:
-            fields["what"] = angle_symbol(drawing.scene, self.driver)
-            whole = drawing.words("step.close-driver", **fields)
+        last = self.group.last
+        if not isinstance(last, Tie):
+            if isinstance(last, Driver):
+                fields["what"] = angle_symbol(drawing.scene, last)
+                whole = drawing.words("step.close-driver", **fields)
+            else:
+                fields |= {"c": symbol(last.wheel.centre), "t": symbol(last.letter)}
+                whole = drawing.words("step.close-wheel", **fields)
             within = drawing.words("list_mark").join(self.tried_within(drawing))
             return f"{whole}; {within}" if within else whole
         fields["draw"] = self.drawn_each_time(drawing)
@@ -157,12 +147,12 @@ class ClosedGroup(Construction, frozen=True):
             match one.last:
                 case Driver() as driver:
                     cut = angle_symbol(drawing.scene, driver)
-                case Contact(letter=letter):
-                    cut = symbol(letter)
                 case Tie(first=Pin(point=p), second=Pin(point=q)):
                     cut = bar(p, q)
                 case Tie(first=Pin(point=p)):
                     cut = symbol(p)
+                case wheel if not isinstance(wheel, Tie):
+                    cut = symbol(wheel.letter)
             (tried,) = seen(drawing, [one.tried.link])
             drawn = (link for each in one.chain for link in each.links)
             listed = escape(", ".join(seen(drawing, drawn)))

@@ -29,9 +29,9 @@ from graphkin.construction.rolling.rolling import (
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Real, below, pick
-from graphkin.structure.groups import CoupledTrain
+from graphkin.structure.groups import CoupledTrain, Higher
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, ContactName
+from graphkin.structure.pairs import Contact, SlippingName
 from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:
@@ -165,13 +165,16 @@ def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
     return {under(contact_name(group.last), group.closing): rim}
 
 
-def missed(
-    pen: Pen, contact: Contact, own: str, quantity: str, part: Part, name: ContactName
-) -> ContactMisclosure:
-    """What a plan misses where a link touches another at last, in ``name``: across the radius.
+def missed(pen: Pen, group: CoupledTrain | Higher, quantity: str, part: Part) -> ContactMisclosure:
+    """What a plan misses where a link touches another at last: across the radius.
 
-    They must not slip.
+    They must not slip. Of a group that is no train each has its own image there.
     """
+    contact, own = group.last, group.closing
+    assert isinstance(contact, Contact)
+    name = contact_name(contact)
+    if isinstance(group, Higher):
+        name = SlippingName(name)
     wheel = contact.wheel if contact.track is None else contact.wheel_of(own)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radius = (pen.the("position", point) for point in (wheel.centre, name))

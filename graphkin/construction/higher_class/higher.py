@@ -12,7 +12,7 @@ from graphkin.construction.core.bases import Base, bases, ending
 from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
-from graphkin.construction.core.vocabulary import action, coordinate, difference
+from graphkin.construction.core.vocabulary import action, coordinate, difference, product
 from graphkin.construction.guides.guide_line import axis_with_guide, turned_back
 from graphkin.construction.guides.guides import axis, path_of, standing_guide
 from graphkin.construction.guides.led_block import led_by
@@ -22,20 +22,12 @@ from graphkin.construction.higher_class.trial import Unknown
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import plate_points
-from graphkin.construction.rolling.rolling import (
-    angle_of,
-    radius_of,
-    rolled_to,
-    touch,
-    touch_track,
-    turned_along,
-)
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, TriedLink
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding
 
 Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
@@ -94,12 +86,6 @@ def inverse(seconds: Real) -> Real:
     return 1 / seconds
 
 
-@action("product")
-def product(a: Real, b: Real) -> Real:
-    """The product of two numbers."""
-    return a * b
-
-
 @action("reach")
 def reach(line: Line, *rest: Any) -> Real:
     """How far from a line's own point the bars of a group allow: ``rest`` are so many lengths,
@@ -126,7 +112,7 @@ def position(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     """The mechanism to scale: the tried link where the locus says, then dyad by dyad."""
     trying, inputs = trial_of(pen, group, each)
     number, dyads = closure_of(pen.scene, group), choosing_dyads(group)
-    counted, traced = counted_by(pen, group), tuple(traced_points(pen, group.last))
+    counted, traced = counted_by(pen, group), tuple(traced_points(pen, group))
     unknowns = len(group.nested)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         closing = pen.draw(trying.action(number), *inputs)
@@ -178,8 +164,8 @@ def build(
             each(pen, shapes, member, bases(pen.scene, member))
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
-    if isinstance(group.last, Contact):
-        touch(pen, shapes, group.last)
+    if not isinstance(group.last, Tie | Driver):
+        led_by(group.last).stand(pen, shapes)
     closed(group)
 
 
@@ -215,7 +201,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     with fork.on(Part.POSITION, Plane.NUMBERS):
         written = [name for name in pen.scene.links if name in group.links]
         axes = tuple(axis(fork, shapes, name) for name in written)
-    traced = tuple(fork.the("position", point) for point in traced_points(pen, group.last))
+    traced = tuple(fork.the("position", point) for point in traced_points(pen, group))
     kept = (end for one in unknowns for end in one.ends)
     fork.keep_inputs(*kept, *axes, *traced)
     kind = Trying if len(unknowns) == 1 else several_trials()
@@ -247,12 +233,12 @@ def unknown(pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher, tri
     return Unknown(tried, False, *fit, far, led_by(pair).rim(pen))
 
 
-def traced_points(pen: Pen, last: Tie | Driver | Contact) -> list[str]:
+def traced_points(pen: Pen, group: Higher) -> list[str]:
     """The points whose loci the hand draws: the ends of the last link that do not stand already.
 
     None where none shows the fit: what guides the last link must stand.
     """
-    match last:
+    match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)):
             return [point for point in (p, q) if not pen.has("position", point)]
         case Tie(link, Pin(point=p), Sliding() as pair) if stands(pen, partner(pair, link)):
@@ -297,23 +283,12 @@ def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
                 difference, pen.draw(coordinate, guide, first), pen.drive(driver).position
             )
             return Misfit(found, tried_point(pen, group.tried))
-        case Contact() as contact:
-            return Misfit(slip(pen, shapes, contact), tried_point(pen, group.tried))
         case Driver() as driver:
             found = pen.draw(difference, pen.the("rolled", driver.link), pen.drive(driver).position)
             return Misfit(found, tried_point(pen, group.tried))
+        case wheel if not isinstance(wheel, Tie):
+            return Misfit(led_by(wheel).slip(pen, shapes), tried_point(pen, group.tried))
     raise AssertionError(group.last)
-
-
-def slip(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
-    """By how much a wheel has rolled farther than it has turned, along what it touches."""
-    own = contact.links[0]
-    if contact.track is None:
-        rolled = turned_along(pen, shapes, contact, touch_track(pen, shapes, contact))
-    else:
-        rolled = rolled_to(pen, shapes, contact, own)
-    turn = pen.draw(difference, angle_of(pen, shapes, own), rolled)
-    return pen.draw(product, turn, radius_of(pen, contact))
 
 
 def tried_point(pen: Pen, trial: TriedLink) -> int:

@@ -11,7 +11,7 @@ from typing import ClassVar
 from msgspec.structs import replace
 
 from graphkin.construction.acceleration.tangential_direction import RoundPivot
-from graphkin.construction.core.bases import bases, contact_name, ending
+from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
@@ -25,6 +25,7 @@ from graphkin.construction.core.vocabulary import (
     difference,
     distance,
     part_along,
+    product,
     sum_of,
 )
 from graphkin.construction.guides.coincident_points import image_under, omega_of
@@ -37,7 +38,7 @@ from graphkin.construction.higher_class.divided_point import (
     PlanQuantity,
     crossings,
 )
-from graphkin.construction.higher_class.higher import Each, inverse, product, slide_of
+from graphkin.construction.higher_class.higher import Each, inverse, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
     DrivenMisclosure,
@@ -56,7 +57,7 @@ from graphkin.numbers.plane import dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin, Sliding, SlippingName
+from graphkin.structure.pairs import Pin, Sliding
 
 TAGS = tuple(MARKED)
 """What the points of the two plans bear behind their names."""
@@ -439,12 +440,9 @@ def missed(
 ) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
     last = group.last
+    if not isinstance(last, Tie | Driver):
+        return coupled_train.missed(pen, group, kind.quantity, kind.part)
     match last:
-        case Contact():
-            name = contact_name(last)
-            if isinstance(group, Higher):
-                name = SlippingName(name)
-            return coupled_train.missed(pen, last, group.closing, kind.quantity, kind.part, name)
         case Tie(link, Pin(point=p), Pin(point=q)):
             p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
             ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]

@@ -10,7 +10,14 @@ from msgspec import Struct
 from graphkin.construction.core.bases import contact_name, no_construction, under
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import Action, action, coordinate, difference, sum_of
+from graphkin.construction.core.vocabulary import (
+    Action,
+    action,
+    coordinate,
+    difference,
+    product,
+    sum_of,
+)
 from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
 from graphkin.construction.guides.set_by_coordinate import set_at, set_point
 from graphkin.construction.links.counted_turn import (
@@ -211,6 +218,18 @@ def touch_track(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
     touching = mark_contact(pen, contact, ContactOnTrack, contact_on_track, line, centre)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         return pen.draw(coordinate, line, touching)
+
+
+@by_contact
+def slip(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+    """By how much a wheel has turned farther than it has rolled, as a length at its rim."""
+    own = contact.links[0]
+    if contact.track is None:
+        rolled = turned_along(pen, shapes, contact, touch_track(pen, shapes, contact))
+    else:
+        rolled = rolled_to(pen, shapes, contact, own)
+    turn = pen.draw(difference, angle_of(pen, shapes, own), rolled)
+    return pen.draw(product, turn, radius_of(pen, contact))
 
 
 @by_contact

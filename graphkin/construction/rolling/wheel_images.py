@@ -341,7 +341,7 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int
 
 
 class LedWheel(Struct, frozen=True):
-    """A wheel on the straight track of a known link."""
+    """A wheel and what it touches: the straight track of a known link, or one that stands."""
 
     pair: Contact
 
@@ -371,6 +371,14 @@ class LedWheel(Struct, frozen=True):
     def finish(self, pen: Pen, shapes: LinkShapes) -> None:
         """Its point of contact and its turning, once its centre stands."""
         rolling.touch_and_turn(pen, shapes, self.pair)
+
+    def stand(self, pen: Pen, shapes: LinkShapes) -> None:
+        """Where it touches what stands, whether it slips or not."""
+        rolling.touch(pen, shapes, self.pair)
+
+    def slip(self, pen: Pen, shapes: LinkShapes) -> int:
+        """By how much it has turned farther than it has rolled, as a length at its rim."""
+        return rolling.slip(pen, shapes, self.pair)
 
     def touch(self, pen: Pen) -> None:
         """The image of its point of contact."""

@@ -167,3 +167,18 @@ def test_points_of_a_segment_that_is_computed_stand_in_the_row_of_its_value():
     symbols = [row.cells[0] for row in rows(found, words("en"))]
     assert "*a*_{D}, m/s^2" in symbols
     assert "*a*_{D}, mm" not in symbols
+
+
+# --- long names ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["A" * 120, "Wilhelmina " * 9 + "W" * 120, r"A\^_*{}" * 30])
+def test_a_name_of_any_length_stays_on_the_page(name):
+    """In full above the marks, in lines where it is longer than one; cut in the foot."""
+    found = graded({})
+    student = replace(found.taker.student, name=name)
+    found = replace(found, taker=replace(found.taker, student=student))
+    for page in feedback_pages(found, name, marker_of("pump", 7).standard.rubric, words("en")):
+        page.check()
+        written = "".join(plain(m.markup) for m in page.marks if isinstance(m, Text))
+        assert "".join(name.split()) in "".join(written.split())

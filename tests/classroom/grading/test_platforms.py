@@ -253,6 +253,17 @@ def test_a_row_without_an_id_is_found_by_its_address(tmp_path):
         filled(book(tmp_path, text + ",pat@example.org,\r\n"), MARKS, "Grade", SIGNS)
 
 
+def test_a_gradebook_without_an_empty_column_is_told_with_those_that_lack_a_mark(tmp_path):
+    text = "ID number,Name,Grade\r\n01003,Ana,7\r\n01004,Pat,\r\n"
+    told = 'no column is empty; expected one of "Grade"; name the column with --column'
+    with pytest.raises(GradebookError, match=told):
+        filled(book(tmp_path, text), MARKS, None, SIGNS)
+    full = text.replace("Pat,", "Pat,8")
+    told = 'no column is empty; expected one of "ID number", "Name", "Grade"'
+    with pytest.raises(GradebookError, match=told):
+        filled(book(tmp_path, full), MARKS, None, SIGNS)
+
+
 # --- the command --------------------------------------------------------------------------------
 
 

@@ -229,3 +229,84 @@ def test_a_slip_that_nobody_knows_earns_no_silent_nothing(mine):
     (line,) = problems(mine(RULE + "[marking.slips]\nrpm_as_rads = 0.5\nnormal_missing = 0.3\n"))
     assert line.startswith("lab.toml: marking.slips.rpm_as_rads: no slip has this name")
     assert line.endswith("did you mean rpm_as_rad?")
+
+
+LINES = """variants.course = "M"
+variants.tries = 7
+variants.draw.n.min = 3
+variants.draw.n.max = 21
+variants.draw.n.step = 2
+fair.crossing = 9
+fair.segment = 3
+fair.triangle = [0.05, 4]
+fair.apart = 0.02
+fair.pencil = 0.5
+marks.v_D = 1
+marking.slips.rpm_as_rad = 0.5
+marking.follow = 0.8
+marking.point = 0.3
+marking.line = 0.3
+marking.ruler = 0.5
+marking.floor = 0.1
+marking.cap = 0.9
+marking.hold = true"""
+BOUNDS = {
+    "variants.tries": (1, 10_000),
+    "fair.crossing": (0, 89),
+    "fair.segment": (0, 1000),
+    "fair.apart": (0, 1),
+    "fair.pencil": (0, 1),
+    "marking.slips.rpm_as_rad": (0, 1),
+    "marking.follow": (0, 1),
+    "marking.point": (0, 10),
+    "marking.line": (0, 10),
+    "marking.ruler": (0, 10),
+}
+KEYS = [line.partition(" = ")[0] for line in LINES.splitlines()]
+
+
+def exchanged(key, value):
+    """The lines with another value of one of them."""
+    rows = (line.partition(" = ") for line in LINES.splitlines())
+    return "\n".join(f"{own} = {value if own == key else raw}" for own, _, raw in rows)
+
+
+@pytest.mark.parametrize("value", ["{ a = 1 }", "[[1]]", "nan", '"?"', "-1e9", "[]"])
+@pytest.mark.parametrize("key", KEYS)
+def test_one_wrong_value_anywhere_is_told_at_its_place_and_nothing_else(mine, key, value):
+    if key == "variants.course" and "[" not in value and "{" not in value:
+        value = '" "'
+    elif key.endswith(".max") and value == "-1e9":
+        value = "1e9"
+    folder = mine(f"graphkin = 1\n{exchanged(key, value)}\n")
+    with pytest.raises(SceneError) as caught:
+        read_lab(folder)
+    for problem in caught.value.problems:
+        assert problem.place.startswith(f"lab.toml: {key}"), problem
+        assert problem.found and problem.expected, problem
+        assert key not in problem.found
+
+
+@pytest.mark.parametrize("key", BOUNDS)
+def test_numbers_of_a_lab_lie_between_their_bounds_inclusive(mine, key):
+    for bound, off in zip(BOUNDS[key], (-1, 1), strict=True):
+        read_lab(mine(f"graphkin = 1\n{exchanged(key, bound)}\n"))
+        (told,) = problems(mine(f"graphkin = 1\n{exchanged(key, bound + off)}\n"))
+        assert f"lab.toml: {key}" in told and f"from {BOUNDS[key][0]} to {BOUNDS[key][1]}" in told
+
+
+def test_a_range_may_be_one_value_and_a_floor_the_cap_but_no_triangle_is_flat(mine):
+    """The one value may be the last that the scene allows: no step leads on from it."""
+    one = exchanged("variants.draw.n.max", 30).replace("n.min = 3", "n.min = 30")
+    lab = read_lab(mine(f"graphkin = 1\n{one.replace('floor = 0.1', 'floor = 0.9')}\n"))
+    assert lab.rule.draws["n"] == Range(Fraction(30), Fraction(30), Fraction(2))
+    assert lab.rubric.floor == lab.rubric.cap
+    (told,) = problems(mine(f"graphkin = 1\n{exchanged('fair.triangle', '[1, 1]')}\n"))
+    assert "fair.triangle" in told
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_a_key_that_nobody_knows_is_told_at_its_place(mine, key):
+    wrong = f"{key}x"
+    rows = LINES.replace(f"{key} = ", f"{wrong} = ")
+    assert any(f"lab.toml: {wrong}" in told for told in problems(mine(f"graphkin = 1\n{rows}\n")))

@@ -38,9 +38,13 @@ def test_who_gets_nothing_is_told_and_the_status_is_1(make):
 
 
 def test_a_name_with_signs_that_the_font_lacks_is_told(make):
-    result = ran(make("a", ["7"], names=["王"]), "--jobs", 1)
+    """The id is called where no letter of the name is left, ? where one is."""
+    result = ran(make("a", ["7", "8", "9"], names=["李 小龍", "Ana 王王", "Ana"]), "--jobs", 1)
     assert result.exit_code == 0
-    assert '7: "王"' in result.stderr
+    lacks = "the font of the sheets lacks"
+    assert f'7: {lacks} 李 小 龍 of "李 小龍, 331 A"; the id stands for the name' in result.stderr
+    assert f'8: {lacks} 王 of "Ana 王王, 331 A"; ? stands for each' in result.stderr
+    assert "9: " not in result.stderr
 
 
 @pytest.mark.parametrize(

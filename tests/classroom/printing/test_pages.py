@@ -188,3 +188,17 @@ def test_of_a_name_too_long_as_much_is_kept_as_fits():
     assert kept.endswith("…") and name.startswith(kept[:-1]) and fits(kept)
     assert not fits(f"{name[: len(kept) + 2].rstrip()}…")
     assert shortened("Ana Pop, 912") == "Ana Pop, 912"
+
+
+@pytest.mark.parametrize(
+    ("name", "printed"),
+    [
+        ("Зоя Иванова", "0104, 912"),
+        ("李 小龍", "0104, 912"),
+        ("", "0104, 912"),
+        ("Ana 王", "Ana ?, 912"),
+        ("Łukasz Żółć", "Łukasz Żółć, 912"),
+    ],
+)
+def test_who_has_no_letter_of_the_font_in_the_name_is_called_by_the_id(name, printed):
+    assert owner(Variant("0104", "CODE", {}, name=name, group="912")).name == printed

@@ -245,6 +245,13 @@ def test_what_is_wrong_is_told_by_row_and_column(saved, text, expected):
     assert all("roster.csv" in problem for problem in found)
 
 
+def test_a_table_without_a_head_has_no_student_for_the_name_of_a_column(saved):
+    """Ana is near to nr, but a row with a number is a student's."""
+    for text in ("1;0042;Ana\n2;0043;Pat\n", "1,0042,nunber\n2,0043,Pat\n"):
+        found = problems(saved(text))
+        assert all(each.endswith("the first row names the columns") for each in found), found
+
+
 def test_all_rows_are_told_at_once_in_their_order(saved):
     found = problems(saved("number,id\n1,7\nx,7\n,8\n4,\n"))
     rows = [int(problem.partition("row ")[2].split(",")[0]) for problem in found]

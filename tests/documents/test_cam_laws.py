@@ -1,0 +1,103 @@
+"""What the calculation tells of a cam leads to the centre of curvature that the sheet lays off."""
+
+from __future__ import annotations
+
+import re
+from cmath import phase
+from math import cos, degrees, sin, sqrt
+
+import pytest
+
+from graphkin.construction.cams.cam_centre import CurvatureCentre
+from graphkin.construction.cams.cam_relations import of_cams
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import constructions
+from graphkin.documents.calculation import calculation
+from graphkin.drawing.marks import Text
+from graphkin.drawing.richtext import plain
+from graphkin.numbers.plane import cross
+from graphkin.text import LANGUAGES
+from tests.documents.sheet_tools import drawings
+
+LEVERS = ("cam-rocker", "cam-conjugate", "cam-fixed-lever")
+GUIDED = ("cam-roller", "cam-knife", "cam-table")
+FORMULA = re.compile(r"= ([^=;]*?\)\^\{3/2\} / \([^;]*?\)), ")
+
+
+def told(name: str, language: str = "en") -> tuple[Drawing, CurvatureCentre, str]:
+    """The velocity sheet of a scene with one cam, its centre, and how that is told to follow."""
+    drawing = drawings(name, None, language)[0]
+    centre, *_ = constructions(drawing.trace.program, CurvatureCentre)
+    how = next(r for r in of_cams(drawing, []) if not r.result)
+    return drawing, centre, " ".join((how.left, *how.more))
+
+
+def by_formula(how: str, **known: float) -> float:
+    """What a printed formula gives."""
+    text = FORMULA.search(how)[1].replace("*", "").replace("·", "*").replace("−", "-")
+    text = re.sub(r"\^\{3/2\}", "**1.5", text).replace("^", "**")
+    text = re.sub(r"([sψ])([′″])_\{?\w+\}?", lambda m: {"′": "rate", "″": "bend"}[m[2]], text)
+    text = re.sub(r"(cos|sin) γ", r"\1(γ)", text)
+    return float(eval(text, {"__builtins__": {}, "cos": cos, "sin": sin}, known))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", LEVERS)
+def test_the_radius_under_a_lever_is_what_its_formula_gives(name, language):
+    drawing, centre, how = told(name, language)
+    cam, spot, values = drawing.scene.cams[centre.follower], drawing.standing.spot, drawing.trace
+    o, q, b, k = (spot(p) for p in (cam.pivot, cam.lever.pin, cam.point, centre.name))
+    rate, bend = (float(values.values[n]) for n in (centre.rate, centre.bend))
+    sign = 1 if cross(q - o, b - q) > 0 else -1
+    assert f"1 {'+' if sign > 0 else '−'} *ψ*′" in how
+    angle = abs(phase((o - q) / (b - q)))
+    sizes = {"d": abs(q - o), "l": abs(b - q), "γ": angle, "u": 1 + sign * rate}
+    found = by_formula(how, rate=rate, bend=bend, **sizes)
+    pole = o + (q - o) * sign * rate / (1 + sign * rate)
+    assert abs(abs(pole - o) / abs(pole - q) - abs(rate)) < 1e-9
+    assert b + (pole - b) / abs(pole - b) * found == pytest.approx(k, abs=1e-9)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", GUIDED)
+def test_the_radius_under_a_guided_tip_is_what_its_formula_gives(name, language):
+    drawing, centre, how = told(name, language)
+    cam, spot, values = drawing.scene.cams[centre.follower], drawing.standing.spot, drawing.trace
+    o, b, k = (spot(p) for p in (cam.pivot, cam.point, centre.name))
+    rate, bend = (float(values.values[n]) for n in (centre.rate, centre.bend))
+    slide = drawing.scene.links[centre.follower].slides[0]
+    along = 1j ** (float(slide.angle.si(drawing.scene.values)) * 2 / 3.141592653589793)
+    seen = (b - o) / along
+    found = by_formula(how, rate=rate, bend=bend, h=seen.real, e=seen.imag)
+    pole = o - 1j * along * rate
+    assert b + (pole - b) / abs(pole - b) * found == pytest.approx(k, abs=1e-9)
+
+
+def test_the_centre_under_a_flat_face_stands_where_the_law_says():
+    drawing, centre, how = told("cam-flat")
+    cam, spot, values = drawing.scene.cams[centre.follower], drawing.standing.spot, drawing.trace
+    rate, bend = (float(values.values[n]) for n in (centre.rate, centre.bend))
+    slide = drawing.scene.links[centre.follower].slides[0]
+    along = 1j ** (float(slide.angle.si(drawing.scene.values)) * 2 / 3.141592653589793)
+    found = spot(cam.pivot) - along * bend - 1j * along * rate
+    assert found == pytest.approx(spot(centre.name), abs=1e-9)
+    assert abs(found - spot(cam.pivot)) == pytest.approx(sqrt(rate**2 + bend**2))
+    assert "√" in how
+
+
+def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follows():
+    found = drawings("cam-lever")
+    cam = found[0].scene.cams["2"]
+    lines = [
+        plain(mark.markup)
+        for page in calculation(found, "task")
+        for mark in page.marks
+        if isinstance(mark, Text)
+    ]
+    begin = ["ψ2 = .", "ψ′2 = .", "ψ″2 = .", f"O{cam.centre} = .", f"v{cam.centre} = ω1·O"]
+    places = [next(i for i, line in enumerate(lines) if line.startswith(b)) for b in begin]
+    assert places == sorted(places)
+    values = found[0].trace.values
+    centre, *_ = constructions(found[0].trace.program, CurvatureCentre)
+    (swing, *_) = [r.result for r in of_cams(found[0], [])]
+    assert float(swing) == pytest.approx(degrees(values[centre.lift]), abs=5e-4)
