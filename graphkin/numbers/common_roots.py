@@ -21,6 +21,9 @@ AT_EDGE = 2.0
 """The same where a corner cannot be drawn: beside a flat dyad the misfit grows like a root."""
 BENT = 0.5
 """The same in parts of its range all round, for the square of a cell's side in radians."""
+ROOT = 2.0
+"""The same where a corner cannot be drawn, for the root of that side: the corners that can may all
+lie along the flat dyad, and do not tell how the misfit grows away from it."""
 CELLS = 40_000
 """Cells looked at together."""
 ROUNDS = 20
@@ -133,7 +136,7 @@ def may_vanish(
     """
     import numpy as np
 
-    bent = np.where(whole, BENT * side.max() ** 2, np.sqrt(side.max()))
+    bent = np.where(whole, BENT * side.max() ** 2, ROOT * np.sqrt(side.max()))
     slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
     with np.errstate(all="ignore"):
         for (low, high), most in zip(misfits, np.moveaxis(ranges, -1, 0), strict=True):
