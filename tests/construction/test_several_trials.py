@@ -119,6 +119,16 @@ def test_every_closure_is_found(kind, seed, count):
     assert trying.closures_of(known).ways() == count
 
 
+def test_cells_are_left_out_where_misfits_grow_without_bound():
+    """Plank and floor all but parallel: a misfit is thousands of times what it is elsewhere, and
+    bounds nothing."""
+    trying, known = closer(mechanism("plank-pulled-by-a-rod"))
+    (scale,) = trying.scales([np.atleast_1d(each) for each in known], 1)
+    cells, ranges = trying.cells(known, scale)
+    assert len(cells.row) < 0.1 * trying.across**2 * 2 ** len(trying.signs)
+    assert max(ranges) < 10, "metres: four times as far as most of it"
+
+
 @pytest.mark.parametrize("kind", ["quad", "plates"])
 @pytest.mark.parametrize("power", [-3, 0, 4])
 def test_the_place_from_which_lengths_are_taken_is_a_closure(kind, power):

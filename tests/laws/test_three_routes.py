@@ -44,12 +44,15 @@ SEEN = {
     1856: "an acceleration a hundred million times the driver's",
     1900: "a closure and a way that would stand under one name",
     2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
+    2701: "a wheel that turns about a point at rest, a thousand times smaller than the whole",
     2878: "links that hang on a track by a driver",
     3012: "a sun driven against a block of a link that rolls",
     3047: "a wheel on two tracks that must not slip on either",
+    3330: "a closure beside a flat dyad, along which all corners of its cell lie",
     3857: "a sun driven against a block that slides on a wheel that rolls",
     4061: "a plate with a profile on the rod of a cylinder, beside the tube's pin",
     4423: "an arm of one train that is a wheel's track of another",
+    4893: "racks on one link and a wheel between them, which seem to hold that link",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 LONG = {
