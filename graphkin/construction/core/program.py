@@ -208,14 +208,13 @@ class Program(Struct, frozen=True):
     def behind(self, numbers: Iterable[int], *, by_hand: bool = False) -> tuple[int, ...]:
         """The steps that some steps need, themselves included, in order."""
         wanted = {*numbers}
-        waiting = [*wanted]
-        while waiting:
-            step = self.steps[waiting.pop()]
-            by_it = (step.by_hand,) if by_hand and step.by_hand is not None else ()
-            for number in (*step.args, *by_it):
-                if number not in wanted:
-                    wanted.add(number)
-                    waiting.append(number)
+        for number in range(max(wanted, default=-1), -1, -1):
+            if number not in wanted:
+                continue
+            step = self.steps[number]
+            wanted.update(step.args)
+            if by_hand and step.by_hand is not None:
+                wanted.add(step.by_hand)
         if by_hand:
             wanted |= self._arrows(wanted)
         return tuple(sorted(wanted))

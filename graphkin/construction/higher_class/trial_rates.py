@@ -26,6 +26,8 @@ APART = 0.45
 """How far apart, in parts of the right plan, some point of the two trials shall stand."""
 LARGER = 1.25
 """How much larger than the right plan alone it may be with its trials."""
+TOO_LARGE = 2.0
+"""The same from which numbers are looked for that are less round."""
 WITHIN = (0.15, 0.85)
 """Where between its trials the right plan shall lie."""
 BESIDE = 0.75
@@ -113,21 +115,35 @@ def spread_of(program: Program, found: Mapping[int, Any], trials: TwoTrials) -> 
 
 
 def chosen_rates(spread: Spread) -> tuple[float, float]:
-    """The two trials that can be drawn and read best, the link at rest in the first if it may."""
+    """The two trials that can be drawn and read best, the link at rest in the first if it may.
+
+    Round numbers, unless even the best of these draw a plan far too large.
+    """
     enough = APART * spread.whole / spread.reach
     size = abs(spread.rate) or enough
     worse = {0.0: -MOVING, **dict(candidates(min(size, enough), max(size, enough)))}
-    for number, amount in beside(spread.rate, enough):
-        worse.setdefault(number, amount)
-    boxes = {rate: spread.box(rate) for rate in worse}
-    right = spread.box(spread.rate)
+    found = best_of(spread, worse)
+    if enlarged(spread, *found) > TOO_LARGE:
+        for number, amount in beside(spread.rate, enough):
+            worse.setdefault(number, amount)
+        found = best_of(spread, worse)
+    return found
+
+
+def best_of(spread: Spread, worse: Mapping[float, float]) -> tuple[float, float]:
+    """The best two of some rates, each with what it is worse."""
     faults = {}
     for first, second in product(worse, worse):
         if abs(first) < abs(second):
-            large = longest(right, boxes[first], boxes[second]) / longest(right)
-            fault = spread.fault(first, second, large)
+            fault = spread.fault(first, second, enlarged(spread, first, second))
             faults[first, second] = fault + worse[first] + worse[second]
     return min(faults, key=lambda pair: faults[pair])
+
+
+def enlarged(spread: Spread, *rates: float) -> float:
+    """How much larger than the right plan alone it is with the trials of some rates."""
+    right = spread.box(spread.rate)
+    return longest(right, *map(spread.box, rates)) / longest(right)
 
 
 def longest(*boxes: Box) -> float:
