@@ -214,10 +214,8 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             ] or [self.extended(stage, known, scale, row, place)]
             for k, misfit in enumerate(stage.misfits):
                 spans = np.array([part.spans[k] for part in parts])
-                low, least, most, high = (
-                    all_of.reduce(ends)
-                    for all_of, ends in zip((np.fmin, np.fmin, np.fmax, np.fmax), spans.T, strict=True)
-                )
+                reduced = zip((np.fmin, np.fmin, np.fmax, np.fmax), spans.T, strict=True)
+                low, least, most, high = (each.reduce(ends) for each, ends in reduced)
                 ranges[misfit] = np.fmin(high - low, WIDER * (most - least))
             side = self.grid_of_shares()[1] / self.across
             kept = [part.kept(ranges[[*stage.misfits]], side) for part in parts]
