@@ -76,7 +76,10 @@ LOOK = {
 def heard(page: Any, event: str) -> Iterator[list[Any]]:
     """What a page tells of an event meanwhile; the tab, which others use later, forgets it then."""
     found: list[Any] = []
-    keep = found.append
+
+    def keep(told: Any) -> None:
+        found.append(told)
+
     page.on(event, keep)
     yield found
     page.remove_listener(event, keep)
