@@ -72,6 +72,19 @@ LOOK = {
 """What a tab may be opened with in another way than before; Playwright's own values."""
 
 
+@contextmanager
+def heard(page: Any, event: str) -> Iterator[list[Any]]:
+    """What a page tells of an event meanwhile; the tab, which others use later, forgets it then."""
+    found: list[Any] = []
+
+    def keep(told: Any) -> None:
+        found.append(told)
+
+    page.on(event, keep)
+    yield found
+    page.remove_listener(event, keep)
+
+
 class Watch:
     """What a page tells on its console at some levels, and asks for beyond some addresses."""
 

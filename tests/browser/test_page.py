@@ -20,7 +20,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page, task_page
-from tests.browser.opening import Opened, barred
+from tests.browser.opening import Opened, barred, heard
 from tests.chosen import EVERY, SCENES
 from tests.documents.sheet_tools import mechanism_named
 from tests.web.test_page import NASTY
@@ -439,9 +439,10 @@ def test_without_a_script_it_is_the_finished_drawing_with_its_list(opened: Opene
 
 def test_hostile_names_do_nothing(opened: Opened, pages: Path):
     page = opened(pages / "nasty.html", **DESKTOP)
-    page.on("dialog", lambda dialog: pytest.fail("a name was run"))
-    page.keyboard.press("End")
-    assert "alert(1)" in page.locator("h1").inner_text()
-    assert page.locator("header script, main script").count() == 0
-    page.evaluate("Promise.allSettled(document.getAnimations().map((each) => each.finished))")
+    with heard(page, "dialog") as dialogs:
+        page.keyboard.press("End")
+        assert "alert(1)" in page.locator("h1").inner_text()
+        assert page.locator("header script, main script").count() == 0
+        page.evaluate("Promise.allSettled(document.getAnimations().map((each) => each.finished))")
+    assert not dialogs, "a name was run"
     assert not barred(page)

@@ -13,7 +13,7 @@ import pytest
 from graphkin.mechanism import load
 from graphkin.scene import scene_files
 from graphkin.studio.server import Served
-from tests.browser.opening import LONG, barred, watched
+from tests.browser.opening import LONG, barred, heard, watched
 from tests.studio.pump import PUMP
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}}
@@ -168,16 +168,15 @@ def test_each_drawing_is_saved_as_a_file_that_looks_the_same_alone(studio, tmp_p
 
 def test_many_quick_moves_end_at_the_last(studio, served):
     page = studio()
-    asked = []
-    page.on("request", lambda request: asked.append(request.url))
-    answered(
-        page,
-        lambda: page.evaluate(
-            "(() => { const s = document.getElementById('slider-n');"
-            " for (let i = 0; i < 200; i++) { s.value = String(i % 30);"
-            " s.dispatchEvent(new Event('input')); } })()"
-        ),
-    )
+    with heard(page, "request") as asked:
+        answered(
+            page,
+            lambda: page.evaluate(
+                "(() => { const s = document.getElementById('slider-n');"
+                " for (let i = 0; i < 200; i++) { s.value = String(i % 30);"
+                " s.dispatchEvent(new Event('input')); } })()"
+            ),
+        )
     assert len(asked) < 10
     assert page.input_value("#value-n") == "20"
     velocity = abs(load("pump", n=20).solve().points["D"].velocity)
