@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from graphkin.construction.centres.relative_centre import LineOfCentres, RelativeCentre
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.solution import Solution
-from graphkin.documents.centre_tables import place_of
+from graphkin.documents.centre_tables import breadth_of, place_of
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import Ratio, cross, dot
 from graphkin.scene.read_scene import read_text
@@ -398,3 +398,18 @@ def test_the_inflection_pole_by_hand_is_the_one_by_accelerations():
             assert drawn == pytest.approx(place_of(trace.values[number], 1.0), rel=1e-9)
     fixed = place_of(trace.value("inflection", "3"), 1.0)
     assert fixed == pytest.approx(2.5 + 0.3j, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_what_is_far_is_told_by_half_the_perimeter_of_the_box_around_all_points(name):
+    """One metre where there is one point alone; what is endlessly far has no part in it."""
+    solution = shipped(name, 7).solve()
+    far = replace(solution.points["A"], position=complex("inf"))
+    xs, ys = zip(
+        *((p.position.real, p.position.imag) for p in solution.points.values()), strict=True
+    )
+    spans = [max(each) - min(each) for each in (xs, ys)]
+    assert breadth_of(solution) == pytest.approx(sum(spans))
+    assert breadth_of(replace(solution, points={**solution.points, "X": far})) == sum(spans)
+    assert breadth_of(replace(solution, points={"A": solution.points["A"]})) == 1.0
+    assert breadth_of(replace(solution, points={})) == 1.0

@@ -126,6 +126,7 @@ def test_a_driven_wheel_leads_its_centre_about_the_other(radius, track, inside, 
     )
     one = made(text)
     assert isinstance(one.groups[0], Spun)
+    assert one.groups[0].title == "link 1 turned by its driver, rolling on link 0"
     found, share = one.solve(), own / (own + other)
     arm = {"ring": track - radius, "round": radius - track}
     far = next((arm[key] for key, on in flags.items() if on), track + radius)

@@ -128,3 +128,33 @@ def test_a_nearly_closed_position_is_led_on_to_the_closure(off, read):
     pushed = found + off * moving * np.cos(np.arange(found.size)).reshape(found.shape)
     assert len(found) > 1
     assert settled_of(part, pushed, moving) == pytest.approx(found, abs=1e-9)
+
+
+STRETCHED = """
+[frame]
+O = [0, 0]
+G = ["3 - 1/10^BEYOND", 0]
+[links.1]
+O-A = 1
+[links.2]
+A-B = 1
+[links.3]
+G-B = 1
+[[drivers]]
+turn = 1
+angle = 0
+speed = 1
+[branches]
+B = "left of A-G"
+"""
+
+
+@pytest.mark.parametrize(("beyond", "told"), [(12, True), (14, False), (15, False)])
+def test_beside_a_dead_point_neither_side_is_refused_where_rounding_hides_which(beyond, told, read):
+    """A coupler and a rocker in line up to 1e-n m: B stands √10⁻ⁿ m aside, as far as ε/√10⁻ⁿ."""
+    scene = read(STRETCHED.replace("10^BEYOND", str(10**beyond)))
+    solution = Mechanism(scene).solve()
+    assert solution.points["B"].position.imag == pytest.approx(10 ** (-beyond / 2), rel=0.1)
+    other = replace(scene, branches={"B": replace(scene.branches["B"], side=-1)})
+    assert compare(scene, solution).branches == ()
+    assert compare(other, solution).branches == (("B",) if told else ())

@@ -138,7 +138,7 @@ def test_nothing_stops_only_what_no_length_can_stop(case):
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.3, 2.0])
-@pytest.mark.parametrize("push", [-0.4, -0.1, 0.0, 0.7])
+@pytest.mark.parametrize("push", [-0.4, -0.3, -0.1, 0.0, 0.7, 1.0])
 def test_an_even_turn_takes_the_least_time_in_which_its_angle_is_a_whole_turn(speed, push):
     """2π = ω t + α t² / 2; none where it comes to rest before."""
     roots = np.roots([push / 2, speed, -2 * np.pi])

@@ -12,6 +12,7 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import astuple
 
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.scale import Extent
@@ -19,7 +20,16 @@ from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text import words
 from graphkin.web import frames
-from graphkin.web.animation_pictures import BAR, EDGE, SMALL, STEEPEST, Stage, scale_bar, stage
+from graphkin.web.animation_pictures import (
+    BAR,
+    EDGE,
+    SMALL,
+    STEEPEST,
+    Stage,
+    paths_of,
+    scale_bar,
+    stage,
+)
 from graphkin.web.fixed_parts import STILL
 from graphkin.web.frame_marks import cut, mechanism_seen, plan_box
 from graphkin.web.frames import GROWN, FrameSequence, motion
@@ -36,6 +46,7 @@ from graphkin.web.panes import (
     room_in,
     scale_in,
     seated,
+    worth,
 )
 from graphkin.web.player import player_page, vector_names
 from graphkin.web.screen_sheets import screen_sheets
@@ -170,6 +181,33 @@ def test_the_bar_of_a_scale_is_as_long_as_it_says_and_stands_right_of_its_captio
         assert field.rect[0] < box[0] < box[2] < bar.x1
         assert reach(head)[2] < box[0] or reach(head)[3] < box[1]
         assert field.rect[1] < box[1] < bar.y1 < box[3] + 1
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_path_is_drawn_of_every_asked_point_that_moves_and_of_no_other(name):
+    """Each as its own points go: through every moment of the ranges, a whole turn closed."""
+    found = shown(name)
+    scene, points = found.cycle.scene, found.cycle.solution.points
+    asked = {*scene.ask.velocity, *scene.ask.acceleration, *scene.ask.curves}
+    paths = [*paths_of(found)]
+    assert len(paths) == len(asked.difference(scene.fixed_points))
+    for path in paths:
+        own = [z.position for n, z in points.items() if n in asked and np.ndim(z.position)]
+        assert min(abs(row[np.isfinite(row)] - path[0]).min() for row in own) < SLACK
+        assert len({*path}) > 1
+        jumps = abs(np.diff(path))
+        assert jumps.max() < 0.35 * max(np.ptp(np.real(path)), np.ptp(np.imag(path)))
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_the_worth_of_panes_grows_as_drawings_do_and_twice_as_much_by_the_mechanism(way):
+    """k times as small drawings fit k times as large; a plan counts once, the mechanism twice."""
+    rects, box = way(0.5, 2), Extent(-1.0, -1.0, 2.0, 1.0)
+    plans = [[box], [Extent(0.0, 0.0, 1.0, 3.0)]]
+    small, thin = (Extent(*(side / 2 for side in astuple(each))) for each in (box, plans[1][0]))
+    whole = worth(rects, box, plans)
+    assert worth(rects, small, plans) == pytest.approx(4 * whole)
+    assert worth(rects, box, [[box], [thin]]) == pytest.approx(2 * whole)
 
 
 @lru_cache

@@ -81,3 +81,19 @@ def test_every_driver_that_moves_a_pin_has_a_handle_of_its_own(name):
 def test_a_parameter_by_which_only_a_driver_stands_is_the_drivers_own_slider():
     assert [each.name for each in figures(named("pump"))] == ["figure n"]
     assert not figures(mechanism_named("stephenson-3"))
+
+
+@pytest.mark.parametrize("name", [name for name, _ in PARAMETERS])
+def test_a_figure_goes_over_the_range_of_its_parameter_by_its_step(name):
+    """By a hundredth of the range where none is written; it starts at the value of the scene."""
+    mechanism = changed(name, {"n": 7} if name in LABS else {})
+    scene = mechanism.scene
+    found = [each for each in figures(mechanism) if each.parameter]
+    assert found
+    for each in found:
+        own = scene.parameters[each.parameter]
+        low, high = (float(end.number({})) for end in (own.minimum, own.maximum))
+        assert (each.low, each.high) == (low, high)
+        assert each.start == pytest.approx(float(scene.values[each.parameter]))
+        step = (high - low) / 100 if own.step is None else float(own.step.number({}))
+        assert each.step == pytest.approx(step)

@@ -51,6 +51,8 @@ def test_a_lab_has_its_defaults(mine):
     lab = read_lab(mine(RULE))
     assert (lab.fair, lab.rubric, lab.name) == (Fair(), Rubric(), "mine")
     assert lab.text == RULE
+    drawn = "draw = { n = { min = 1, max = 30, step = 1 } }"
+    assert read_lab(mine(f'graphkin = 1\n[variants]\ncourse = "c"\n{drawn}\n')).rule.tries == 100
 
 
 def test_everything_that_is_stated_is_read(mine):
