@@ -43,6 +43,7 @@ async function look(quick) {
   unsettled();
   const own = ++number;
   const waiting = setTimeout(() => drawings.setAttribute("aria-busy", "true"), LONG);
+  const asked = held; // a file that is saved meanwhile is there, though the answer cannot know it
   try {
     const fields = { ...scene(), number: own, mechanism: onMechanism(), quick, ...placesFields() };
     const answer = await ask("look", fields);
@@ -62,7 +63,7 @@ async function look(quick) {
     showSketch(answer.sketch);
     document.body.dataset.shown = String(own);
     if (own === number && !timer) document.body.dataset.settled = String(!quick);
-    if (!answer.there && held.mark && held.name === file.value.trim()) gone();
+    if (!answer.there && asked === held && held.mark && held.name === file.value.trim()) gone();
     unsaved();
     if (!quick) moveSoon();
     return true;
