@@ -152,7 +152,7 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     """The ranges in which a course closes, from so many positions, evenly spread."""
     import numpy as np
 
-    from graphkin.motion.course import closed_in
+    from graphkin.motion.course import closing_columns
     from graphkin.motion.driving import TURN
     from graphkin.motion.turns_followed import led_both
 
@@ -163,7 +163,7 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     least = step if course.closing_work else 0.0
     course = led_both(course, sweep.start, float(grid[0]), float(grid[-1]), least)
     margins = course.margins(grid)
-    closed = closed_in(margins)
+    closed = closing_columns(margins)
     if not closed.any():
         return []
     closed |= touched(margins, closed, sweep.whole)

@@ -201,7 +201,7 @@ class Course(Struct, frozen=True, dict=True):
 
     def closes(self, at: Any) -> Flags:
         """Whether everything can be placed, and in one way, for each u (N,)."""
-        return closed_in(self.margins(at))
+        return closing_columns(self.margins(at))
 
     def is_placed(self, at: Any) -> Flags:
         """Whether everything has a place, if rounding alone gives it one, for each u (N,)."""
@@ -270,9 +270,9 @@ class Course(Struct, frozen=True, dict=True):
         }
 
 
-def closed_in(margins: Reals) -> Flags:
+def closing_columns(margins: Reals) -> Flags:
     """Which columns of margins close: all is placed, and no two loci lie on one another."""
-    return np.asarray((np.isfinite(margins) & (margins >= NOISE)).all(axis=0))
+    return np.asarray((margins >= NOISE).all(axis=0))  # NaN is not
 
 
 def spread(value: Any, count: int) -> Any:

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from msgspec import Struct
 
-from graphkin.motion.course import Course, Reals, closed_in
+from graphkin.motion.course import Course, Reals, closing_columns
 from graphkin.motion.driving import GRID
 from graphkin.motion.refine import AROUND, TOUCH, last_closing, least_square, touching
 from graphkin.numbers.plane import Line
@@ -76,7 +76,7 @@ def event_between(course: Course, start: float, stop: float) -> Event:
         grid = np.append(grid, stop + each * np.arange(1, PAST + 1))
     margins = course.margins(grid)
     margins[:, 0] = np.where(np.isfinite(margins[:, 0]), margins[:, 0], 0.0)
-    closed = closed_in(margins)
+    closed = closing_columns(margins)
     closed[0] = True
     end = first_end(course, grid, closed)
     last = len(grid) if end is None else end + 1
