@@ -23,7 +23,7 @@ from tests.mechanisms import mechanism_of
 LABS = ("pump", "pump-collinear", "slotted-lever", "offset-slider-crank")
 SIGNS = {"velocity": "v", "acceleration": "a"}
 PLANES = {"velocity": Plane.VELOCITIES, "acceleration": Plane.ACCELERATIONS}
-SEEDS = (*range(16), 96, 250, 386)
+SEEDS = (*range(8), 96, 250, 386)
 """Mechanisms made at random; the last close two trials on a guide of a link that turns."""
 
 YOKE = """
@@ -118,7 +118,7 @@ def made():
 
 
 def test_so_it_may_in_mechanisms_made_at_random():
-    assert len(made()) > 8
+    assert len(made()) > 5
     faults = {seed: not_drawn(asking(one, beneath(one.scene))) for seed, one in made().items()}
     assert not {seed: missing for seed, missing in faults.items() if missing}
 

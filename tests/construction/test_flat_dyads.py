@@ -30,7 +30,7 @@ DEGREE = 4
 """Of the polynomial, at most, in the turn of link 5."""
 NEAR = ("12.2943568", "53.1639033")
 """Angles of the driver (degrees) near which links 3 and 4 are in line in one closure."""
-OFFSETS = ["+1e-4", "-1e-6", "+1e-8", "-1e-8", "+1e-10", "-1e-12"]
+OFFSETS = ["+1e-4", "-1e-8", "+1e-12"]
 """Degrees from there, to both sides."""
 
 
@@ -121,7 +121,7 @@ def test_every_closure_has_its_number(near, offset):
             assert trace.value("position", point) == pytest.approx(complex(place), abs=1e-8)
 
 
-@pytest.mark.parametrize(("near", "offset"), [(NEAR[0], "+1e-7"), (NEAR[1], "-1e-11")])
+@pytest.mark.parametrize(("near", "offset"), [(NEAR[0], "+1e-7")])
 def test_there_is_no_other_closure_and_check_lists_all(near, offset):
     angle = flat_at(near) + MP.mpf(offset)
     expected = [complex(c) for c, _ in places(angle)]
@@ -134,7 +134,7 @@ def test_there_is_no_other_closure_and_check_lists_all(near, offset):
 
 
 @pytest.mark.parametrize("near", NEAR)
-@pytest.mark.parametrize("offset", [*OFFSETS, "+1e-16", "-1e-16"])
+@pytest.mark.parametrize("offset", [*OFFSETS, "-1e-16"])
 def test_balls_hold_the_place_of_every_closure(near, offset):
     angle = flat_at(near) + MP.mpf(offset)
     for number, pins in enumerate(places(angle), 1):
@@ -149,7 +149,7 @@ def test_balls_hold_the_place_of_every_closure(near, offset):
 
 
 @pytest.mark.parametrize("near", NEAR)
-@pytest.mark.parametrize("offset", ["+1e-4", "-1e-8", "+1e-12"])
+@pytest.mark.parametrize("offset", OFFSETS[1:])
 def test_decimals_hold_to_all_digits(near, offset):
     angle = flat_at(near) + MP.mpf(offset)
     for number, pins in enumerate(places(angle), 1):
@@ -157,7 +157,7 @@ def test_decimals_hold_to_all_digits(near, offset):
         assert abs(MP.mpmathify(str(trace.value("position", "D").real)) - pins[1].real) < 1e-35
 
 
-@pytest.mark.parametrize(("near", "offset"), [(NEAR[0], "+1e-8"), (NEAR[1], "-1e-6")])
+@pytest.mark.parametrize(("near", "offset"), [(NEAR[0], "+1e-8")])
 def test_no_more_digits_are_promised_than_there_are(near, offset):
     angle = flat_at(near) + MP.mpf(offset)
     for number, pins in enumerate(places(angle), 1):

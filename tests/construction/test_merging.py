@@ -150,7 +150,7 @@ MERGES = (
 def test_the_last_closures_have_their_numbers(merge, offset):
     angle = merge.at + MP.mpf(offset)
     trials = merge.trials(angle)
-    for number in (1, len(trials) - 1, len(trials)):
+    for number in (len(trials) - 1, len(trials)):
         trace = merge.mechanism(angle, number).trace([("position", "A")])
         expected = merge.arm * np.exp(1j * float(trials[number - 1]))
         assert abs(trace.value("position", "A") - expected) < 1e-3 * merge.arm
@@ -159,7 +159,7 @@ def test_the_last_closures_have_their_numbers(merge, offset):
 
 
 @pytest.mark.parametrize("merge", MERGES, ids=lambda merge: merge.scene)
-@pytest.mark.parametrize("offset", ["+1e-6", "+1e-13", "+1e-18"])
+@pytest.mark.parametrize("offset", ["+1e-6", "+1e-18"])
 def test_balls_hold_each_closure_beside_the_merge(merge, offset):
     angle = merge.at + MP.mpf(offset)
     exact = [
