@@ -10,8 +10,9 @@ from graphkin.loops.loop_motion import pose_of, setting_of, unknowns_of
 from graphkin.loops.witness.examine import examine
 from graphkin.structure.groups import Higher
 from tests.chance.checking import case
+from tests.chosen import EVERY
 
-SEEDS = (9, 16, 78, 302, 690)
+SEEDS = (9, 16, 78, 302, 690) if EVERY else (16, 78, 690)
 """Plates, wheels on long tracks, drivers within, windows narrower than a degree."""
 
 

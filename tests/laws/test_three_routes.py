@@ -8,21 +8,13 @@ from tests.chosen import EVERY
 SEEN = {
     41: "a flat follower that an arm carries round a cam at rest, by a table",
     59: "a bar on a drum of the frame, with a block hung on it",
-    78: "two closures less than a degree apart, between a chain's dead points",
     104: "a strand just half a turn from where it counts: a root before a jump",
     112: "two pins so close together that rounding turns a link",
-    119: "two links tried at once, with no dyad that closes in two ways",
-    122: "a block that keeps a wheel seems to hold the wheel's track, too, where nothing is closed",
     161: "a sun driven against a block on a link that a driver turns",
-    206: "a lever with a flat face",
     248: "a plate on a guide of the link that it leads",
-    251: "a link that turns far more quickly than the driver: a trial must not be too small",
-    302: "a small wheel on a long track, in the 43rd of 44 closures",
-    343: "a bar on a roller whose rod leads to planets",
     359: "a block that closes with one group and is a guide's way in another",
     465: "a link that a driver turns another from, asked for before that stands",
     521: "a plank turned half round, but for rounding",
-    538: "a plank on rollers on a plate of a group that is tried",
     651: "a crank driven from its end, with a block on it, beside wheels",
     684: "so near a singular position that the loops refuse it",
     690: "guides that lead a plate farther than its bars reach",
@@ -30,39 +22,48 @@ SEEN = {
     766: "a wheel driven against a block, whose angles add up to more than half a turn",
     762: "a wheel that its driver turns on its track, and that carries a track itself",
     798: "a wheel on a block of a driven crank that has gone more than half round",
-    993: "a plate's leg on the bar that lies on a wheel",
     1066: "a cam on a bar of a group that is tried along a guide",
-    1133: "a block of a group that is tried, on a guide that comes later",
     1187: "a sun driven against a block that pins alone turn",
-    1263: "a closure close beside the end of where the chain can be drawn",
     1269: "rollers between two bars, either of which might lie on the other",
     1318: "a wheel on pins, more than half a turn from the bar that lies on it",
     1495: "a wheel driven against a link turned half round, but for rounding",
     1627: "trains on a rod and on the block that slides along it",
     1661: "a guide along two points close together, far from the origin",
     1734: "a cam on a link that is a track",
-    1856: "an acceleration a hundred million times the driver's",
     1900: "a closure and a way that would stand under one name",
     2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
     2701: "a wheel that turns about a point at rest, a thousand times smaller than the whole",
     2878: "links that hang on a track by a driver",
-    3012: "a sun driven against a block of a link that rolls",
     3047: "a wheel on two tracks that must not slip on either",
-    3330: "a closure beside a flat dyad, along which all corners of its cell lie",
     3857: "a sun driven against a block that slides on a wheel that rolls",
     4061: "a plate with a profile on the rod of a cylinder, beside the tube's pin",
     4423: "an arm of one train that is a wheel's track of another",
-    4893: "racks on one link and a wheel between them, which seem to hold that link",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 LONG = {
+    78: "two closures less than a degree apart, between a chain's dead points",
+    119: "two links tried at once, with no dyad that closes in two ways",
+    122: "a block that keeps a wheel seems to hold the wheel's track, too, where nothing is closed",
+    206: "a lever with a flat face",
+    251: "a link that turns far more quickly than the driver: a trial must not be too small",
+    302: "a small wheel on a long track, in the 43rd of 44 closures",
+    343: "a bar on a roller whose rod leads to planets",
+    538: "a plank on rollers on a plate of a group that is tried",
+    993: "a plate's leg on the bar that lies on a wheel",
+    1133: "a block of a group that is tried, on a guide that comes later",
+    1263: "a closure close beside the end of where the chain can be drawn",
+    1856: "an acceleration a hundred million times the driver's",
+    3012: "a sun driven against a block of a link that rolls",
+    3330: "a closure beside a flat dyad, along which all corners of its cell lie",
+    4893: "racks on one link and a wheel between them, which seem to hold that link",
     1292: "a bar on the wheel of a block whose way is stated",
     4503: "a wheel on pins beside a bar that the loops cannot assemble by another count",
 }
-"""The same, where the loops count closures among thousands of starts: ``EVERY=1`` alone."""
+"""The same, where a route takes a second or many, as where the loops count closures among thousands
+of starts: ``EVERY=1`` alone, and every run of ``tests.chance``."""
 
 
-@pytest.mark.parametrize("seed", [*range(60), *SEEN, *LONG] if EVERY else [*range(12), *SEEN])
+@pytest.mark.parametrize("seed", [*range(60), *SEEN, *LONG] if EVERY else [*range(9), *SEEN])
 def test_three_routes_agree(seed):
     made = case(seed)
     if made is None:
