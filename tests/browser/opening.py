@@ -14,7 +14,6 @@ MUST = "GRAPHKIN_BROWSER"
 """The variable that makes a missing browser a failure."""
 ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 ARGS += ["--disable-background-networking", "--disable-component-update", "--disable-sync"]
-ARGS += ["--in-process-gpu", "--js-flags=--single-threaded"]  # a third less work for two cores
 
 Opened = Callable[..., Any]
 LONG = 300_000

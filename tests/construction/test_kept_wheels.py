@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cmath import exp, phase
+from cmath import exp
 from functools import cache
-from math import atan, cos, pi, radians, sin, sqrt
+from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -12,12 +12,11 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.higher_class.two_trials import TwoTrials
-from graphkin.construction.rolling.rolling_normal import RollingOnWheel
 from graphkin.loops.assemble import assemble
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.driver_count import count
-from graphkin.structure.groups import Higher, Spun
+from graphkin.structure.groups import Higher
 from graphkin.text.errors import GraphkinError, SceneError, StructureError
 from tests.chosen import FOLDER
 
@@ -96,74 +95,6 @@ def test_loops_that_know_no_such_link_agree(name):
             assert complex(got[0]) == pytest.approx(want, abs=1e-11)
 
 
-@pytest.mark.parametrize(
-    ("radius", "track", "inside"),
-    [
-        (0.05, 0.15, "track"),
-        (1e-3, 0.7, "track"),
-        (0.2, 0.3, ""),
-        (3.0, 1e-2, ""),
-        (0.4, 0.1, "own"),
-    ],
-)
-@pytest.mark.parametrize("turn", [0.3, 2.5, -7.0])
-def test_a_driven_wheel_leads_its_centre_about_the_other(radius, track, inside, turn):
-    """Its centre goes round at c = R ± r with ω·r/c, the wheel's rim with r (closed form).
-
-    The same wheel in a ring, beside a wheel, and as a ring about one.
-    """
-    speed, rate, reach = 2.0, 5.0, 0.6 * radius
-    own, other = (-radius if inside == "own" else radius, -track if inside == "track" else track)
-    flags = {"ring": inside == "track", "round": inside == "own"}
-    text = WHEEL.format(
-        radius=radius,
-        track=track,
-        reach=reach,
-        turn=turn,
-        speed=speed,
-        rate=rate,
-        **{key: ", inside = true" if on else "" for key, on in flags.items()},
-    )
-    one = made(text)
-    assert isinstance(one.groups[0], Spun)
-    assert one.groups[0].title == "link 1 turned by its driver, rolling on link 0"
-    found, share = one.solve(), own / (own + other)
-    arm = {"ring": track - radius, "round": radius - track}
-    far = next((arm[key] for key, on in flags.items() if on), track + radius)
-
-    def at(way, turning):
-        """A vector with its first two derivatives, of length ``way`` at ``turning`` times φ."""
-        place = way * exp(1j * turning * turn)
-        v = 1j * turning * speed * place
-        return place, v, 1j * turning * rate * place - (turning * speed) ** 2 * place
-
-    centre, pin = at(far, share), at(reach, 1.0)
-    size = far + reach
-    for got, want in zip(told(found, "P"), centre, strict=True):
-        assert got == pytest.approx(want, abs=1e-12 * size * 50)
-    for got, one_, two in zip(told(found, "Q"), centre, pin, strict=True):
-        assert got == pytest.approx(one_ + two, abs=1e-12 * size * 50)
-
-
-def test_the_rim_of_a_wheel_in_a_ring_is_accelerated_to_its_centre():
-    """a_T = ω²·rR/(R - r) against the ring: 16·50·150/100 mm/s², the scene's comment."""
-    one = example("wheel-in-ring")
-    trace = one.trace()
-    (rolls,) = (k for k in constructions(one.program, RollingOnWheel) if k.vector in trace.values)
-    assert abs(trace.values[rolls.vector]) == pytest.approx(1.2)
-
-
-@pytest.mark.parametrize("phi", [20, 60, 120])
-def test_a_bar_on_a_drum_draws_involutes(phi):
-    """Huygens: A = r·(sin φ - φ cos φ, -cos φ - φ sin φ), which starts below the drum."""
-    found, r, turn, speed = example("bar-on-drum", phi=phi).solve(), 0.06, radians(phi), 4.0
-    place, velocity, acceleration = told(found, "A")
-    u = exp(1j * turn)
-    assert place == pytest.approx(-r * (1j + turn) * u)
-    assert velocity == pytest.approx(-1j * r * turn * speed * u)
-    assert acceleration == pytest.approx(r * speed**2 * (turn - 1j) * u)
-
-
 @pytest.mark.parametrize("extra", [0, 3])
 def test_a_driven_bar_counts_its_turns_as_written(extra):
     """After whole turns more the drum has taken up so many more rims of the bar."""
@@ -172,92 +103,6 @@ def test_a_driven_bar_counts_its_turns_as_written(extra):
     place = made(text).solve().points["A"].position
     u, turn = exp(1j * pi / 3), pi / 3 + 2 * pi * extra
     assert place == pytest.approx(-0.06 * (1j + turn) * u)
-
-
-@pytest.mark.parametrize("hung", ["", ", link = 4"])
-def test_what_hangs_on_a_driven_bar_of_a_drum_leaves_it_to_its_driver(hung):
-    """The bar's end goes along an involute of the drum; a rod pulls a lever by it."""
-    text = f"""
-graphkin = 1
-title = "Bar on a drum that pulls a lever"
-units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
-[frame]
-O = [0, 0]
-L = [190, 60]
-wheel = {{ centre = "O", radius = 45 }}
-rolls = {{ on = 1, through = "A", angle = 0, start = {{ 1 = 100 }}{hung} }}
-[links.1]
-A-B = 180
-[links.2]
-B-C = 95
-[links.3]
-L-C = 110
-[[drivers]]
-turn = 1
-angle = 62
-speed = 3
-acceleration = 6
-[branches]
-C = "left of B-L"
-"""
-    one = made(text)
-    found, r, wound, speed = one.solve(), 0.045, radians(62 - 100), 3.0
-    u = exp(1j * radians(62))
-    place, velocity, acceleration = told(found, "B")
-    assert place == pytest.approx((0.18 - r * wound - 1j * r) * u)
-    assert velocity == pytest.approx(1j * speed * (0.18 - r * wound) * u)
-    along = 0.18 - r * wound
-    rise = (1j * 6 * along - speed**2 * along - 1j * r * speed**2) * u
-    assert acceleration == pytest.approx(rise)
-    end, pivot = found.points["C"], 0.19 + 0.06j
-    assert abs(end.position - pivot) == pytest.approx(0.11)
-    rod = end.position - place
-    assert ((end.velocity - velocity) * rod.conjugate()).real == pytest.approx(0, abs=1e-12)
-    assert one.witness(found).agrees
-
-
-@pytest.mark.parametrize("s", [200, 300, 400])
-def test_a_rope_keeps_its_length(s):
-    """v·u = ωr along the strand; strand and what is wound up are as long as before."""
-    found = example("rope-on-drum", s=s).solve()
-    end, r = found.points["A"], 0.06
-    way = abs(end.position)
-    strand = sqrt(way**2 - r**2)
-    rise = end.position / way * (-strand / way) + 1j * (end.position / way) * (r / way)
-    rise /= abs(rise)  # from the slider towards the drum
-    omega = found.links["1"].omega
-    assert abs(omega * r) == pytest.approx(abs((end.velocity.conjugate() * rise).real))
-
-
-def test_what_a_rope_winds_is_what_its_strand_loses():
-    """Between two places of the slider the rim turns as strand and its angle say together."""
-    r, lengths, turns = 0.06, [], []
-    for s in (250, 260):
-        one = example("rope-on-drum", s=s)
-        found = one.solve()
-        end, drum = found.points["A"].position, found.points["C"].position
-        lengths.append(sqrt(abs(end) ** 2 - r**2))
-        turns.append((drum, end))
-    angle = [phase(drum) for drum, _ in turns]
-    strand = [
-        phase(end) + atan(length / r) for (_, end), length in zip(turns, lengths, strict=True)
-    ]
-    wound = r * ((angle[1] - angle[0]) - (strand[1] - strand[0]))
-    assert abs(wound) == pytest.approx(lengths[1] - lengths[0])
-
-
-@pytest.mark.parametrize("phi", [0, 60, 130, 250])
-def test_a_bar_lies_on_its_roller(phi):
-    """The bar is the tangent from the crank's pin; the roller turns as the strand of a belt."""
-    found, r = example("bar-on-roller", phi=phi).solve(), 0.03
-    pin, far, centre = found.points["A"], found.points["B"], 0.2 + 0.04j
-    along = (far.position - pin.position) / abs(far.position - pin.position)
-    beside = centre - pin.position
-    assert (along.conjugate() * beside).imag == pytest.approx(-r)
-    touch = centre + 1j * along * r
-    rim = 1j * found.links["3"].omega * (touch - centre)
-    bar = pin.velocity + 1j * found.links["2"].omega * (touch - pin.position)
-    assert rim == pytest.approx(bar)
 
 
 def test_a_hinged_bar_on_a_roller_as_hibbeler_prints_it():
@@ -285,45 +130,6 @@ def test_an_arm_and_its_wheel_are_no_dyad_at_an_instant():
     one = load(FOLDER.parents[1] / "tests" / "scenes" / "two-gear-crank.toml")
     (group,) = (each for each in one.groups if isinstance(each, Higher))
     assert not group.at_instant
-
-
-def test_a_planet_may_be_driven_itself_as_by_its_arm():
-    """Between a turning sun and its own driver: as when the arm is driven to where that leads."""
-    text = (
-        HEAD
-        + """
-[frame]
-O = [0, 0]
-[links.sun]
-O = [0, 0]
-wheel = {{ centre = "O", radius = 0.06 }}
-[links.arm]
-O-P = 0.1
-[links.planet]
-P-Q = 0.03
-wheel = {{ centre = "P", radius = 0.04 }}
-rolls = {{ on = "sun" }}
-[[drivers]]
-turn = "sun"
-angle = 0.4
-speed = -3
-acceleration = 2
-[[drivers]]
-turn = "{driven}"
-angle = {angle}
-speed = {speed}
-acceleration = {rate}
-"""
-    )
-    by_arm = made(text.format(driven="arm", angle=0.7, speed=5, rate=-1)).solve()
-    turn = 0.7 - (0.4 - 0.7) * 1.5
-    speed, rate = 5 - (-3 - 5) * 1.5, -1 - (2 + 1) * 1.5
-    own = made(text.format(driven="planet", angle=turn, speed=speed, rate=rate))
-    assert any(isinstance(group, Spun) for group in own.groups)
-    by_planet = own.solve()
-    for point in ("P", "Q"):
-        for got, want in zip(told(by_planet, point), told(by_arm, point), strict=True):
-            assert got == pytest.approx(want)
 
 
 def test_the_line_of_centres_may_be_named_and_driven():

@@ -21,6 +21,7 @@ from graphkin.text import words
 from graphkin.writers.files import rendered
 from tests.bench.chain import scene
 from tests.chosen import FOLDER as SCENES
+from tests.chosen import SPOKEN
 from tests.documents.sheet_tools import collisions, drawings, outside
 from tests.scene_files import scene_text
 
@@ -127,7 +128,7 @@ def long_chain(language):
     return drawings_of(mechanism, proved(mechanism, mechanism.solve()), words(language))
 
 
-@pytest.mark.parametrize("language", ["ro", "en", "it"])
+@pytest.mark.parametrize("language", SPOKEN)
 @pytest.mark.parametrize("view", ["key", "task"])
 def test_tables_and_data_that_fill_more_than_a_sheet_go_on_over_several(view, language):
     """Every row and datum stands there once, beside nothing else, in large letters."""

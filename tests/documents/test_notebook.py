@@ -15,6 +15,7 @@ from graphkin.drawing.glyphs import size_for
 from graphkin.drawing.style import BLUE, STYLES
 from graphkin.text.errors import PageError, SceneError
 from graphkin.writers.axes import face
+from tests.chosen import EVERY
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
@@ -84,7 +85,7 @@ def heads(ax):
     return found
 
 
-@pytest.mark.parametrize("later", [False, True])
+@pytest.mark.parametrize("later", [False, True] if EVERY else [True])
 def test_letters_and_arrowheads_of_all_drawings_in_a_figure_are_of_one_size(later):
     """Capitals are 2.5 mm high and heads 3.2 mm long, as on the sheets, in axes of every size."""
     names = ("pump", str(SCENES / "oscillating-slide.toml"), str(SCENES / "gears-planet.toml"))

@@ -22,7 +22,7 @@ from graphkin.drawing.style import NOW, TINTS, style_of
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import FRAME, Ask
 from graphkin.text import words as words_of
-from tests.chosen import CHOSEN, FOLDER
+from tests.chosen import FOLDER, HALVES
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 SOME = ["pump", *(str(SCENES / f"{name}.toml") for name in ("rapid-return", "gears-planet"))]
@@ -31,7 +31,7 @@ SOME += [str(SCENES / f"{name}.toml") for name in ("stephenson-2-ternary", "rod-
 
 UNDRAWN = {"closing", "share", "c", "ν none", "ν by number"}
 """The names of sentences that may draw nothing: of numbers, of trials without a locus."""
-ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in CHOSEN)]
+ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[1])]
 
 
 @cache

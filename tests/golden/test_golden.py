@@ -7,9 +7,9 @@ import pytest
 from tests.golden.kept import STORE, changed, differences, kept, read
 from tests.golden.works import CLASSES, SCENES, outputs, works
 
-PERIODS = {"html": 40, "sheet small": 10, "check small": 4, "mistake": 2}
+PERIODS = {"html": 60, "sheet small": 15, "check small": 4, "mistake": 2}
 """Of how many subjects one is tried with a work that makes a page, and with small scenes."""
-OTHERS = 24
+OTHERS = 30
 """The same of all other works."""
 SLOW = tuple(
     f"scene-{name}"

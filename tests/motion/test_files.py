@@ -66,7 +66,7 @@ def test_a_centre_at_infinity_leaves_its_cell_empty():
 
 
 def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_path: Path):
-    result = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--steps", 36)
+    result = run("cycle", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg", "--steps", 12)
     assert result.exit_code == 0, result.stderr
     names = {path.name for path in tmp_path.iterdir()}
     assert "pump-n7-cycle.csv" in names
@@ -81,7 +81,7 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
         "agrees in every row",
     ):
         assert words in result.stdout
-    more = ("-o", tmp_path, "--format", "svg", "--steps", 12)
+    more = ("-o", tmp_path, "--format", "svg", "--steps", 4)
     again = run("cycle", "pump", "--set", "n=7", *more)
     assert again.exit_code == 2
     assert "--force replaces it" in again.stderr

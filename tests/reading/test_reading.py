@@ -415,7 +415,7 @@ def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(
         assert told["code"] == code
 
 
-HALVED = [(90.5, 181.0, 150, 3), (0.6, -0.8, 200, 0)]
+HALVED = [(90.5, -0.8, 150, 3), (0.6, 181.0, 200, 0)]
 """How the halves of a sheet lie on a scanner, its dots to an inch, and by how much they lap."""
 
 
