@@ -1,7 +1,7 @@
 """Benchmarks on request, as ratios within one run: ``python -m tests.bench``.
 
 Every row names what is measured, its time, and how many times that of the plain thing beside it.
-``python -m tests.bench.effects`` (or ``.motion .chain .start .variants .printing .screen``) prints
+``python -m tests.bench.motion`` (or ``.chain .start .variants .printing .screen``) prints
 one part alone.
 """
 
@@ -28,7 +28,7 @@ from graphkin.numbers.arithmetic import batch_kind
 from graphkin.text import words
 from graphkin.writers.pdf import write_pdf
 from graphkin.writers.svg import write_svg
-from tests.bench import chain, effects, motion, printing, screen, start, variants
+from tests.bench import chain, motion, printing, screen, start, variants
 from tests.bench import pump_by_formulas as formulas
 from tests.bench.page_by_matplotlib import both_files
 
@@ -201,7 +201,7 @@ def table() -> str:
     return "\n".join(
         [
             *lines,
-            *("", effects.table(), "", motion.table(), "", chain.table()),
+            *("", motion.table(), "", chain.table()),
             *("", start.table(), "", variants.table(), "", printing.table(), "", screen.table()),
         ]
     )
