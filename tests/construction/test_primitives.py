@@ -1,9 +1,7 @@
 """Rounding of the primitives: each within its bound, against 60 digits on the same numbers.
 
 eps = 2^-52, s = sine of the angle at which the loci cross. The generators are scaled by
-logarithms, for the errors lie where sizes differ by powers of ten and lines cross flatly. Beside
-each property stands the textbook formula that must fail it: a test that the wrong formula passes
-is not a test.
+logarithms, for the errors lie where sizes differ by powers of ten and lines cross flatly.
 """
 
 from __future__ import annotations
@@ -11,6 +9,7 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import mpmath
@@ -24,6 +23,7 @@ from graphkin.construction.core import vocabulary
 from graphkin.construction.links import dyad_by_arcs
 from graphkin.construction.normal_component import normal_component
 from graphkin.construction.velocity import lines_through
+from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import (
     Circle,
     Line,
@@ -31,7 +31,7 @@ from graphkin.numbers.plane import (
     line_meets_circle,
     line_meets_line,
 )
-from tests.mechanisms import angles, directions, log_scaled, signs
+from tests.mechanisms import directions, log_scaled, signs
 
 EPS = 2.0**-52
 MANY = settings(max_examples=75, deadline=None, derandomize=True, database=None)
@@ -408,14 +408,22 @@ def test_errors_of_a_flat_dyad_grow_as_the_square_and_the_cube_of_one_over_the_s
     assert dyad_within(sample) == (True, True)
 
 
+# --- directions ----------------------------------------------------------------------------------
+
+
+@st.composite
+def turned(draw):
+    """Exact degrees: a small or a large part of a turn beside whole quarters, and many turns."""
+    beside = Fraction(draw(log_scaled(1e-12, 45))) * draw(signs())
+    quarters = draw(st.integers(-4, 4)) + 4 * draw(st.integers(-1000, 1000))
+    return 90 * quarters + beside
+
+
 @MANY
-@given(angles(0, 360), st.integers(-4, 4))
-def test_a_direction_of_so_many_degrees_is_right_to_an_eps(angle, turns):
-    from fractions import Fraction
-
-    from graphkin.numbers.arithmetic import FLOAT
-
-    degrees = Fraction(angle) * 57 + 360 * turns
-    with mpmath.workdps(60):
-        exact = mpmath.expj(mpmath.mpf(degrees.numerator) / degrees.denominator * mpmath.pi / 180)
-        assert abs(mpc(FLOAT.direction(degrees)) - exact) <= EPS
+@given(turned())
+def test_each_coordinate_of_a_direction_is_right_to_2_eps_also_beside_the_axes(degrees):
+    with mpmath.workdps(80):
+        exact = mpmath.expjpi(mpmath.mpf(degrees.numerator) / degrees.denominator / 180)
+        found = FLOAT.direction(degrees)
+        for mine, true in ((found.real, exact.real), (found.imag, exact.imag)):
+            assert abs(mpmath.mpf(mine) - true) <= 2 * EPS * abs(true)
