@@ -20,7 +20,7 @@ from graphkin.scene.model import Closure
 def swept():
     """A Stephenson III driven at the crank of its two-link path, across two new numbers."""
     mechanism = load("examples/scenes/stephenson-3-crank.toml")
-    return cycle(mechanism, low=95, high=125, steps=16)
+    return cycle(mechanism, low=95, high=125, steps=10)
 
 
 def test_the_closure_is_followed_under_its_changing_number(swept):

@@ -71,14 +71,6 @@ def test_dead_points_of_a_crank_that_the_rod_cannot_follow():
     assert {each.lines for each in found.singulars} == {"A-B square to the guide of 3"}
 
 
-@pytest.mark.parametrize(
-    ("r", "c", "d", "full"),
-    [(2, 5, 0, True), (2, 5, 3, True), (2, 5, 3.001, False), (2, 5, -3, True), (3, 2, 0, False)],
-)
-def test_a_slider_crank_turns_fully_iff_crank_and_offset_do_not_exceed_the_rod(r, c, d, full):
-    assert cycle(slider_crank(r, c, d, angle=0)).path.whole == full
-
-
 def test_the_pump_ends_where_its_rod_is_square_to_the_guide():
     found = cycle(load("pump", n=7))
     ((low, high),) = found.ranges

@@ -81,7 +81,7 @@ def test_a_kite_exactly_there_says_that_its_arcs_are_one(tmp_path):
     with pytest.raises(ClosureError, match="A falls on O2, and AB is as long as O2B") as raised:
         folded.mechanism().solve()
     assert "change point" in str(raised.value)
-    said = commanded(folded, tmp_path, LONG, pictures=True)
+    said = commanded(folded, tmp_path, LONG)
     assert {statuses(said)[name] for name in ("check", "solve", "json", "sheet")} == {2}
     assert statuses(said)["cycle"] == 0
 

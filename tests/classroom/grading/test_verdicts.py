@@ -16,14 +16,8 @@ def every() -> list[Verdict]:
     return [each for lab, n, half in labs for each in verdicts(lab, n, 1, half)]
 
 
-def test_ninety_nine_of_a_hundred_verdicts_are_right(every):
-    wrong = [each for each in every if not each.is_right]
-    assert len(every) > 1500
-    assert len(wrong) <= 0.01 * len(every), wrong
-
-
 @pytest.mark.parametrize("kind", KINDS)
-def test_of_each_kind_nearly_all_are(every, kind):
+def test_every_verdict_is_that_of_the_rules(every, kind):
     found = [each for each in every if each.kind == kind]
     assert len(found) > 5
-    assert sum(not each.is_right for each in found) <= 0.05 * len(found), found
+    assert [each for each in found if not each.is_right] == []
