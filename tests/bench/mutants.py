@@ -267,7 +267,8 @@ def tried(copy: Path, tests: Mapping[int, Sequence[str]], jobs: int) -> dict[int
     with ThreadPoolExecutor(jobs) as pool:
         for path, some in shares.items():
             path.write_text(json.dumps(some), encoding="utf-8")
-            files = sorted({test.partition("::")[0] for _, own in some for test in own})
+            files = {file_of(test) for _, own in some for test in own}
+            files = sorted(file for file in files if (copy / file).is_file())  # those still there
             runs.append(pool.submit(run, copy, files, TRIED=str(path)))
     assert not any(each.result() for each in runs), "the tests could not be tried"
     found = {}

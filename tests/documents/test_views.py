@@ -31,7 +31,7 @@ SOME += [str(SCENES / f"{name}.toml") for name in ("stephenson-2-ternary", "rod-
 
 UNDRAWN = {"closing", "share", "c", "ν none", "ν by number"}
 """The names of sentences that may draw nothing: of numbers, of trials without a locus."""
-ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[1])]
+ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[0])]
 
 
 @cache
