@@ -412,8 +412,8 @@ def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):
 
 @pytest.mark.parametrize("way", ["mouse", "touch", "keys"])
 def test_the_velocity_plan_of_the_pump_by_one_hand(opened: Opened, pages: Path, way: str):
-    """Each move by mouse, by finger on a phone, or by keys alone, up to the second point, by keys
-    to the first: all right, none by help."""
+    """Each move by mouse up to the second point, by finger on a phone or by keys alone to the
+    first: all right, none by help."""
     sheets = screen_sheets(load("pump"), "en")
     turn = your_turn(sheets, telling(sheets))
     moves = sorted(turn.moves.values(), key=lambda move: (move.at, move.step))
@@ -421,7 +421,7 @@ def test_the_velocity_plan_of_the_pump_by_one_hand(opened: Opened, pages: Path, 
     assert "Sought: a (oa = vA)" in page.locator("#turn-count").inner_text()
     hand = TurningHand(page, sheets, turn, way)
     hand.done |= {move.step for move in moves if move.at < 5}
-    last, point_ = (11, "d") if EVERY else (5, "a") if way == "keys" else (7, "b")
+    last, point_ = (11, "d") if EVERY else (7, "b") if way == "mouse" else (5, "a")
     for move in moves:
         if 5 <= move.at <= last:
             assert "right." in hand.draw(move), move

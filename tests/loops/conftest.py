@@ -1,4 +1,4 @@
-"""Scenes from their text; what the loops found as a solution to be held against them."""
+"""Scenes from their text, and their loops closed from rough positions."""
 
 from __future__ import annotations
 
@@ -8,11 +8,9 @@ from typing import Any
 
 import pytest
 
-from graphkin.construction.core.solution import LinkMotion, PointMotion, SlideMotion, Solution
 from graphkin.loops.equations import equations
 from graphkin.loops.newton import LoopSolution, solve
-from graphkin.numbers.plane import Ratio
-from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_scene, read_text
 
 SHEETS = Path(__file__).parents[2] / "sheets"
@@ -61,40 +59,3 @@ def solved() -> Callable[..., LoopSolution]:
         return solve(equations(scene, values), places, slides)
 
     return solver
-
-
-@pytest.fixture
-def written() -> Callable[[LoopSolution], Solution]:
-    """The loops' motion as a solution, with every centre and pole, as the construction gives it."""
-    return as_solution
-
-
-def as_solution(found: LoopSolution) -> Solution:
-    motion = found.motion
-    single = found.loops.numbers.single
-
-    def own(array: Any) -> Any:
-        return array[0].item() if single else array
-
-    points = {
-        name: PointMotion(*(own(row[:, i]) for row in motion.points))
-        for name, i in motion.names.items()
-    }
-    links = {name: link_motion(motion, i, own) for name, i in motion.index.items() if name != FRAME}
-    slides = {
-        guide.block: SlideMotion(*map(own, motion.slide(j)))
-        for j, guide in enumerate(found.loops.guides)
-        if guide.first
-    }
-    return Solution(points, links, slides, 0.5 if single else abs(motion.omega[:, 0]) * 0 + 0.5)
-
-
-def link_motion(motion: Any, i: int, own: Callable[[Any], Any]) -> LinkMotion:
-    start, velocity, acceleration = (own(row[:, i]) for row in motion.origin)
-    omega, epsilon = own(motion.omega[:, i]), own(motion.epsilon[:, i])
-    return LinkMotion(
-        omega,
-        epsilon,
-        Ratio(start, 1j * velocity, omega),
-        Ratio(start, acceleration, omega**2 - 1j * epsilon),
-    )

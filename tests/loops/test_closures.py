@@ -17,6 +17,7 @@ from graphkin.loops.equations import equations
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
+from tests.loops.loops_alone import as_solution
 from tests.scene_files import scene_text
 
 RAPID_RETURN = scene_text("loops/rapid-return-2")
@@ -58,7 +59,7 @@ def test_a_group_of_class_three_and_the_dyad_behind_it(read):
 
 
 @pytest.mark.parametrize("number", range(1, len(roots()) + 1))
-def test_closures_are_counted_by_the_angle_of_the_lever(number, read, solved, written):
+def test_closures_are_counted_by_the_angle_of_the_lever(number, read, solved):
     theta = roots()[number - 1]
     q = math.radians(35)
     low = complex(0, math.sin(q) - math.cos(q) * math.tan(theta))
@@ -68,7 +69,7 @@ def test_closures_are_counted_by_the_angle_of_the_lever(number, read, solved, wr
     rod = complex(math.sqrt(144 - (4 - end.imag) ** 2), 4 - end.imag)
     scene = read(RAPID_RETURN)
     start = {"A": complex(math.cos(q), math.sin(q)), "P": low, "Q": end, "R": end + rod}
-    solution = written(solved(scene, **start))
+    solution = as_solution(solved(scene, **start))
     stated = replace(scene, branches={**scene.branches, "2": Closure(number)})
     assert compare(stated, solution).agrees
     other = replace(scene, branches={**scene.branches, "2": Closure(number % 4 + 1)})
