@@ -29,7 +29,7 @@ ROLLING = OWN | {name: path for name, path in FILES.items() if "rolls" in path.r
 DRAG_LINK = OWN["drag-link-planet"].read_text("utf-8")
 ARM, SUN, PLANET, BAR = 0.070, 0.040, 0.030, 0.025
 """Of the planet on the drag link (m): its arm, both radii, and from its centre to Q."""
-FEW = 90
+FEW = 60
 """Places of a sweep; then as many between."""
 
 
