@@ -90,14 +90,16 @@ def laid_on_rollers(
 def roller_guide(written: Mapping[str, Link], plank: Link, measures: Measures) -> Slide | None:
     """The guide along which rollers of one size keep a plank, twice their radius from their track.
 
-    None where they do not: each rolls on one line of the plank and on one of another link.
+    None where they do not: each rolls on one line of the plank and on one of another link. What
+    slides on the plank, such as a rack, bears none of it.
     """
+    borne = {name for name, link in written.items() if any(s.on == plank.name for s in link.slides)}
     pairs = [
         (link, upper, lower)
         for link in written.values()
         for upper in link.rolls
         for lower in link.rolls
-        if upper.on == plank.name != lower.on and len(link.wheels) == 1
+        if upper.on == plank.name != lower.on not in borne and len(link.wheels) == 1
     ]
     rollers = tuple(dict.fromkeys(link.name for link, _, _ in pairs))
     if len(pairs) != len(rollers) or len(rollers) < 2:

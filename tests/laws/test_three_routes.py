@@ -43,6 +43,8 @@ SEEN = {
     1734: "a cam on a link that is a track",
     1856: "an acceleration a hundred million times the driver's",
     1900: "a closure and a way that would stand under one name",
+    1994: "a bar on a roller beside three driven cylinders of a group that is tried",
+    2155: "a wheel that rolls, and a block on its guide that counts its turns by itself",
     2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
     2701: "a wheel that turns about a point at rest, a thousand times smaller than the whole",
     2878: "links that hang on a track by a driver",
@@ -51,8 +53,10 @@ SEEN = {
     3330: "a closure beside a flat dyad, along which all corners of its cell lie",
     3857: "a sun driven against a block that slides on a wheel that rolls",
     4061: "a plate with a profile on the rod of a cylinder, beside the tube's pin",
+    4363: "a plank on rollers that carries a wheel and its rack",
     4423: "an arm of one train that is a wheel's track of another",
     4893: "racks on one link and a wheel between them, which seem to hold that link",
+    22276: "a rack on a link whose closures are numbered before it comes",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 LONG = {
