@@ -196,7 +196,8 @@ def keeper_of(
         pair = loose_pair(every, own, on)
         made = bar_between(*pair, measures) if pair else None
     else:
-        needed = rolling.on != FRAME and (asked or held[rolling.on] < 2)
+        loose = held[rolling.on] < 2 and not bears(every, name, rolling.on)
+        needed = rolling.on != FRAME and (asked or loose)
         needed = needed or (name == FRAME and rolling.on in turned)
         made = block_on(own.rim, rolling, measures) if needed else None
     place = f"{'frame' if name == FRAME else f'links.{name}'}.rolls"
@@ -211,6 +212,12 @@ def keeper_of(
         measures.findings.add(place, f"link {called} is there already", "the name of a new link")
         return None
     return replace(made, name=called)
+
+
+def bears(links: Mapping[str, Link], wheel: str, track: str) -> bool:
+    """Whether a wheel is a roller that bears what slides along its track: it does not hold that."""
+    slides = (slide for link in links.values() for slide in link.slides)
+    return any(slide.on == track and wheel in slide.rollers for slide in slides)
 
 
 def counted_alike(rolling: Rolling, keeper: str) -> Rolling:

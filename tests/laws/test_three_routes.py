@@ -56,6 +56,7 @@ SEEN = {
     4363: "a plank on rollers that carries a wheel and its rack",
     4423: "an arm of one train that is a wheel's track of another",
     4893: "racks on one link and a wheel between them, which seem to hold that link",
+    20870: "a plank on rollers on a bar that another wheel holds",
     22276: "a rack on a link whose closures are numbered before it comes",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
