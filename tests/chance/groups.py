@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from cmath import phase, rect
+from cmath import rect
 
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, ROUND, Gear, Straight
+from tests.chance.records import FRAME, Gear, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 
