@@ -30,6 +30,8 @@ SEEN = {
     766: "a wheel driven against a block, whose angles add up to more than half a turn",
     762: "a wheel that its driver turns on its track, and that carries a track itself",
     798: "a wheel on a block of a driven crank that has gone more than half round",
+    881: "a strand of a rope that slides across itself on a further link",
+    980: "rollers of a plank on a bar that a third wheel holds",
     993: "a plate's leg on the bar that lies on a wheel",
     1066: "a cam on a bar of a group that is tried along a guide",
     1133: "a block of a group that is tried, on a guide that comes later",
