@@ -203,7 +203,7 @@ def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     if contact.alike:
         return
     match group.pair:
-        case Pin() if contact.arm == FRAME:
+        case Pin() if contact.track is not None and contact.arm == FRAME:
             second_about_fixed_pin(pen, contact, link, partner(contact, link))
         case Pin():
             second_touched(pen, contact, link, partner(contact, link))
