@@ -78,15 +78,15 @@ def closure_numbers(
     """
     values = setting_of(loops, setting)
     part = equations(scene, values, group.known | set(group.links))
-    stands = unknowns_of(part, pose_of(loops, row, setting))
+    stands, moving = unknowns_of(part, pose_of(loops, row, setting)), moved_by(part, group)
     every = closures(part, stands, group)
     if not len(every):
         return range(0)
+    settle(part, stands, np.ones_like(moving), ~moving, moving)
     away = np.abs(wrapped(part, every - stands)).max(axis=1)
     nearest = int(np.argmin(away))
     if not away[nearest] < SAME:
         return range(0)
-    moving = moved_by(part, group)
     hidden = int(
         (~PositionBounds.of(part, every[: nearest + 1]).regular[:, moving]).any(axis=1).sum()
     )

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.cam_laws import ByLaw
-from graphkin.loops.no_slip import turned_from, within_half_a_turn
+from graphkin.loops.no_slip import Apart, CountedApart, turned_from, waiting
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
-from graphkin.numbers.arithmetic import Real
-from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.model import Driver, Scene
 from graphkin.scene.wheels import turned as whole_turned
 from graphkin.text.errors import Problem, StructureError
 
@@ -48,24 +47,6 @@ class Lift(Struct, frozen=True, eq=False):
         return self.law.at(place, self.numbers, self.start)
 
 
-class DrivenAgainst(Struct, frozen=True, eq=False):
-    """The link against which driver ``row`` turns another, where it turns as one with others.
-
-    It is ``lean`` (radians) ahead of its ``turning``, and stands within half a turn of ``near``
-    whatever the whole turns of the others are: its pins show its direction only.
-    """
-
-    row: int
-    turning: int
-    lean: Reals
-    near: Reals
-
-    def full_turns(self, unknowns: Reals) -> Reals:
-        """The whole turns (radians) of its turning that it does not count: (N,)."""
-        angle = unknowns[:, self.turning - 1] + self.lean
-        return np.asarray(angle - within_half_a_turn(angle, self.near))
-
-
 class Drives(Struct, frozen=True, eq=False):
     """The given motions: row d of ``selects`` (D, K + m) picks the driven coordinate.
 
@@ -85,7 +66,7 @@ class Drives(Struct, frozen=True, eq=False):
     speed: Reals
     acceleration: Reals
     lifts: tuple[Lift, ...] = ()
-    bases: tuple[DrivenAgainst, ...] = ()
+    bases: tuple[CountedApart, ...] = ()
 
     def residual(self, unknowns: Reals) -> Reals:
         """Driven coordinate less given value, angles within half a turn unless whole: (N, D)."""
@@ -95,7 +76,7 @@ class Drives(Struct, frozen=True, eq=False):
         if self.whole:
             turned = coordinate + self.leaning - given - angle
             for base in self.bases:
-                turned[:, base.row] += base.full_turns(unknowns)
+                turned[:, base.row] -= base.excess(unknowns)
             angle = angle + 2 * np.pi * np.rint(turned / (2 * np.pi))
         return np.where(self.turns, angle, coordinate - aim.real)
 
@@ -131,11 +112,9 @@ class Drives(Struct, frozen=True, eq=False):
     @property
     def waits(self) -> Reals:
         """The unknowns to be known before an equation tells its coordinate: (D, K + m)."""
-        found = np.zeros_like(self.selects)
+        found = waiting(self.bases, self.selects.shape)
         for lift in self.lifts:
             found[lift.row] = abs(lift.way)
-        for base in self.bases:
-            found[base.row, base.turning - 1] = 1
         return found
 
     def none(self) -> Drives:
@@ -152,14 +131,10 @@ def drives_of(
     guides: Sequence[Guide],
     turned: Turnings,
     numbers: Numbers,
-    near: Mapping[str, Real],
-    counted: Collection[str],
+    apart: Apart,
+    whole: bool,
 ) -> Drives:
-    """The drivers' equations.
-
-    ``near`` are the angles (radians) near which links stand whose pins leave whole turns open;
-    full turns count where those of some links, ``counted``, follow from wheels.
-    """
+    """The drivers' equations; ``whole`` counts full turns, on which places of wheels depend."""
     count = len(scene.drivers)
     selects = np.zeros((count, turned.count + len(guides)))
     lean = np.ones((numbers.count, count), dtype=np.complex128)
@@ -187,30 +162,20 @@ def drives_of(
     rates = speed, acceleration
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
-    bases = bases_of(scene, turned, near, counted, numbers)
-    return Drives(selects[:, 1:], turning, *places, bool(counted), *rates, lifts, bases)
+    bases = bases_of(scene, turned, apart, numbers)
+    return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
 
 
 def bases_of(
-    scene: Scene,
-    turned: Turnings,
-    near: Mapping[str, Real],
-    counted: Collection[str],
-    numbers: Numbers,
-) -> tuple[DrivenAgainst, ...]:
+    scene: Scene, turned: Turnings, apart: Apart, numbers: Numbers
+) -> tuple[CountedApart, ...]:
     """The links that drivers turn others against, where these turn as one with further links.
 
     Those that a driver turns count with it.
     """
-    counting, found = turned_from(scene, turned), []
-    for d, driver in enumerate(scene.drivers):
-        k = turned.of[driver.against]
-        if driver not in counting or k == turned.of[FRAME]:
-            continue
-        if list(turned.of.values()).count(k) > 1 and driver.against not in counted:
-            lean, start = turned.angle[driver.against], near.get(driver.against, 0.0)
-            found.append(DrivenAgainst(d, k, numbers.reals(lean), numbers.reals(start)))
-    return tuple(found)
+    counting = turned_from(scene, turned)
+    against = [(d, each.against) for d, each in enumerate(scene.drivers) if each in counting]
+    return tuple(base for d, link in against for base in apart.of(d, link, -1, turned, numbers))
 
 
 def lifts_of(

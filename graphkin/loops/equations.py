@@ -21,13 +21,13 @@ from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
     Gear,
     Slips,
+    apart_of,
     counted_turnings,
     gears_of,
     packed_slips,
     slips_of,
     standing,
     starting_angles,
-    tied_without_slip,
     tracks_of,
 )
 from graphkin.loops.rigid_bodies import (
@@ -249,6 +249,8 @@ def equations(
     guides, rolled = tracks_of(scene, bodies, starts, slides, turned, numbers)
     slips = slips_of(gears, rolled, guides, numbers)
     every, written = slips, scene
+    near = starting_angles(written, every, numbers)
+    apart = apart_of(written, every, guides, turned, near)
     if within is not None:
         names = {FRAME, *within}
         bodies = {name: body for name, body in bodies.items() if name in names}
@@ -264,9 +266,7 @@ def equations(
     refuse_loose(links, tree)
     closing = tree.closures()
     chains = packed([*(tree.origins[name] for name in links), *closing.values()], tree, numbers)
-    near = starting_angles(written, every, numbers)
     turned = standing(turned, near, numbers)
-    tied = set[str]().union(*(tied_without_slip(written, slip) for slip in every))
     counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
     reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
@@ -282,8 +282,8 @@ def equations(
         gears=gears,
         chains=chains,
         closing=tuple(closing),
-        slips=packed_slips(slips, counted, turned, guides, numbers),
-        drives=drives_of(scene, bodies, guides, turned, numbers, near, tied),
+        slips=packed_slips(slips, counted, apart, turned, guides, numbers),
+        drives=drives_of(scene, bodies, guides, turned, numbers, apart, bool(every)),
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
     )

@@ -93,8 +93,8 @@ def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) ->
     every = np.nan_to_num(loops.linear_rows())
     others = np.abs(every[:, :, ~(known | free)])
     ready = others.max(axis=(0, 2), initial=0) == 0
-    waiting = loops.drives.waits[:, ~known].max(axis=1, initial=0) > 0
-    ready[len(ready) - len(waiting) :] &= ~waiting
+    waits = np.concatenate([loops.slips.waits, loops.drives.waits])
+    ready &= waits[:, ~known].max(axis=1, initial=0) == 0
     rows = every[:, ready] * scale[:, None, :]
     found = values.copy()
     solved = free & settles(rows[0])

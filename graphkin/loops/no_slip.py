@@ -60,17 +60,38 @@ class Gear(Struct, frozen=True, eq=False):
     rolling: Rolling
 
 
+class CountedApart(Struct, frozen=True, eq=False):
+    """A link in equation ``row`` that turns as one with others, and counts its turns by itself.
+
+    It is ``lean`` (radians) ahead of its ``turning``, and stands within half a turn of ``near``
+    whatever the whole turns of the others are: its pins show its direction only. The equation has
+    its angle ``weight`` times.
+    """
+
+    row: int
+    turning: int
+    weight: Real
+    lean: Reals
+    near: Reals
+
+    def excess(self, unknowns: Reals) -> Reals:
+        """What the whole turns of its turning that it does not count add to the equation: (N,)."""
+        angle = unknowns[:, self.turning - 1] + self.lean
+        return np.asarray(self.weight * (angle - within_half_a_turn(angle, self.near)))
+
+
 class Slips(Struct, frozen=True, eq=False):
     """All rows of no slip: ``rows`` (N, R, K + m) times the unknowns plus ``constant`` (N, R).
 
-    Metres. ``links`` are those that each row ties. ``counted`` gives, by turning, the angle near
-    which it is counted (N,), radians.
+    Metres. ``links`` are those that each row ties, ``apart`` those of them that count by
+    themselves. ``counted`` gives, by turning, the angle near which it is counted (N,), radians.
     """
 
     rows: Reals
     constant: Reals
     links: tuple[tuple[str, ...], ...]
     counted: Mapping[int, Reals]
+    apart: tuple[CountedApart, ...]
 
     @property
     def words(self) -> list[str]:
@@ -79,7 +100,23 @@ class Slips(Struct, frozen=True, eq=False):
 
     def residual(self, unknowns: Reals) -> Reals:
         """Way slipped (m): shape (N, R)."""
-        return np.asarray((self.rows @ unknowns[:, :, None])[:, :, 0] + self.constant)
+        slipped = np.asarray((self.rows @ unknowns[:, :, None])[:, :, 0] + self.constant)
+        for link in self.apart:
+            slipped[:, link.row] -= link.excess(unknowns)
+        return slipped
+
+    @property
+    def waits(self) -> Reals:
+        """The unknowns to be known before a row tells another: (R, K + m)."""
+        return waiting(self.apart, self.rows.shape[1:])
+
+
+def waiting(apart: Sequence[CountedApart], shape: tuple[int, ...]) -> Reals:
+    """The unknowns to be known before an equation tells another, of links that count apart."""
+    found = np.zeros(shape)
+    for link in apart:
+        found[link.row, link.turning - 1] = 1
+    return found
 
 
 def gears_of(
@@ -259,11 +296,13 @@ def counted_at(rolling: Rolling, numbers: Numbers) -> dict[str, Real]:
 def packed_slips(
     slips: Sequence[NoSlip],
     counted: Mapping[int, Reals],
+    apart: Apart,
     turned: Turnings,
     guides: Sequence[Guide],
     numbers: Numbers,
 ) -> Slips:
     """The conditions of no slip as arrays."""
+    alone = list[CountedApart]()
     rows = np.zeros((numbers.count, len(slips), turned.count + len(guides)))
     constant = np.zeros((numbers.count, len(slips)))
     for r, slip in enumerate(slips):
@@ -274,8 +313,88 @@ def packed_slips(
             start, angle = numbers.reals(slip.starts[link]), numbers.reals(turned.angle[link])
             rows[:, r, turned.of[link]] += weight
             constant[:, r] += weight * (angle - start)
+            alone += apart.of(r, link, weight, turned, numbers)
     links = tuple(slip.links for slip in slips)
-    return Slips(rows[:, :, 1:], constant, links, counted)
+    return Slips(rows[:, :, 1:], constant, links, counted, tuple(alone))
+
+
+class Apart(Struct, frozen=True, eq=False):
+    """Which links count their whole turns by themselves, though they turn as one with others.
+
+    ``counts`` gives for each the link that counts for it: of a rack that a wheel moves the one
+    along which it slides. It stands within half a turn of what it stands ``near`` (radians).
+    """
+
+    counts: Mapping[str, str]
+    near: Mapping[str, Real]
+
+    def of(
+        self, row: int, link: str, weight: Real, turned: Turnings, numbers: Numbers
+    ) -> list[CountedApart]:
+        """A link of an equation, where it counts otherwise than its turning."""
+        own = self.counts.get(link)
+        if (
+            own is None
+            or own not in turned.of
+            or list(turned.of.values()).count(turned.of[own]) < 2
+        ):
+            return []
+        lean, near = (numbers.reals(z) for z in (turned.angle[own], self.near.get(own, 0.0)))
+        return [CountedApart(row, turned.of[own], weight, lean, near)]
+
+
+def apart_of(
+    scene: Scene,
+    slips: Sequence[NoSlip],
+    guides: Sequence[Guide],
+    turned: Turnings,
+    near: Mapping[str, Real],
+) -> Apart:
+    """Which links count by themselves: none that a contact leads or that turns with a driven one.
+
+    Contacts lead one after the other, as each leaves the angle of a wheel or an arm unknown; where
+    none does, pins show one, of what is no wheel first.
+    """
+    of, led = turned.of, set[str]()
+    driven = {of[FRAME], *(of[d.link] for d in scene.drivers if d.kind == "turn")}
+    known, left = set(driven), list(slips)
+
+    def unknown(slip: NoSlip) -> list[str]:
+        return [link for link in slip.weights if of[link] not in known]
+
+    def leads(slip: NoSlip) -> bool:
+        return slip.track is None or slip.links[0] in unknown(slip) or not unknown(slip)
+
+    while left:
+        ready = (slip for slip in left if len(unknown(slip)) < 2 and leads(slip))
+        if (slip := next(ready, None)) is not None:
+            left.remove(slip)
+            led.update(unknown(slip))
+            known.update(of[link] for link in slip.weights)
+            continue
+        wheels = {of[slip.links[0]] for slip in left}
+        missing = [of[link] for slip in left for link in unknown(slip)]
+        known.add(next((k for k in missing if k not in wheels), missing[0]))
+    racks = {slip.links[1]: on for slip in slips if (on := rack_on(scene, slip, guides))}
+    links = {each for slip in slips for each in slip.weights}
+    links |= {driver.against for driver in scene.drivers if driver.kind == "turn"}
+    counts = {link: racks.get(link, link) for link in links if of[link] not in driven}
+    return Apart({link: own for link, own in counts.items() if own not in led}, near)
+
+
+def rack_on(scene: Scene, slip: NoSlip, guides: Sequence[Guide]) -> str:
+    """What the track of a contact slides along where only the wheel moves it, else nothing."""
+    rack = slip.links[1]
+    if slip.track is None or any((d.kind, d.link) == ("slide", rack) for d in scene.drivers):
+        return ""
+    shared = {point for link in scene.every_link if link.name != rack for point in link.points}
+    along = [
+        g.on if g.block == rack else g.block
+        for g in guides
+        if rack in (g.block, g.on) and g.turns_alike
+    ]
+    own = set(scene.link(rack).points) & shared
+    return along[0] if len(along) == 1 and not own and rack != FRAME else ""
 
 
 def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:
@@ -357,13 +476,3 @@ def turned_from(scene: Scene, turned: Turnings) -> list[Driver]:
         for n, (driver, k) in enumerate(zip(drivers, turning, strict=True))
         if (k < 0 or k not in turning[:n]) and turned.of.get(driver.against) not in turning
     ]
-
-
-def tied_without_slip(scene: Scene, slip: NoSlip) -> set[str]:
-    """The links of a contact that it turns, or that count with what does.
-
-    A track that a driver slides counts by itself.
-    """
-    slid = {driver.link for driver in scene.drivers if driver.kind == "slide"}
-    wheel, on, *_ = slip.links
-    return {wheel} if slip.track is not None and on in slid else {*slip.links}

@@ -11,6 +11,7 @@ from itertools import product
 import numpy as np
 from msgspec.structs import replace
 
+from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import KINDS
 from graphkin.motion.course import Branches, Course
 from graphkin.motion.ends import Event
@@ -30,7 +31,7 @@ def beyond(course: Course, event: Event, way: int) -> Course:
     """
     step = AHEAD * abs(course.sweep.grid_step)
     before, after = event.at - way * step, event.at + way * step
-    targets = [t for t in course.program.targets if t[0] == "position"]
+    targets = followed(course)
     predicted = predict(course, before, after)
     best, least = course, np.inf
     for branches in choices(course, event):
@@ -45,11 +46,21 @@ def beyond(course: Course, event: Event, way: int) -> Course:
     return best
 
 
-def predict(course: Course, before: float, after: float) -> Mapping[tuple[str, str], complex]:
+def followed(course: Course) -> list[Target]:
+    """The places of points of links: where links touch is another point of theirs a moment later.
+
+    What touches there has the velocity of a link's point under it, none of its own.
+    """
+    targets = course.program.targets
+    own = [(what, of) for what, of in targets if what == "position" and "@" not in of]
+    return [(what, of) for what, of in own if ("velocity", of) in targets]
+
+
+def predict(course: Course, before: float, after: float) -> Mapping[Target, complex]:
     """Where every point will stand, from its position, velocity and acceleration by u before."""
     way = (after - before) * course.sweep.per_unit
     targets = course.program.targets
-    names = [of for what, of in targets if what == "position"]
+    names = [of for _, of in followed(course)]
     wanted = [(what, of) for what in KINDS for of in names if (what, of) in targets]
     found = course.columns(np.array([before]), wanted, geometric=True)
     return {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -309,21 +310,23 @@ def columns_at(
 
 
 def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Reals]:
-    """The piece of each place, from 1 (0 where there is none), and the place within that piece."""
+    """The piece of each place, from 1 (0 where there is none), and the place within that piece.
+
+    A place in no piece is that of one some turn on, where a whole turn may not come back.
+    """
     which = np.zeros(len(at), dtype=int)
     within = at.copy()
     turns = (0.0, TURN, -TURN) if sweep.whole else (0.0,)
     every = [piece for pieces in path.ranges for piece in pieces]
-    for number, piece in enumerate(every, 1):
-        for turn in turns:
-            place = at + turn
-            inside = (which == 0) & piece.holds(place)
-            for end in (piece.low, piece.high):
-                if end.kind in ("dead", "change"):
-                    inside &= np.abs(place - end.at) >= near
-                elif end.kind == "number":
-                    inside &= np.abs(place - end.at) >= BESIDE / 10
-            which[inside], within[inside] = number, place[inside]
+    for turn, (number, piece) in product(turns, enumerate(every, 1)):
+        place = at + turn
+        inside = (which == 0) & piece.holds(place)
+        for end in (piece.low, piece.high):
+            if end.kind in ("dead", "change"):
+                inside &= np.abs(place - end.at) >= near
+            elif end.kind == "number":
+                inside &= np.abs(place - end.at) >= BESIDE / 10
+        which[inside], within[inside] = number, place[inside]
     return which, within
 
 

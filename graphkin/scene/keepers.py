@@ -90,14 +90,16 @@ def laid_on_rollers(
 def roller_guide(written: Mapping[str, Link], plank: Link, measures: Measures) -> Slide | None:
     """The guide along which rollers of one size keep a plank, twice their radius from their track.
 
-    None where they do not: each rolls on one line of the plank and on one of another link.
+    None where they do not: each rolls on one line of the plank and on one of another link. What
+    slides on the plank, such as a rack, bears none of it.
     """
+    borne = {name for name, link in written.items() if any(s.on == plank.name for s in link.slides)}
     pairs = [
         (link, upper, lower)
         for link in written.values()
         for upper in link.rolls
         for lower in link.rolls
-        if upper.on == plank.name != lower.on and len(link.wheels) == 1
+        if upper.on == plank.name != lower.on not in borne and len(link.wheels) == 1
     ]
     rollers = tuple(dict.fromkeys(link.name for link, _, _ in pairs))
     if len(pairs) != len(rollers) or len(rollers) < 2:
@@ -194,7 +196,8 @@ def keeper_of(
         pair = loose_pair(every, own, on)
         made = bar_between(*pair, measures) if pair else None
     else:
-        needed = rolling.on != FRAME and (asked or held[rolling.on] < 2)
+        loose = held[rolling.on] < 2 and not bears(every, name, rolling.on)
+        needed = rolling.on != FRAME and (asked or loose)
         needed = needed or (name == FRAME and rolling.on in turned)
         made = block_on(own.rim, rolling, measures) if needed else None
     place = f"{'frame' if name == FRAME else f'links.{name}'}.rolls"
@@ -209,6 +212,12 @@ def keeper_of(
         measures.findings.add(place, f"link {called} is there already", "the name of a new link")
         return None
     return replace(made, name=called)
+
+
+def bears(links: Mapping[str, Link], wheel: str, track: str) -> bool:
+    """Whether a wheel is a roller that bears what slides along its track: it does not hold that."""
+    slides = (slide for link in links.values() for slide in link.slides)
+    return any(slide.on == track and wheel in slide.rollers for slide in slides)
 
 
 def counted_alike(rolling: Rolling, keeper: str) -> Rolling:

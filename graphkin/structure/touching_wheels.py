@@ -244,13 +244,15 @@ def keeper_hint(scene: Scene, loose: Sequence[str]) -> str:
 def asked_of(scene: Scene, tracks: Sequence[str]) -> str:
     """What to write where a wheel rolls on one of some tracks that nothing keeps there.
 
-    Where the link of the track slides across it, which way its axes lie.
+    Of a rack that slides across the track, and on which nothing hangs, which way its axes lie.
     """
     for track in tracks:
+        hung = {p for k in scene.every_link if k.name != track for p in k.points}
+        rack = scene.link(track).slides and hung.isdisjoint(scene.link(track).points)
         rolled = [(k, r) for k in scene.every_link for r in k.rolls if r.through is not None]
         wheels = [(link, rolling) for link, rolling in rolled if rolling.on == track]
         along = (unit(scene, rolling.angle) for _, rolling in wheels)
-        if scene.link(track).slides and any(abs(each.imag) > LEVEL for each in along):
+        if rack and any(abs(each.imag) > LEVEL for each in along):
             return (
                 f"link {track} slides across the track: the x axis of a block lies along its guide,"
                 " write angle = 0"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import pi
 from typing import Any
@@ -12,6 +12,7 @@ from msgspec import Struct, field
 from graphkin.construction.core.batch import made_ready, run_moving
 from graphkin.construction.core.run import Trace
 from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.construction.higher_class.trial_rates import followed_rates
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
@@ -90,12 +91,28 @@ class Tracing(Struct, frozen=True, dict=True):
         overrides |= self.driven.overrides(program, self.x, values) | self.counted(drawn)
         overrides = {n: value for n, value in overrides.items() if n in drawn.values}
         needed = sorted(drawn.values)
+        overrides |= self.tried_rates(drawn, needed, overrides)
         ready = made_ready(program, needed, values, needed, frozenset(overrides))
         trace = run_moving(ready, values, traced_kind(), margins=True, overrides=overrides)
         self.done.update(trace.values)
         self.margins.update(trace.margins)
         self.add_closings(drawn, trace)
         return trace
+
+    def tried_rates(
+        self, drawn: Trace, needed: Sequence[int], overrides: Mapping[int, Any]
+    ) -> dict[int, Any]:
+        """What trial plans are drawn with, traced: they keep their size beside the right plan."""
+        chosen = {n: v for n, v in self.mechanism.trial_rates.items() if n in drawn.values}
+        if not chosen:
+            return {}
+
+        def run(rates: Mapping[int, Any]) -> Mapping[int, Any]:
+            led = {**overrides, **rates}
+            ready = made_ready(drawn.program, needed, self.known, needed, frozenset(led))
+            return run_moving(ready, self.known, traced_kind(), overrides=led).values
+
+        return followed_rates(drawn.program, drawn.values, chosen, run)
 
     # --- links that only their pins turn ---------------------------------------------------------
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from cmath import phase, rect
+from cmath import rect
 
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, ROUND, Gear, Straight
+from tests.chance.records import FRAME, Gear, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 
@@ -463,10 +463,7 @@ def rack(m: Maker) -> None:
     pinion = wheel_body(m, centre)
     m.turn(pinion, on)
     along, radius = m.direction(), m.length()
-    name = m.block({m.name(): centre[1] + m.vector()}, on, along)
-    lean = phase(along * m.standing.bodies[on].axis.conjugate())
-    if abs(m.angle(on) + lean - phase(along)) > 1:
-        raise LooseError
+    name = m.rack({m.name(): centre[1] + m.vector()}, on, along)
     straight(m, pinion, centre[0], name, along * m.sign(), radius).kept = True
 
 
@@ -606,12 +603,7 @@ def plank(m: Maker) -> None:
     lower = place - along * (m.length() + 1j * side * radius)
     upper = place + along * (m.length() + 1j * side * radius)
     name = m.body({m.name(): upper + m.vector()}, along)
-    turned = m.angle(on)
-    if m.shifts(on):
-        own = m.standing.bodies[name].angle
-    else:
-        lean = phase(along * m.standing.bodies[on].axis.conjugate())
-        own = turned + (lean if lean > ROUND - math.pi else lean + math.tau)
+    turned, own = m.angle(on), m.along(on, name)
     way = 0.0
     for number in range(2):
         spot = place + along * way

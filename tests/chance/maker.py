@@ -231,10 +231,8 @@ class Maker:
                     straight = abs(line.imag) < 1e-12 * abs(line)
                     line = complex(line.real, 0.0) if straight else line
                 return self.angle(drive.against) + drive.position - phase(line)
-        if (known := self.slid_with_driven(body)) is not None:
-            lean = phase(bodies[body].axis * bodies[known].axis.conjugate())
-            return self.angle(known) + (lean + math.tau if lean < ROUND - math.pi else lean)
-        return bodies[body].angle
+        known = self.slid_with_driven(body) or self.standing.racks.get(body)
+        return bodies[body].angle if known is None else self.along(known, body)
 
     def slid_with_driven(self, body: str) -> str | None:
         """The next body along slides towards one that a driver turns: they turn as one."""
@@ -264,29 +262,19 @@ class Maker:
             waiting += more
         return FRAME in found
 
-    def counts_alike(self, body: str, along: complex) -> bool:
-        """Whether a block along a guide of a body, and all that slides there, count one way.
+    def along(self, on: str, body: str) -> float:
+        """The angle of a body that slides along another and counts its turns with that."""
+        bodies = self.standing.bodies
+        if self.shifts(on):
+            return bodies[body].angle
+        lean = phase(bodies[body].axis * bodies[on].axis.conjugate())
+        return self.angle(on) + (lean if lean > ROUND - math.pi else lean + math.tau)
 
-        Where guides add up to more than half a turn the program counts a rack with the link along
-        which it slides, and the loops with all that turns as one.
-        """
-        if self.shifts(body):
-            return True
-        bodies, found = self.standing.bodies, {body: self.angle(body)}
-        lean = phase(along * bodies[body].axis.conjugate())
-        waiting = [body]
-        while waiting:
-            here = waiting.pop()
-            for slide in self.standing.slides.values():
-                ends = [slide.block, slide.on]
-                if here in ends:
-                    other = ends[1 - ends.index(here)]
-                    if other not in found:
-                        way = phase(bodies[other].axis * bodies[here].axis.conjugate())
-                        found[other] = found[here] + way
-                        waiting.append(other)
-        alike = all(abs(turned - self.angle(each)) < 1 for each, turned in found.items())
-        return alike and abs(found[body] + lean - phase(along)) < 1
+    def rack(self, points: dict[str, complex], on: str, along: complex) -> str:
+        """A block that a wheel alone moves along a guide of a body, with which it counts turns."""
+        name = self.block(points, on, along)
+        self.standing.racks[name] = on
+        return name
 
     def slide_coordinate(self, block: str) -> float:
         """Where a block stands on its guide."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from graphkin.text.errors import SceneError, StructureError
 from tests.documents.sheet_tools import FOLDER
 from tests.textbook.book import RPM, answers
 
+TESTS = Path(__file__).parents[1]
 OWN, OTHER, APART = 24.0, 60.0, 150.0
 HEAD = """
 units = { length = "mm", angle = "deg", speed = "rad/s" }
@@ -261,3 +264,26 @@ def test_wheels_that_are_equal_by_chance_are_refused():
     text = HEAD + "[parameters]\nr = 60\n" + ON_ARM.format(crossed="false")
     with pytest.raises(StructureError, match="of radius 60 mm by chance; expected wheels of"):
         answers(text.replace("radius = 24", 'radius = "r"'))
+
+
+def test_a_wheel_on_a_fixed_pin_is_accelerated_without_the_crossing_of_the_strands():
+    """ε₂ = −ε₁·r₁/r₂ between gears, ε₃ = ε₂·r₂/r₃ by an open belt (Norton, Design of Machinery,
+    9.3); the strands meet far off, and no acceleration is drawn there."""
+    wheels = load(TESTS / "scenes/construction/wheels-that-speed-up.toml")
+    found = wheels.solve()
+    second, third = -50 / 100, -50 / 100 * 40 / 25
+    for link, ratio in (("2", second), ("3", third)):
+        assert found.links[link].omega == pytest.approx(6 * ratio)
+        assert found.links[link].epsilon == pytest.approx(10 * ratio)
+    for point, pin, ratio in (("B", "O2", second), ("C", "O3", third)):
+        arm = found.points[point].position - found.points[pin].position
+        assert found.points[point].acceleration == pytest.approx(
+            (10j * ratio - (6 * ratio) ** 2) * arm
+        )
+    drawn = wheels.trace([("acceleration", "C")], by_hand=True)
+    names = {wheels.program.steps[number].name for number in drawn.values}
+    assert "c′" in names and not {name for name in names if name.startswith("t") and "′" in name}
+    touching = ("acceleration", "T2@3")
+    where = wheels.trace([touching, ("position", "T2")])
+    reach = where.value("position", "T2") - found.points["O3"].position
+    assert where.value(*touching) == pytest.approx((10j * third - (6 * third) ** 2) * reach)

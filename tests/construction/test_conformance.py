@@ -47,7 +47,15 @@ from tests.documents.test_words import RARE, rare
 LABS = ("pump", "slotted-lever")
 MORE = ("belts-arm", "oscillating-slide", "rapid-return", "stephenson-2-binary")
 """Scenes that draw what those do not that stand for all."""
-WHEELS = Path(__file__).parents[1] / "motion" / "scenes" / "planet-on-coupler.toml"
+TESTS = Path(__file__).parents[1]
+OWN = {
+    path.stem: path
+    for path in (
+        TESTS / "motion" / "scenes" / "planet-on-coupler.toml",
+        TESTS / "scenes" / "construction" / "wheels-that-speed-up.toml",
+    )
+}
+"""Scenes of tests that draw what no example does."""
 LANGUAGES = ("en", "it", "ro")
 MARKING = {"slips", "sizes", "power_of", "as_measured", "proportions"}
 """Faces that only labs and marking look at: tests/classroom holds them."""
@@ -81,8 +89,8 @@ def mechanism(name: str) -> Mechanism:
     """A lab, an example, or a scene of the tests."""
     if name in RARE:
         return rare(name)
-    if name == WHEELS.stem:
-        return load(WHEELS)
+    if name in OWN:
+        return load(OWN[name])
     return load(name if name in LABS else FOLDER / f"{name}.toml")
 
 
@@ -107,7 +115,7 @@ def homes() -> dict[type, list[str]]:
     """The scenes whose sheets draw each kind; of one that is never drawn those that compute it."""
     found: dict[type, list[str]] = {}
     written: dict[type, list[str]] = {}
-    for name in (*LABS, *CHOSEN, *MORE, *RARE, WHEELS.stem):
+    for name in (*LABS, *CHOSEN, *MORE, *RARE, *OWN):
         steps = mechanism(name).program.steps
         for kind in {type(steps[number].of) for number in drawn(name)}:
             found.setdefault(kind, []).append(name)

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from graphkin.mechanism import load
 from graphkin.motion.cycle import columns_at, cycle
 from tests.motion.linkages import four_bar
+
+SCENES = Path(__file__).parent / "scenes"
 
 
 @pytest.mark.parametrize(("crank", "frame"), [(2, 4), (4, 2), (1, 7.3)])
@@ -59,6 +64,20 @@ def test_a_kite_goes_through_the_place_where_its_crank_lies_on_the_frame():
     at, rate = np.array([-1e-3, 1e-3]), ("omega", "3")
     omega = columns_at(found.sweep, found.path, at, [rate], geometric=True).columns[rate]
     assert omega[0] == pytest.approx(omega[1], rel=1e-4)
+
+
+def test_the_pins_of_a_cycloidal_drive_turn_its_output_steadily():
+    """Disc and output turn 1/(N - 1) backwards, N = 11 teeth of the ring (Kudrijavcev, Planetary
+    gear trains); hole, pin and shaft come in line twice in a turn, and pins go on beside holes."""
+    found = cycle(load(SCENES / "cycloidal-drive.toml"))
+    changes = [each.at for each in found.singulars]
+    assert changes == pytest.approx(
+        [360 / 2.2, 720 / 2.2], abs=1e-6
+    )  # and at nought, the first row
+    assert found.at[-1] == 360
+    points, angle = found.solution.points, np.radians(found.at)
+    assert np.allclose(found.solution.links["output"].omega[1:], -150 * np.pi / 30)
+    assert np.allclose(points["Q"].position[1:], 0.03 * np.exp(-0.1j * angle[1:]))
 
 
 @pytest.mark.parametrize("off", [1e-3, 1e-5])

@@ -15,8 +15,9 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.layout import Layout, spans
 from graphkin.construction.core.program import Program, Step
-from graphkin.construction.core.run import StepFailed, run
+from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.construction.higher_class.trial_rates import followed_rates
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
@@ -45,7 +46,7 @@ def redrawn(
     sweep = sweep_of(scene)
     place = x * driven.metres
     values = sweep.values(np.array([place]))
-    overrides: dict[int, Any] = dict(mechanism.trial_rates)
+    overrides: dict[int, Any] = {}
     for n, (driver, drive) in enumerate(zip(scene.drivers, program.drives, strict=True), 1):
         if names(n)[0] not in values:
             continue
@@ -57,7 +58,12 @@ def redrawn(
     if program.seconds is not None and program.seconds in drawn:
         overrides[program.seconds] = drawn[program.seconds]
     overrides = {n: value for n, value in overrides.items() if n in drawn}
-    trace = run(program, sorted(drawn), scene.values, FLOAT, overrides=overrides)
+
+    def ran(rates: Mapping[int, Any]) -> Trace:
+        return run(program, sorted(drawn), scene.values, FLOAT, overrides={**overrides, **rates})
+
+    chosen = {n: rate for n, rate in mechanism.trial_rates.items() if n in drawn}
+    trace = ran(followed_rates(program, drawn, chosen, lambda rates: ran(rates).values))
     standing = Course(sweep, scene.branches).standing(place)
     here = replace(sheet.drawing, scene=standing, trace=trace, chosen=sheet.drawing)
     fields = Layout(roomy(sheet.layout.mechanism), roomy(sheet.layout.plan), {})

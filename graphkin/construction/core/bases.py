@@ -248,20 +248,20 @@ def geared_base(scene: Scene, group: Geared) -> Base:
 def no_construction(group: Group) -> StructureError:
     """The error for links that hold together in a way for which there is no construction.
 
-    It names the limit: several driven guides in one group, a track that wheels alone hold, more
-    links to be tried than are looked at.
+    It names the limit: a track that wheels alone hold, which may be all that keeps the rest open,
+    several driven guides in one group, more links to be tried than are looked at.
     """
     place = "links." + ", ".join(group.links)
     if not isinstance(group, Unresolved):
         found = f"{group.title} that cannot be constructed"
         return StructureError(Problem(place, found, CLOSING))
+    if group.tracks:
+        found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
+        return StructureError(Problem(place, found, HELD, group.asked or LEVEL))
     if len(group.driven) > 1:
         pairs = ", ".join(f"link {each.link} on {each.against}" for each in group.driven)
         found = f"close only with {len(group.driven)} drivers at once: {pairs}"
         return StructureError(Problem(place, found, "one driver within a group that is tried"))
-    if group.tracks:
-        found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
-        return StructureError(Problem(place, found, HELD, group.asked or LEVEL))
     if group.wedged:
         wheels = f"wheel {group.wedged[0]}"
         if len(group.wedged) > 1:

@@ -6,7 +6,7 @@ On paper those serve best whose plans fit beside the right one and whose points 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import product
 from math import floor, log10
 from typing import Any
@@ -85,11 +85,8 @@ def trial_rates(scene: Scene, program: Program) -> dict[int, float]:
     wanted = {*divided} & {*program.targets.values()}
     if not wanted:
         return {}
-    levels: dict[int, list[TwoTrials]] = {}
-    for trials in constructions(program, TwoTrials):
-        levels.setdefault(trials.depth, []).append(trials)
     rates: dict[int, float] = {}
-    for _, together in sorted(levels.items()):
+    for together in levels_of(program):
         needed = program.behind(wanted)
         found = run_settled(scene, program, needed, overrides={**rates}).values
         for trials in together:
@@ -112,6 +109,49 @@ def spread_of(program: Program, found: Mapping[int, Any], trials: TwoTrials) -> 
     if not whole or not any(way):
         return None
     return Spread(tuple(start), tuple(way), one + found[trials.share] * (two - one), whole)
+
+
+def followed_rates(
+    program: Program,
+    drawn: Mapping[int, Any],
+    chosen: Mapping[int, float],
+    run: Callable[[Mapping[int, Any]], Mapping[int, Any]],
+) -> dict[int, Any]:
+    """The rates at another place of the driver: trial plans keep their size beside the right one.
+
+    A link at rest in a trial stays at rest; another rate is as far from the right one as before,
+    measured by the rate that moves all points as far as the right plan reaches. ``drawn`` are the
+    values where the rates were chosen, ``run`` gives those at the other place by the rates, in any
+    kind of number.
+    """
+    rates: dict[int, Any] = dict(chosen)
+    for together in levels_of(program):
+        known = [each for each in together if each.share in drawn and {*each.rates} <= {*chosen}]
+        found = run(rates) if known else {}
+        for trials in known:
+            before, now = (right_rate(program, values, trials) for values in (drawn, found))
+            for number in trials.rates:
+                if chosen[number]:
+                    beside = (chosen[number] - before[0]) / before[1]
+                    rates[number] = now[0] + beside * now[1]
+    return rates
+
+
+def right_rate(program: Program, found: Mapping[int, Any], trials: TwoTrials) -> tuple[Any, Any]:
+    """The rate that fits, and the one that moves all points as far as the right plan reaches."""
+    one, two = (found[number] for number in trials.rates)
+    points = [point for point in trials.divided(program) if point.value in found]
+    reach = sum(abs(found[point.value]) for point in points)
+    moved = sum(abs(found[point.second] - found[point.first]) for point in points)
+    return one + found[trials.share] * (two - one), reach * abs(two - one) / moved
+
+
+def levels_of(program: Program) -> list[list[TwoTrials]]:
+    """The pairs of trial plans, those of groups first, then those within their trial plans."""
+    levels: dict[int, list[TwoTrials]] = {}
+    for trials in constructions(program, TwoTrials):
+        levels.setdefault(trials.depth, []).append(trials)
+    return [together for _, together in sorted(levels.items())]
 
 
 def chosen_rates(spread: Spread) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from msgspec import Struct
 
+from graphkin.construction.acceleration.acceleration import led_points
 from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.acceleration.turned_acceleration import (
     turned_image as accelerated_image,
@@ -28,10 +29,16 @@ from graphkin.construction.core.pen import (
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import in_proportion, speed_at_rim
-from graphkin.construction.guides.coincident_points import carried, omega_of, second_image_under
+from graphkin.construction.guides.coincident_points import (
+    carried,
+    found_by_turning,
+    omega_of,
+    second_image_under,
+)
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.rolling import rolling
+from graphkin.construction.rolling.rate_by_radii import turned_by_radii
 from graphkin.construction.rolling.rolling import radius_of
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
 from graphkin.construction.rolling.touching import by_contact
@@ -43,7 +50,7 @@ from graphkin.construction.velocity.image_of_link import (
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
-from graphkin.scene.model import Driver
+from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Geared, Group, Higher, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
@@ -196,12 +203,29 @@ def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
     if contact.alike:
         return
     match group.pair:
+        case Pin() if contact.track is not None and contact.arm == FRAME:
+            second_about_fixed_pin(pen, contact, link, partner(contact, link))
         case Pin():
             second_touched(pen, contact, link, partner(contact, link))
         case Sliding() as slide:
             second_rack(pen, shapes, group, slide)
         case Contact() as own:
             second_roller(pen, group, own)
+
+
+@by_contact
+def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) -> None:
+    """Second images of the points of a wheel on a fixed pin, turned by a wheel on another.
+
+    Its rates are the other's by the radii, so that a point is drawn without that where they touch.
+    """
+    omega_of(pen, link)
+    pen.want(EPSILON, link, turned_by_radii(pen, contact, link, omega_of(pen, known, EPSILON)))
+    name, start = contact_name(contact), pen.bases[link].start
+    pen.bases[link] = Base(link, start, None, pen.bases[link].others)
+    touching = under(name, link)
+    pen.want("acceleration", touching, found_by_turning(pen, link, name, "acceleration"))
+    led_points(pen, pen.bases[link])
 
 
 def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:

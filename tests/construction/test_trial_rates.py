@@ -1,0 +1,62 @@
+"""The rates of trial plans, where they are chosen and at other places of the driver."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.construction.core.kind import constructions
+from graphkin.construction.higher_class.closure_solver import run_settled
+from graphkin.construction.higher_class.trial_rates import enlarged, followed_rates, spread_of
+from graphkin.construction.higher_class.two_trials import TwoTrials
+from graphkin.mechanism import Mechanism, load
+from graphkin.motion.course import Course
+from graphkin.motion.sweep import sweep_of
+from tests.chosen import FOLDER
+
+
+def standing(at: float) -> Mechanism:
+    """The rapid return with its crank at an angle."""
+    scene = load(FOLDER / "rapid-return.toml").scene
+    return Mechanism(Course(sweep_of(scene), scene.branches).standing(at))
+
+
+def ran(mechanism: Mechanism, rates):
+    """All values by some rates."""
+    program = mechanism.program
+    return run_settled(
+        mechanism.scene, program, program.needed(program.targets), overrides=dict(rates)
+    ).values
+
+
+@pytest.mark.parametrize("at", [75, 120, 200, 300.8, 330])
+def test_trial_plans_that_follow_the_driver_keep_their_size_beside_the_right_one(at):
+    """At 300.8° the rates that were chosen at 60° would draw a plan 96 times the right one."""
+    chosen, there = standing(60), standing(at)
+    drawn, found = ran(chosen, chosen.trial_rates), ran(there, chosen.trial_rates)
+    rates = followed_rates(
+        there.program, drawn, chosen.trial_rates, lambda rates: ran(there, rates)
+    )
+    here = {number: rates[number] for number in chosen.trial_rates}
+    velocities, _ = constructions(there.program, TwoTrials)
+    first, second = (here[number] for number in velocities.rates)
+    spread = spread_of(there.program, found, velocities)
+    assert enlarged(spread, first, second) < 2
+    kept = enlarged(spread, *(chosen.trial_rates[number] for number in velocities.rates))
+    assert at != 300.8 or kept > 90
+    # both plans lie about the right one as they do where they were chosen, and lead to the same
+    before = spread_of(chosen.program, drawn, next(constructions(chosen.program, TwoTrials)))
+    one, two = (chosen.trial_rates[number] for number in velocities.rates)
+    shares = [(before.rate - one) / (two - one), (spread.rate - first) / (second - first)]
+    assert shares[1] == pytest.approx(shares[0])
+    assert ran(there, rates)[velocities.share] == pytest.approx(shares[1])
+
+
+def test_where_they_were_chosen_they_are_as_chosen():
+    chosen = standing(60)
+    rates = followed_rates(
+        chosen.program,
+        ran(chosen, chosen.trial_rates),
+        chosen.trial_rates,
+        lambda rates: ran(chosen, rates),
+    )
+    assert rates == pytest.approx(dict(chosen.trial_rates))
