@@ -1,6 +1,6 @@
 """Beside a mechanism that takes the whole breadth the plan keeps its caption and its notes."""
 
-from itertools import chain, product
+from itertools import product
 
 import pytest
 

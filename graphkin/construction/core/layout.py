@@ -150,11 +150,12 @@ def lowered(layout: Layout, more: float) -> Layout:
     """The same drawings in fields whose upper edges are so much lower, in mm."""
     if not more:
         return layout
-    both = (
-        replace(field, rect=(field.rect[0], field.rect[1] + more, *field.rect[2:]))
-        for field in (layout.mechanism, layout.plan)
-    )
-    return Layout(*both, layout.spans)
+
+    def less(field: Field) -> Field:
+        left, top, right, low = field.rect
+        return replace(field, rect=(left, top + more, right, low))
+
+    return replace(layout, mechanism=less(layout.mechanism), plan=less(layout.plan))
 
 
 def poles_of(drawing: Drawing) -> Iterator[Point]:

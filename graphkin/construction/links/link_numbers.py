@@ -196,7 +196,7 @@ def settle_in_plates(board: FieldContent) -> None:
     waiting = list[Label]()
     for label in board.labels:
         x, y = label.subject
-        if not (label.ring and label.name in plates) or isinstance(x, tuple):
+        if not label.ring or label.name not in plates or isinstance(x, tuple):
             waiting.append(label)
             continue
         wide = label.size()[0] / 2
@@ -207,6 +207,7 @@ def settle_in_plates(board: FieldContent) -> None:
         if free.is_empty:
             waiting.append(label)
             continue
+        assert isinstance(y, float)
         place = nearest_points(free, Point(x + wide + GAP, y))[0]
         board.marks += label.marks(Spot(place.x, place.y, None, True))
     board.labels = waiting
