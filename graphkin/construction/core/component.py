@@ -411,9 +411,7 @@ def as_drawn(trace: Trace, *, triangles: bool) -> Trace:
         return trace
     steps, left = trace.program.steps, dict(trace.values)
     waiting = [
-        c.read
-        for c in components(trace.program)
-        if c.read is not None and (crowded or c.gives_way)
+        c.read for c in components(trace.program) if c.read is not None and (crowded or c.gives_way)
     ]
     while waiting:
         number = waiting.pop()
