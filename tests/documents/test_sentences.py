@@ -192,3 +192,12 @@ def test_of_many_triangles_on_one_mechanism_none_is_drawn():
         text = " ".join(one.markup for one in sentences(sheet))
         assert ("right triangle" in text) is drawn
         assert (", computed: " in text) is not drawn
+
+
+@pytest.mark.parametrize("name", ["plank-two-sizes", "inflection-cardan"])
+def test_the_calculation_tells_no_rounding_and_nothing_twice(name):
+    """The plank stands level for an instant, the inflection pole lies on the axis: both are 0."""
+    for _, some in relations(drawings(name)):
+        said = [" ".join(relation.parts(solved=True)) for relation in some if relation.result]
+        assert not [text for text in said if re.search("10⁻¹[0-9⁰¹²³⁴-⁹]", text)]
+        assert len({*said}) == len(said)

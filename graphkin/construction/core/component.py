@@ -182,7 +182,7 @@ class Component(Construction, frozen=True, kw_only=True):
         return ()
 
     @abstractmethod
-    def section(self) -> str:
+    def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
 
     @abstractmethod

@@ -57,7 +57,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
         """What a known turning gives: rate times bar, or its square for what leads to the pivot."""
-        value = abs(float(drawing.trace.values[rate]))
+        value = drawing.rate_size(rate, "acceleration" if sign == "τ" else "velocity")
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
         size = value * value * length if square else value * length
