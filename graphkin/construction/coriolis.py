@@ -304,14 +304,14 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """The side of its triangle that it is read off."""
         return self.foot, self.top
 
-    def section(self) -> str:
+    def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
         return "coriolis_components"
 
     def relation(self, drawing: Drawing) -> Relation:
         """Twice the turning of the guide times the relative velocity."""
         values = drawing.trace.values
-        omega = abs(float(values[self.omega]))
+        omega = drawing.rate_size(self.omega)
         speed = abs(values[self.tip] - values[self.tail])
         rate, v = rate_symbol(drawing, self.omega), symbol(f"v_{self.index}")
         size = drawing.settled(2 * omega * speed)

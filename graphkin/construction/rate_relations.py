@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.link_poses import Disc
-from graphkin.construction.core.naming import rate_symbol, sense
+from graphkin.construction.core.naming import rate_symbol, sense, turning_with
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
@@ -49,13 +49,15 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
     key, letter = rate.target, rate.letter
     for link in drawing.scene.links:
         number = program.targets.get((key, link), -1)
-        value = drawing.turning(link)
+        value, named = drawing.turning(link), turning_with(drawing, link)
         if value is None or number not in drawing.trace.values:
+            continue
+        if named != link and (key, named) in program.targets:
             continue
         step = program.steps[number]
         name = symbol(f"{letter}_{link}")
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
-        if step.action is not None and step.name != link:
+        if step.action is not None and turning_with(drawing, step.name) != link:
             yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)

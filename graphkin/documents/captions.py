@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import has_plan, length_scale, scale_of
+from graphkin.construction.core.quantities import ASKED, PLANES, SHEETS
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.set_lengths import beside_plan
 from graphkin.drawing.areas import Rect
@@ -29,24 +30,36 @@ a second line of the lower letters ends above what begins 3 mm below the field's
 
 
 def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], list[Mark]]:
-    """The captions of both fields; a task leaves the scale factors to be computed.
+    """The captions of both fields, of one height on both sheets of a mechanism.
 
-    A field without a plan has none.
+    A task leaves the scale factors to be computed. A field without a plan has none.
     """
-    words, scales = drawing.words, drawing.scales
-    factor = scale_of(drawing, drawing.plane) / 1000
-    task = view == "task"
-    k = BLANK if task else figure(drawing, factor)
-    kL = f"{BLANK if task else length_scale(drawing)} m/mm"
-    beside = beside_plan(drawing, drawing.kind) if has_plan(drawing) else ""
-    kL += f"; {beside}" if beside else ""
+    own = said_above(drawing, drawing.kind if has_plan(drawing) else "", view)
+    every = [*own, *(said for kind in others(drawing) for said in said_above(drawing, kind, view))]
+    rects = layout.mechanism.rect, layout.plan.rect
+    both = [(said, rects[i % 2]) for i, said in enumerate(every)]
+    height = next((h for h, most in LOOKS if all(len(lines(*x, h)) <= most for x in both)), LEAST)
+    above = [caption(said, rect, height) if said else [] for said, rect in both[:2]]
+    return above[0], above[1]
+
+
+def others(drawing: Drawing) -> list[str]:
+    """The kinds of the other sheets of a mechanism: one with accelerations has both."""
+    ask = drawing.scene.ask
+    later = any(getattr(ask, q) for q, some in ASKED.items() if some[0].kind == SHEETS[1])
+    return [kind for kind in SHEETS if later and kind != drawing.kind]
+
+
+def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
+    """What the captions of a mechanism say with a kind of plan beside it, or with none."""
+    words, scales, task = drawing.words, drawing.scales, view == "task"
+    beside = beside_plan(drawing, kind) if kind else ""
+    kL = f"{BLANK if task else length_scale(drawing)} m/mm" + (f"; {beside}" if beside else "")
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
-    said = [(mechanism, layout.mechanism.rect)]
-    if has_plan(drawing):
-        said.append((words(f"page.{drawing.kind}_heading", k=k), layout.plan.rect))
-    height = next((h for h, most in LOOKS if all(len(lines(*x, h)) <= most for x in said)), LEAST)
-    above = [caption(*each, height) for each in said]
-    return above[0], above[1] if len(above) > 1 else []
+    if not kind:
+        return mechanism, ""
+    k = BLANK if task else figure(drawing, scale_of(drawing, PLANES[kind]) / 1000)
+    return mechanism, words(f"page.{kind}_heading", k=k)
 
 
 def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:

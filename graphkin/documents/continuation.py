@@ -35,7 +35,7 @@ LEADING = 4.6
 GAP, HEAD = 8.0, 6.0
 """Room above the heading of a part, and below it, in mm."""
 INSIDE = 3.0
-"""How far the numbers of sentences stay clear of the centring mark at the left, in mm."""
+"""How far tables and numbers of sentences stay clear of the centring mark at the left, in mm."""
 MIDDLE = MARKED[0]
 """Where the left column ends, clear of the centring mark, in mm."""
 LOW = A3_TITLE_BLOCK[1] - 4
@@ -127,7 +127,8 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
     if top > LOW - LEAST:
         yield [*head, *last]
         last, top = [], y + GAP
-    rects: tuple[Rect, Rect] = (x, top, AREA[2], LOW), (x, y + GAP, AREA[2], LOW)
+    left = x + INSIDE
+    rects: tuple[Rect, Rect] = (left, top, AREA[2], LOW), (left, y + GAP, AREA[2], LOW)
     for marks in tables_on_sheets(drawing, *rects, empty=view == "task"):
         yield [*head, *last, *marks]
         last = []
@@ -176,7 +177,8 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
         marks += in_columns(drawing, [left, *beside], said)
     if Moved.TABLES in moved:
         alone = Moved.CONSTRUCTION not in moved
-        marks += tables(drawing, (x, *right[1:]) if alone else right, empty=view == "task")
+        own = (x + INSIDE, *right[1:]) if alone else right
+        marks += tables(drawing, own, empty=view == "task")
     return marks
 
 

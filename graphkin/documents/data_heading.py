@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data
@@ -22,23 +22,30 @@ GAP = 5.0
 BESIDE = {1: (ROW, 2.75), 2: (ROW, 0.5), 3: (3.6, -0.2)}
 """The distance in mm of so many lines beside the table, of which there are three at most, and how
 far below the first line's foot they begin: amid the table, level with its rows, or as high."""
-LINES = ((2.5, 4.2, 2, False), (2.5, 3.85, 3, True), (1.8, 3.2, 3, False), (1.8, 2.6, 4, False))
-"""How data without a table may look: height of letters and distance of lines in mm, lines at most,
-and whether these are so near that signs may touch."""
+SPACED, CLOSE = 4.2, 3.85
+"""Distance of two lines of data without a table, and of more, in mm."""
+SMALL, NEAR = 2.0, (3.3, 2.8, 2.45)
+"""Height of letters in mm where drawings leave no room for larger ones, and distances of lines."""
+AIR = 1.0
+"""How much farther from data of more lines the captions stand, in mm: both may be of large letters
+then."""
 SHORTER = (0.0, *range(4, 49, 4))
 """By how much lines are made shorter, in mm, until no signs touch."""
 
-LOWEST = AREA[1] - 7.4
+LOWEST = AREA[1] - 7.2
 """The foot of the lowest line in mm: below it stand the captions, of two lines where they must."""
 
 
-def data_heading(drawing: Drawing, view: str, x: float, y: float) -> list[Mark]:
+def data_heading(
+    drawing: Drawing, view: str, x: float, y: float, spare: Callable[[], float] = float
+) -> list[Mark]:
     """The data from a point on, whose y is the foot of the first line.
 
-    Raises PageError where they do not fit.
+    ``spare`` is the height in mm that the drawings leave free below the captions, into which data
+    of many lines reach, and the captions with them. Raises PageError where they do not fit.
     """
     found = data(drawing, solved=view != "task")
-    return in_table(found, x, y) or in_lines(drawing, found, x, y)
+    return in_table(found, x, y) or in_lines(drawing, found, x, y, spare)
 
 
 def in_table(found: Sequence[Datum], x: float, y: float) -> list[Mark]:
@@ -80,34 +87,66 @@ def ruled(valued: Sequence[Datum], widths: Sequence[float], x: float, top: float
         yield LineMark(x, top, x, low, "panel")
 
 
-def in_lines(drawing: Drawing, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
-    """All data in two lines, or in three, of smaller lettering only where signs would touch.
+def in_lines(
+    drawing: Drawing, found: Sequence[Datum], x: float, y: float, spare: Callable[[], float]
+) -> list[Mark]:
+    """All data in three lines, which end where their signs are clear of each other.
 
-    Three lines end where their signs are clear of each other. Lines end within a datum only where
-    nothing else does: long data have room beside the drawings then.
-    They stay clear of the fields' captions, also where a title of two lines moves them down.
+    Where they need more, these reach down as far as the drawings leave room; else they are of
+    smaller lettering. Long data end within a line only there. All stay clear of the fields'
+    captions, also where a title of two lines moves them down.
     """
     first, *pieces = (datum.said for datum in found)
     pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
     width = AREA[2] - x - 3
     parted = words_of("; ".join(pieces))
-    for told, mark, (height, leading, room, near) in (
-        *((pieces, "; ", look) for look in LINES),
-        *((parted, " ", look) for look in LINES if look[0] < LETTERS),
-    ):
-        for less in SHORTER if near else SHORTER[:1]:
-            lines = flowed(told, mark, width - less, height)
-            fits = len(lines) <= room and y + (len(lines) - 1) * leading <= LOWEST
-            if fits and (not near or are_clear(lines, height, leading)):
+    for i, (height, leading, room) in enumerate(looks(y, spare)):
+        for told, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
+            lines = spread(told, mark, width, height, leading)
+            if len(lines) <= room and all(extent(line, height)[0] <= width for line in lines):
                 return [
-                    Text(x, y + i * leading, line, "caption", height, name=NAME)
-                    for i, line in enumerate(lines)
+                    Text(x, y + row * leading, line, "caption", height, name=NAME)
+                    for row, line in enumerate(lines)
                 ]
     raise PageError(
         Problem(
             "data",
             f"does not fit: {len(lines)} lines of small lettering",
-            "four lines above the drawing",
+            "lines above the drawings",
             "shorten names and notes, or split the scene",
         )
     )
+
+
+def spread(
+    told: Sequence[str], mark: str, width: float, height: float, leading: float
+) -> list[str]:
+    """Pieces in lines no longer than a width, and so long that their signs are clear if they can
+    be."""
+    every = (flowed(told, mark, width - less, height) for less in SHORTER)
+    first = next(every)
+    return next((lines for lines in (first, *every) if are_clear(lines, height, leading)), first)
+
+
+def looks(y: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, int]]:
+    """How lines from a foot on may look: their letters, their distance in mm, how many there are.
+
+    First as they are wished, then down to the drawings, then of small lettering.
+    """
+    yield LETTERS, SPACED, 2
+    yield LETTERS, CLOSE, rows(LOWEST - y, CLOSE)
+    free = spare() - AIR
+    yield LETTERS, CLOSE, rows(LOWEST + free - y, CLOSE)
+    yield from ((SMALL, leading, rows(LOWEST - y, leading)) for leading in NEAR)
+    yield SMALL, NEAR[1], rows(LOWEST + free - y, NEAR[1])
+
+
+def height_beyond(marks: Sequence[Mark]) -> float:
+    """How much more height data take up than stands above the fields, in mm."""
+    low = max((mark.y for mark in marks if isinstance(mark, Text)), default=0.0)
+    return low - LOWEST + AIR if low > LOWEST else 0.0
+
+
+def rows(height: float, leading: float) -> int:
+    """How many lines stand between the feet of the first and of the lowest."""
+    return int(height / leading + 1e-9) + 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import product
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
@@ -13,6 +14,8 @@ from graphkin.text.errors import PageError, Problem
 
 LOOKS = ((2.5, 5.6, 3.6), (2.2, 4.9, 3.4), (1.8, 4.0, 3.4))
 """Heights of lettering, each with the largest and the least distance of its lines, in mm."""
+SHORTER = (0.0, 4.0, 8.0, 12.0, 16.0)
+"""By how much lines are made shorter, in mm, until no signs touch."""
 FINE = 0.05
 """By how much, in mm, lines are set closer until they fit."""
 PARTED = 4.6
@@ -27,11 +30,11 @@ Numbered = tuple[str, str]
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The sentences from a place on, as far apart as there is room for their lines.
 
-    In small lettering where signs of large lines would touch. Raises PageError where even small
-    lines are too many.
+    Where signs of lines would touch these are shorter, else in smaller lettering. Raises PageError
+    where even small lines are too many.
     """
-    for height, most, least in LOOKS:
-        flown = both_ways(drawing, x, width, height)
+    for (height, most, least), less in product(LOOKS, SHORTER):
+        flown = both_ways(drawing, x, width - less, height)
         for leading in distances(most, least):
             lines = lined(*flown, int((MARKED[1] - y) / leading + 1))
             if y + (len(lines) - 1) * leading <= bottom:
@@ -73,7 +76,7 @@ def both_ways(
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     return (
         [flowed(words, " ", width - INDENT, height) for words in said],
-        [flowed(words, " ", MARKED[0] - x - INDENT, height) for words in said],
+        [flowed(words, " ", min(width, MARKED[0] - x) - INDENT, height) for words in said],
     )
 
 

@@ -7,11 +7,11 @@ from collections.abc import Iterator, Set
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.construction.core.layout import Layout, lay_out, lowered
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.parameter_words import variant
 from graphkin.documents.detail import with_detail
-from graphkin.documents.sheet import boards, title_of
+from graphkin.documents.sheet import boards, heading, title_of
 from graphkin.drawing.areas import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -31,7 +31,7 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     Crosses stand on the corners of the task sheet's frame, crop marks outside them. The caption
     tells which variant of the mechanism it is.
     """
-    layout = layout or lay_out(drawing)
+    layout = lowered(layout or lay_out(drawing), heading(drawing, "task")[2])
     words = drawing.words
     tasks = boards(drawing, layout, "task")
     known = {(label.name, label.cls) for task in tasks for label in task.labels}

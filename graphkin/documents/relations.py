@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.cams.cam_relations import of_cams
 from graphkin.construction.core.component import components_on
-from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import drawn_in, scale_of
@@ -206,8 +206,9 @@ def of_components(drawing: Drawing) -> list[Section]:
     for kind in COMPONENTS:
         for each in components_on(drawing):
             if isinstance(each, kind):
-                section = found.setdefault(each.section(), [])
-                section.append(each.relation(drawing))
+                section, relation = each.section(drawing), each.relation(drawing)
+                if relation not in found.setdefault(section, []):  # said of both trials alike
+                    found[section].append(relation)
     return list(found.items())
 
 
@@ -241,12 +242,13 @@ def blank_place(drawing: Drawing) -> tuple[str, str]:
 def of_place(drawing: Drawing, name: str, point: complex) -> Relation:
     """A place on paper from the first fixed pivot, and in the axes of the frame."""
     words, unit = drawing.words, drawing.scene.units["length"]
-    x, y = (answer(drawing, drawing.length(part)) for part in (point.real, point.imag))
+    away = (0.0 if abs(part) < NOISE * drawing.reach else part for part in (point.real, point.imag))
+    x, y = (answer(drawing, drawing.length(part)) for part in away)
     pivots = drawing.scene.frame.points
     if not pivots:
         return Relation(name, result=words.place(x, y), unit=unit, remark=words("calculation.axes"))
-    away = point - drawing.standing.spot(pivots[0])
-    parts = (drawing.on_paper(part) for part in (away.real, away.imag))
+    shift = point - drawing.standing.spot(pivots[0])
+    parts = (drawing.on_paper(part) for part in (shift.real, shift.imag))
     measured = words.place(*(words.fixed(part, 2) for part in parts))
     remark = words(
         "calculation.on_paper", pivot=symbol(pivots[0]), place=f"{words.place(x, y)} {unit}"

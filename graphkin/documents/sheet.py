@@ -13,7 +13,7 @@ from graphkin.construction.core.component import crowded_pins
 from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.layout import Layout, lay_out
+from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
@@ -24,9 +24,10 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
+from graphkin.construction.links.link_numbers import settle_in_plates
 from graphkin.construction.result_tables import tables
 from graphkin.documents.captions import headlines
-from graphkin.documents.data_heading import data_heading
+from graphkin.documents.data_heading import data_heading, height_beyond
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import flattest_line
 from graphkin.documents.inset import insets
@@ -76,12 +77,14 @@ class Writing(Struct, frozen=True):
     """What is written above and below the drawings of a sheet, and what of it has no room.
 
     Of a construction that has no room, so many sentences are ``said`` here, the others moved.
+    Data of many lines take ``more`` height than others, in mm, of the fields below.
     """
 
     head: list[Mark]
     foot: list[Mark]
     moved: frozenset[Moved]
     said: int = 0
+    more: float = 0.0
 
 
 def sheet(
@@ -92,7 +95,8 @@ def sheet(
     written: Writing | None = None,
 ) -> Page:
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
-    layout, written = layout or lay_out(drawing), written or writing(drawing, view)
+    written = written or writing(drawing, view)
+    layout = lowered(layout or lay_out(drawing), written.more)
     (left, detail), (right, other) = parted(*boards(drawing, layout, view))
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
@@ -115,9 +119,9 @@ def page_title(drawing: Drawing) -> str:
 
 def panels(layout: Layout) -> list[Mark]:
     """The lines between the mechanism, the plan and what stands below them."""
-    x = layout.plan.rect[0]
+    x, top = layout.plan.rect[:2]
     return [
-        LineMark(x, AREA[1] - 6, x, AREA[3] - 2, "panel"),
+        LineMark(x, top - 6, x, AREA[3] - 2, "panel"),
         LineMark(AREA[0], AREA[3], AREA[2], AREA[3], "panel"),
     ]
 
@@ -161,11 +165,16 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     )
 
 
-def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved]]:
-    """The sheet's title and the data, in as many lines as they need; what has no room."""
+def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:
+    """The sheet's title and the data, in as many lines as they need; what has no room; how much
+    more height than others these lines take, in mm."""
     marks, x, y = title_line(drawing)
-    data, moved = with_room(drawing, Moved.DATA, lambda: data_heading(drawing, view, x, y), x, y)
-    return [*marks, *data], moved
+
+    def made() -> list[Mark]:
+        return data_heading(drawing, view, x, y, lambda: spare_height(drawing))
+
+    data, moved = with_room(drawing, Moved.DATA, made, x, y)
+    return [*marks, *data], moved, height_beyond(data)
 
 
 def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:
@@ -211,11 +220,11 @@ def with_room(
 
 def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
-    head, moved = heading(drawing, view)
+    head, moved, lower = heading(drawing, view)
     foot, more, said = below(drawing, view)
     if view == "key" and has_many_auxiliary(drawing):
         moved.add(Moved.AUXILIARY)
-    return Writing(head, foot, frozenset(moved | more), said)
+    return Writing(head, foot, frozenset(moved | more), said, lower)
 
 
 def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
@@ -260,6 +269,7 @@ def boards(
     ``said``.
     """
     both = left_board(drawing, layout, view), right_board(drawing, layout, view)
+    settle_in_plates(both[0])
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
         told = " ".join(each.markup for each in said or sentences(drawing))

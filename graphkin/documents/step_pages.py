@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing, flattest
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.layout import lay_out, lowered
 from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
@@ -43,7 +43,8 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     ``number`` is that of the sheet; each page adds which step it is, of how many. Every mark and
     letter has on each page the place that it has on the finished sheet.
     """
-    layout = lay_out(drawing)
+    head, _, more = heading(drawing)
+    layout = lowered(lay_out(drawing), more)
     said = sentences(drawing)
     staged = stages(drawing, said)
     (left, detail), (right, other) = parted(*boards(drawing, layout, "key", said))
@@ -58,7 +59,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     last = [*detail, *other, *plan_signs(drawing, layout.plan, [*right, *other])]
     block, same = (
         title_block(drawing, "steps", number),
-        [*heading(drawing)[0], *panels(layout)],
+        [*head, *panels(layout)],
     )
     lines = [
         (stage_of_crossing(drawing, each, staged), each)

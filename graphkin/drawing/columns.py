@@ -42,8 +42,13 @@ class Look(NamedTuple):
 
 WIDENED = ((1.0, True), (1.15, True), (1.3, True), (1.0, False))
 """Parts of the widths that are tried for large letters, before small ones."""
-HIGH = tuple(Look(5.0, 3.55, *how) for how in WIDENED)
-"""How tables with signs above letters look where there is room for it."""
+HIGH = (
+    *(Look(5.0, 3.55, *how) for how in WIDENED if how[1]),
+    *(Look(5.6, 3.7, *how) for how in WIDENED if how[1]),
+    Look(5.0, 3.55, 1.0),
+)
+"""How tables with signs above letters look where there is room for it, with indices of indices
+below them in higher rows."""
 LOOKS = (
     *(Look(4.7, 3.2, *how) for how in WIDENED),
     *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)),

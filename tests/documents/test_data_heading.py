@@ -4,10 +4,12 @@ from itertools import cycle
 
 import pytest
 
+from graphkin.construction.core.layout import lay_out, lowered
 from graphkin.documents.data_heading import NAME, data, data_heading
 from graphkin.documents.sheet import Moved, sheet, title_line, writing
-from graphkin.drawing.areas import A3_AREA, AREA
+from graphkin.drawing.areas import A3_AREA, ABOVE, AREA
 from graphkin.drawing.marks import LineMark, Text, reach
+from graphkin.text import LANGUAGES
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import drawings
@@ -51,12 +53,12 @@ def test_data_stay_clear_of_captions_and_of_the_frame(which):
 
 @pytest.mark.parametrize("which", [("gears-planet", None), ("locomotive", None), ("pump", 7)])
 def test_below_a_title_of_two_lines_data_leave_room_for_captions_of_two(which):
-    """The first caption's foot is 3.4 mm above the field, its letters and theirs 4.0 mm high."""
+    """The first caption's foot is 2.2 mm above the field, its letters 3.5 mm high at most."""
     for drawing in drawings(*which):
         lowest = max(
             mark.y for mark in data_heading(drawing, "key", 24, 23.4) if isinstance(mark, Text)
         )
-        assert lowest <= AREA[1] - 3.4 - 4.0
+        assert lowest <= AREA[1] - 2.2 - 3.5 - 1.4
 
 
 @pytest.mark.parametrize("remark", ["", ", continued"])
@@ -71,13 +73,27 @@ def test_a_title_of_any_length_stands_clear_of_the_frame_and_of_the_data(count, 
         assert max(box[3] for box in boxes) <= foot - 2.5 - 0.5
 
 
-@pytest.mark.parametrize("language", ["en", "ro"])
-def test_long_data_stand_on_the_sheet_where_lines_may_end_within_them(language):
-    """Six data about rollers, each half a line long, are four lines together (Italian: five)."""
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_long_data_stand_on_the_sheet_where_the_drawings_leave_room(view, language):
+    """Six data about rollers, each half a line long, are more lines than stand above the fields."""
     for drawing in drawings_from(scene_text("documents/plank-pulled"), language):
-        written = writing(drawing, "task")
+        written = writing(drawing, view)
         assert Moved.DATA not in written.moved
         lines = [mark for mark in written.head if isinstance(mark, Text) and mark.name == NAME]
         said = " ".join(mark.markup for mark in lines)
-        assert len(lines) <= 4 and all(datum.said in said for datum in data(drawing, solved=False))
+        assert all(datum.said in said for datum in data(drawing, solved=view == "key"))
+        assert all(mark.height >= 2.0 for mark in lines)
         assert max(reach(mark)[2] for mark in lines) < AREA[2]
+
+
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_fields_that_are_lowered_leave_as_much_room_above_drawings_as_any_has(which):
+    for drawing in drawings(*which):
+        layout, more = lay_out(drawing), writing(drawing, "key").more
+        fields = lowered(layout, more)
+        for field, old in ((fields.mechanism, layout.mechanism), (fields.plan, layout.plan)):
+            assert (field.at, field.mm, field.middle) == (old.at, old.mm, old.middle)
+        metres, top = drawing.scales.metres(drawing.kind), fields.plan.rect[1]
+        assert fields.mechanism(1j * drawing.mechanism_extent().top)[1] >= top + ABOVE - 1e-6
+        assert fields.plan(1j * drawing.plan_extent().top / metres)[1] >= top + ABOVE - 1e-6

@@ -8,6 +8,7 @@ from math import degrees
 
 import pytest
 
+from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import angle_symbol
@@ -15,7 +16,7 @@ from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.text import words
+from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import drawings, named
 
@@ -168,3 +169,35 @@ def test_the_law_of_a_cam_bears_its_follower_s_index_and_no_symbol_of_a_driver(n
     named = re.findall(r"\*[sψ]\*[′″]?(?:_\{(\w+)\})? =", law)
     assert named == list(drawing.scene.cams) * 3
     assert not drivers & set(re.findall(r"(?<=[ ,])[sψ]\S*(?= =)", plain(law)))
+
+
+@pytest.mark.parametrize("name", ["plank-axle", "bar-on-roller", "rope-on-drum"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_rate_is_that_of_a_link_of_which_nobody_speaks(name, language):
+    """What keeps a wheel on its track slides along it: both turn alike, and the track is named."""
+    found = drawings(name, None, language)
+    unseen = found[0].scene.unseen
+    assert unseen
+    parts = (r.parts(solved=True) for _, some in relations(found) for r in some)
+    told = [*all_said(found), *(piece for pieces in parts for piece in pieces)]
+    rates = {link for text in told for link in re.findall(r"\*[ωε]\*_\{?(\w+)", text)}
+    assert rates and not rates & unseen
+
+
+def test_of_many_triangles_on_one_mechanism_none_is_drawn():
+    """Their components are computed, v²/l, and laid off; on a pump's sheet they are drawn."""
+    for name, n, drawn in (("plates-ring", None, False), ("pump", 7, True)):
+        sheet = drawings(name, n)[1]
+        assert any(c.is_drawn(sheet) for c in components_on(sheet)) is drawn
+        text = " ".join(one.markup for one in sentences(sheet))
+        assert ("right triangle" in text) is drawn
+        assert (", computed: " in text) is not drawn
+
+
+@pytest.mark.parametrize("name", ["plank-two-sizes", "inflection-cardan"])
+def test_the_calculation_tells_no_rounding_and_nothing_twice(name):
+    """The plank stands level for an instant, the inflection pole lies on the axis: both are 0."""
+    for _, some in relations(drawings(name)):
+        said = [" ".join(relation.parts(solved=True)) for relation in some if relation.result]
+        assert not [text for text in said if re.search("10⁻¹[0-9⁰¹²³⁴-⁹]", text)]
+        assert len({*said}) == len(said)

@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper, PencilMark, mark_of
-from graphkin.construction.core.component import component_of
+from graphkin.construction.core.component import component_of, has_many_triangles
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import EPSILON
@@ -50,6 +50,11 @@ class Original(Struct, frozen=True, dict=True):
         }
 
     @cached_property
+    def crowded(self) -> bool:
+        """Whether so many triangles would be drawn that all are computed."""
+        return has_many_triangles(self.trace)
+
+    @cached_property
     def order(self) -> tuple[int, ...]:
         """The steps whose values a pencil changes, in an order in which each finds its own."""
         moved: list[int] = []
@@ -72,7 +77,7 @@ class Original(Struct, frozen=True, dict=True):
     def by_hand(self, number: int) -> int | None:
         """The step that gives a composite one by hand, where the drawing has it."""
         component, hand = component_of(self.program, number), self.program.steps[number].by_hand
-        if component is not None and component.gives_way and not self.triangles:
+        if component and (self.crowded or (component.gives_way and not self.triangles)):
             return None
         return hand if hand is not None and hand in self.trace.values else None
 

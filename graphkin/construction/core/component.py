@@ -182,7 +182,7 @@ class Component(Construction, frozen=True, kw_only=True):
         return ()
 
     @abstractmethod
-    def section(self) -> str:
+    def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
 
     @abstractmethod
@@ -400,12 +400,19 @@ def crowded_pins(drawing: Drawing, least: int) -> list[complex]:
 # --- drawn, or given by number -------------------------------------------------------------------
 
 
+MANY = 13
+"""So many triangles on one sheet lie upon one another: all of them are computed."""
+
+
 def as_drawn(trace: Trace, *, triangles: bool) -> Trace:
     """A trace without the steps that only triangles need which give way, unless all are drawn."""
-    if triangles:
+    crowded = has_many_triangles(trace)
+    if triangles and not crowded:
         return trace
     steps, left = trace.program.steps, dict(trace.values)
-    waiting = [c.read for c in components(trace.program) if c.read is not None and c.gives_way]
+    waiting = [
+        c.read for c in components(trace.program) if c.read is not None and (crowded or c.gives_way)
+    ]
     while waiting:
         number = waiting.pop()
         used = any(number in steps[other].args for other in left)
@@ -413,6 +420,11 @@ def as_drawn(trace: Trace, *, triangles: bool) -> Trace:
             del left[number]
             waiting += steps[number].args
     return Trace(trace.program, left, trace.margins)
+
+
+def has_many_triangles(trace: Trace) -> bool:
+    """Whether so many triangles would be drawn that none is."""
+    return sum(c.read in trace.values for c in components(trace.program)) >= MANY
 
 
 def may_give_way(program: Program) -> bool:

@@ -288,6 +288,12 @@ class Drawing(Struct, frozen=True, dict=True):
             largest = max(largest**2, *map(abs, self.all_of(self.rate.target)))
         return 0.0 if abs(value) < NOISE * largest else float(value)
 
+    def rate_size(self, number: int, kind: str = "velocity") -> float:
+        """The size of an angular velocity, or acceleration, by its step; zero for mere rounding."""
+        value = abs(float(self.trace.values[number]))
+        largest = self.fastest if kind == "velocity" else self.fastest**2
+        return 0.0 if value < NOISE * largest else value
+
     @cached_property
     def fastest(self) -> float:
         """The largest angular velocity, or what the largest velocity gives over the mechanism."""

@@ -13,6 +13,7 @@ from math import degrees
 from typing import Any, NamedTuple
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -132,6 +133,29 @@ def room_below(height: Real) -> Real:
     """
     spare = larger(HEIGHT - height, 0.0)
     return ABOVE + larger(spare / 2, smaller(spare, GROUND - ABOVE))
+
+
+def spare_height(drawing: Drawing) -> float:
+    """By how much the upper edges of both fields of a sheet may be lowered, in mm, so that there is
+    as much room above each drawing as any has."""
+    layout, metres = lay_out(drawing), drawing.scales.metres(drawing.kind)
+    field = layout.mechanism
+    tops = [field(complex(0.0, drawing.mechanism_extent().top))[1]]
+    tops += [field(pole)[1] for pole in poles_of(drawing) if field.holds(pole)]
+    tops += [layout.plan(complex(0.0, drawing.plan_extent().top / metres))[1]]
+    return max(min(tops) - ABOVE - AREA[1], 0.0)
+
+
+def lowered(layout: Layout, more: float) -> Layout:
+    """The same drawings in fields whose upper edges are so much lower, in mm."""
+    if not more:
+        return layout
+
+    def less(field: Field) -> Field:
+        left, top, right, low = field.rect
+        return replace(field, rect=(left, top + more, right, low))
+
+    return replace(layout, mechanism=less(layout.mechanism), plan=less(layout.plan))
 
 
 def poles_of(drawing: Drawing) -> Iterator[Point]:

@@ -100,10 +100,19 @@ def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
     """Markup of an angular velocity or acceleration by the step that holds it."""
     step = drawing.trace.program.steps[number]
     if step.name in drawing.scene.links:
-        return symbol(f"{letter}_{step.name}")
+        return symbol(f"{letter}_{turning_with(drawing, step.name)}")
     if isinstance(step.of, Drive):
         return symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
     return f"*{letter}*"
+
+
+def turning_with(drawing: Drawing, link: str) -> str:
+    """The link that is named for one of which nobody need speak: that on whose guide it slides,
+    for both turn alike."""
+    scene = drawing.scene
+    if link not in scene.unseen or not scene.links[link].slides:
+        return link
+    return turning_with(drawing, scene.links[link].slides[0].on)
 
 
 def is_driven(drawing: Drawing, number: int) -> bool:

@@ -41,6 +41,10 @@ if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
 
 
+ROUNDING = 1e-12
+"""A share of the way between two trials that is no more than this is zero but for rounding."""
+
+
 @action("between")
 def between(first: Point, second: Point, part: Real) -> Point:
     """The point that divides the way from the first trial's point to the second's so."""
@@ -75,6 +79,7 @@ class DividedRate(Divided, frozen=True, kw_only=True):
         """It is divided as every line of the two trials is."""
         numbers = (self.first, self.second, self.share)
         first, second, share = (float(drawing.trace.values[number]) for number in numbers)
+        share = share if abs(share) > ROUNDING else 0.0
         figures = f"{figure(drawing, first)} + {figure(drawing, share, FINE)}·"
         figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
         letter = drawing.rate.letter

@@ -22,6 +22,7 @@ from graphkin.construction.core.naming import (
     has_no_length,
     heading,
     sense,
+    turning_with,
 )
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.quantities import in_mm
@@ -290,7 +291,8 @@ def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
         if isinstance(kind, DrivenSlide):
             yield plan.slid(drawing, kind, size)
         elif isinstance(kind, LaidOffAboutPivot):
-            yield plan.turned(drawing, kind, plan.turned_by(rate) or kind.link, size)
+            link = turning_with(drawing, plan.turned_by(rate) or kind.link)
+            yield plan.turned(drawing, kind, link, size)
 
 
 def begun_by(step: Step) -> int | None:

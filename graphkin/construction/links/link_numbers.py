@@ -13,10 +13,12 @@ from graphkin.construction.guides.slide_symbols import number_side
 from graphkin.construction.links.plates import corners_of, farthest
 from graphkin.construction.links.wheel_symbols import number_beside
 from graphkin.drawing.areas import Rect
+from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import GAP, NUMBER, Label
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import LineMark
+from graphkin.drawing.marks import LineMark, Polyline
+from graphkin.drawing.placement import Spot
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.plane import cross
@@ -178,3 +180,34 @@ def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
         if isinstance(mark, LineMark) and mark.cls == "guide-bar" and mark.name == link.name:
             return (mark.x1, mark.y1), (mark.x2, mark.y2)
     return None
+
+
+def settle_in_plates(board: FieldContent) -> None:
+    """Set the numbers of plates at places inside them that are clear of all that is drawn.
+
+    Each stands there before other labels seek their places; where there is no such place, it seeks
+    one as they do.
+    """
+    from shapely import MultiLineString, Point, Polygon, box, union_all
+    from shapely.ops import nearest_points
+
+    plates = {m.name: m for m in board.marks if isinstance(m, Polyline) and m.cls == "plate"}
+    lines = [((a, b), (c, d)) for a, b, c, d in pieces_of(board.marks).tolist()]
+    waiting = list[Label]()
+    for label in board.labels:
+        x, y = label.subject
+        if not label.ring or label.name not in plates or isinstance(x, tuple):
+            waiting.append(label)
+            continue
+        wide = label.size()[0] / 2
+        body = Polygon(plates[label.name].points).buffer(-wide - EDGE)
+        near = MultiLineString(lines).intersection(body.buffer(wide + EDGE))
+        taken = union_all([box(*rect) for rect in board.taken])
+        free = body - union_all([near, taken]).buffer(wide + EDGE)
+        if free.is_empty:
+            waiting.append(label)
+            continue
+        assert isinstance(y, float)
+        place = nearest_points(free, Point(x + wide + GAP, y))[0]
+        board.marks += label.marks(Spot(place.x, place.y, None, True))
+    board.labels = waiting

@@ -210,7 +210,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         yield self.over, drawing.words("step.klein-circles", **fields)
         yield self.vector, drawing.words("step.klein-chord", **fields)
 
-    def section(self) -> str:
+    def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
         return "normals_klein"
 

@@ -236,9 +236,9 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         """From the pin to what the triangle cuts off the bar, turned over."""
         return self.pin, self.end
 
-    def section(self) -> str:
+    def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
-        return "normals"
+        return "normals" if self.read in drawing.trace.values else "normals_computed"
 
     def relation(self, drawing: Drawing) -> Relation:
         """Square of the relative velocity over the bar, and its drawn length."""

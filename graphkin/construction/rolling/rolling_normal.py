@@ -134,7 +134,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             **fields,
         )
 
-    def section(self) -> str:
+    def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
         return "normals_turning"
 

@@ -15,6 +15,7 @@ from graphkin.construction.core.naming import (
     has_no_length,
     is_driven,
     rate_symbol,
+    turning_with,
     vector_of,
 )
 from graphkin.construction.core.pen import Pen
@@ -56,7 +57,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
 
     def by_turning(self, drawing: Drawing, rate: int, sign: str) -> Relation:
         """What a known turning gives: rate times bar, or its square for what leads to the pivot."""
-        value = abs(float(drawing.trace.values[rate]))
+        value = drawing.rate_size(rate, "acceleration" if sign == "τ" else "velocity")
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
         size = value * value * length if square else value * length
@@ -113,8 +114,8 @@ def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str)
     """The rate by which a step lays off a vector; one that is tried is named by its link."""
     plan = auxiliary_plan(drawing, number)
     if plan is not None and link:
-        own, lead = symbol(f"{letter}_{link}"), plan.turned_by(rate)
-        if lead not in ("", link):
+        own, lead = symbol(f"{letter}_{link}"), turning_with(drawing, plan.turned_by(rate))
+        if lead not in ("", turning_with(drawing, link)):
             return f"{own} = {symbol(f'{letter}_{lead}')}"
         if lead or drawing.trace.program.steps[rate].name not in drawing.scene.links:
             return own

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import turning_with
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import EPSILON, OMEGA
@@ -78,7 +79,7 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
         size = abs(float(drawing.trace.values[self.rate])) * length
         size = 0.0 if drawing.turning(self.link) == 0 else size
         figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
-        name = symbol(f"{drawing.rate.letter}_{self.link}")
+        name = symbol(f"{drawing.rate.letter}_{turning_with(drawing, self.link)}")
         whole = f"{relative}/{bar(self.p, self.q)}"
         return Relation(name, whole, figures, *tail, over=((self.p, self.q),))
 

@@ -164,8 +164,19 @@
     place = [Math.round(Math.min(420, Math.max(0, x)) * 100) / 100,
       Math.round(Math.min(297, Math.max(0, y)) * 100) / 100];
     draw();
-    const off = Math.hypot(place[0] - now.own[0], place[1] - now.own[1]);
-    propose(off <= Math.max(now.error, 0.5) ? "right" : "wrong");
+    propose(likely(now));
+  }
+
+  // What the new place of a point makes likely. By hand the student's own place of it is not known
+  // (it is taken for the key's): after a mistake, what lies elsewhere may follow from that.
+  function likely(now) {
+    const off = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
+    const near = Math.max(now.error, 0.5);
+    const moved = off(now.own, now.key) > near;
+    if (off(place, now.own) <= near) return moved ? "follows" : "right";
+    const before = sheet().points.slice(0, sheet().points.indexOf(now));
+    const mistaken = before.some((each) => !each.ask && ["wrong", "missing"].includes(each.verdict));
+    return moved || !mistaken ? "wrong" : "";
   }
 
   // What Enter decides: what was read of the point, or what its new place makes likely.
