@@ -15,6 +15,7 @@ from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.classroom.printing.register_crosses import without_crosses
 from graphkin.drawing.marks import Page
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
@@ -193,7 +194,8 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
         if found is not None:
             drawing = next(each for each in sheets.drawings if each.kind == kind)
             most, refused, held = shares[kind], found.refused, found.own
-            sheet = LetteredSheet(drawing, pages[kind])
+            page = pages[kind] if found.crossed else without_crosses(pages[kind])
+            sheet = LetteredSheet(drawing, page)
             best = FoundSheet(sheet, found.map, found.residual, sheets)
         if held >= SURE_OF_SHEET:
             break
