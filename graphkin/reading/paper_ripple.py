@@ -68,12 +68,12 @@ def ripple_of(lines: Offsets, crosses: Offsets) -> Ripple:
     known = Offsets(*(np.concatenate(part) for part in parts))
     seen = crosses if len(crosses.off) else lines
     height = np.sqrt(max(spread(seen.off) ** 2 - float(np.median(seen.errors**2)), LEAST**2))
-    for _ in range(TRIED):
+    for left in reversed(range(TRIED)):
         inverse = np.linalg.inv(covariance(known, height))
         weights = inverse @ known.off
         alone = np.diag(inverse)
         stray = abs(weights) > STRAY * np.sqrt(alone)
-        if not stray.any():
+        if not (left and stray.any()):
             break
         known = known.some(~stray)
     xs, ys = (BEGIN[k] + np.arange(COUNT[k]) * PITCH for k in range(2))

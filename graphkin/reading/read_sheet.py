@@ -144,14 +144,18 @@ def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
     from graphkin.reading.codes import codes_in
 
     found = codes_in(grey)
-    ours = {each.text: each for each in found if each.text in variants}
+    ours = [each for each in found if each.text in variants]
     if len(ours) > 1:
-        raise Unreadable(f"holds several sheets: {', '.join(sorted(ours))}; one in each picture")
+        told = ", ".join(sorted(each.text for each in ours))
+        raise Unreadable(f"holds several sheets: {told}; one in each picture")
     if not ours and found:
         raise Unreadable("its code is that of no student of this class: another class, or a copy")
     if not ours:
-        raise Unreadable("no code is found: the square left of the title block must be seen whole")
-    (each,) = ours.values()
+        raise Unreadable(
+            "no code is found: the square left of the title block must be seen whole; "
+            "halves of a sheet are named NAME-left and NAME-right"
+        )
+    (each,) = ours
     return each.text, each.corners
 
 
