@@ -56,6 +56,8 @@ SPECKS = 0.3
 """
 MARKS = np.arange(0.45, 2.6, 0.15)
 """Radii of the dots, rings and crosses by which a point is marked, in mm; the last lie beyond."""
+OFF_LINE = 0.5
+"""A mark whose middle lies farther from a line, in mm, is none of a point on it."""
 ASIDE = np.arange(0.3, 0.5, 0.05)
 """How far beside a printed line is seen what is drawn over it, in mm."""
 BEYOND, MARKED = 6, 0.7
@@ -191,6 +193,12 @@ class DrawnInk(Struct, frozen=True):
         near = marked > marked[best] - 0.1
         near &= abs(places - places[best]) < MARKS[-1] / 2
         return complex(places[near].mean())
+
+    def is_marked_beside(self, place: complex, way: complex) -> bool:
+        """Whether the mark that is seen at a place of a line rather stands beside the line."""
+        near = np.arange(-MARKS[-1] / 2, MARKS[-1] / 2 + PITCH / 2, PITCH)
+        mark = self.spot((place + way * (near[:, None] + 1j * near[None, :])).ravel(), way)
+        return mark is not None and abs(((mark - place) / way).imag) > OFF_LINE
 
     def on_print(self, place: complex, way: complex, reach: float) -> float | None:
         """How far along a printed line, from a place on it, a dot, a ring or a stroke across it is

@@ -17,7 +17,7 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.redrawing import step_drawn
 from graphkin.drawing.areas import AREA
 from graphkin.numbers.plane import Line
-from graphkin.reading.drawn_ink import COVERED, MARKS, PITCH, DrawnInk, InkLine
+from graphkin.reading.drawn_ink import COVERED, PITCH, DrawnInk, InkLine
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
 from graphkin.reading.line_crossings import (
@@ -50,8 +50,6 @@ PRINTED = 0.3
 """Standard deviation of a hand's mark across the printed line of a guide, in mm."""
 END, NODE, SPOT = 0.8, 0.5, 0.2
 """The same of the end of a line, of where others leave it, and of the mark of a point."""
-ASIDE_OF = 0.5
-"""A mark whose middle lies farther from a line, in mm, is none of a point on it."""
 TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays in degrees and mm, and where rays begin."""
 AGREED = 0.5
@@ -339,7 +337,7 @@ class PointSearch:
                         count = 1 if self.is_open(number) else 2
                 stops = count == 1 and shift is not None
                 place = foot + line.way * (shift or 0.0)
-                if along == SPOT and self.is_marked_beside(place, line.way):
+                if along == SPOT and self.ink.is_marked_beside(place, line.way):
                     count, stops = 1, False
                 near = any(abs(place - e) < SHORT for e in ends)
                 if shift is None or near or not self.is_own(number, place, where):
@@ -353,12 +351,6 @@ class PointSearch:
         along = np.arange(-reach, reach + PITCH, PITCH)
         place = self.ink.spot(foot + along * way, way)
         return None if place is None else float(((place - foot) / way).real)
-
-    def is_marked_beside(self, place: complex, way: complex) -> bool:
-        """Whether the mark that stands at a place of a line rather stands beside the line."""
-        near = np.arange(-MARKS[-1] / 2, MARKS[-1] / 2 + PITCH / 2, PITCH)
-        mark = self.ink.spot((place + way * (near[:, None] + 1j * near[None, :])).ravel(), way)
-        return mark is not None and abs(((mark - place) / way).imag) > ASIDE_OF
 
     def marked(self, number: int, where: ExpectedPlace) -> LinesCrossing | None:
         """Where somebody marked a point to which no line leads, as on a printed guide."""
