@@ -311,7 +311,7 @@ def test_a_cross_is_found_where_it_is_printed_unless_a_line_hides_it():
     """A few hundredths of a mm near, off its place as far as the paper ripples; one through which a
     hand drew is left out, and paper without crosses has none.
     """
-    at, off = np.array([[50.0, 50.0], [70.0, 50.0], [50.0, 70.0], [70.0, 70.0]]), (0.37, -0.62)
+    at, off = np.array([[50.0, 50.0], [70.0, 50.0], [50.0, 70.0], [70.0, 70.0]]), (0.35, -0.65)
     x, y = np.meshgrid(np.arange(1000) / 10, np.arange(1000) / 10)
     dark = np.zeros(x.shape)
     for place in at:
