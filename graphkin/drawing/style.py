@@ -107,6 +107,7 @@ STYLES: dict[str, Style] = {
     "check-bar": Style(0.25, fill="ink"),
     "caption": Style(0.25, fill="ink"),
     "panel": Style(0.25, GREY),
+    "register": Style(0.18, GREY),
     "white": Style(0, WHITE, fill="ink"),
     "qr": Style(0, fill="ink"),
     "shade": Style(0, PALE, fill="ink"),

@@ -28,6 +28,10 @@ MASK = 0.35
 """Millimetres about printed ink that are not looked at."""
 STEP = 0.12
 """Distance, across a line, of the places where it is looked for, in mm."""
+STRAYS = 0.3
+"""By so many mm a line that is fitted may leave the window in which it was seen: one that leaves it
+farther is another.
+"""
 ENDS = 1.6
 """Millimetres at both ends of a line that are not looked at: heads, circles, letters."""
 LEAST_ERROR = 0.1
@@ -38,6 +42,8 @@ BOW = 5.0
 """Half the length of a compass arc that is looked at, in mm."""
 ARRIVES = 0.35
 """By how much less of the last piece of a way may be drawn: letters, heads and pale ends."""
+PAPER = 0.08
+"""Standard deviation of a place that is read, whatever the lines say: the map's, in mm."""
 COVERED = 0.3
 """A place of a line counts as drawn from this part of a usual line on."""
 
@@ -50,6 +56,8 @@ SPECKS = 0.3
 """
 MARKS = np.arange(0.45, 2.6, 0.15)
 """Radii of the dots, rings and crosses by which a point is marked, in mm; the last lie beyond."""
+OFF_LINE = 0.5
+"""A mark whose middle lies farther from a line, in mm, is none of a point on it."""
 ASIDE = np.arange(0.3, 0.5, 0.05)
 """How far beside a printed line is seen what is drawn over it, in mm."""
 BEYOND, MARKED = 6, 0.7
@@ -91,6 +99,8 @@ class DrawnInk(Struct, frozen=True):
 
     dark: Any
     known: Any
+    sway: float = 0.0
+    """By how much (mm, standard deviation) places are known less well than those of flat paper."""
 
     def at(self, places: Any) -> tuple[Any, Any]:
         """Darkness and whether it is known at some places (complex mm)."""
@@ -183,6 +193,12 @@ class DrawnInk(Struct, frozen=True):
         near = marked > marked[best] - 0.1
         near &= abs(places - places[best]) < MARKS[-1] / 2
         return complex(places[near].mean())
+
+    def is_marked_beside(self, place: complex, way: complex) -> bool:
+        """Whether the mark that is seen at a place of a line rather stands beside the line."""
+        near = np.arange(-MARKS[-1] / 2, MARKS[-1] / 2 + PITCH / 2, PITCH)
+        mark = self.spot((place + way * (near[:, None] + 1j * near[None, :])).ravel(), way)
+        return mark is not None and abs(((mark - place) / way).imag) > OFF_LINE
 
     def on_print(self, place: complex, way: complex, reach: float) -> float | None:
         """How far along a printed line, from a place on it, a dot, a ring or a stroke across it is
@@ -309,7 +325,9 @@ def fitted(
         if score[i, j] < 0.3:
             break
         line = refined(strip, known, across, part, float(first[i]) * STEP, float(last[j]) * STEP)
-        if line is not None:
+        if line is not None and all(
+            abs(off) < window + STRAYS for off, window in zip(line, windows, strict=False)
+        ):
             found.append(line)
         score[max(0, i - 3) : i + 4, max(0, j - 3) : j + 4] = 0
     return found
@@ -357,7 +375,10 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     known = 1 - printed_mask(page, flat.shape)
     inner = lines[known > 0]
     usual = max(float(np.percentile(inner, LINES)), FAINT)
-    return DrawnInk(np.clip(lines / usual, 0, 1.5).astype(np.float32), known.astype(np.float32))
+    told = 0.0 if over.ripple is None else over.ripple.deviation
+    sway = float(np.sqrt(max(told**2 - PAPER**2, 0.0)))
+    drawn = np.clip(lines / usual, 0, 1.5).astype(np.float32)
+    return DrawnInk(drawn, known.astype(np.float32), sway)
 
 
 def flattened(grey: Any, over: PaperMap, rect: Any, density: float) -> Any:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.reading.line_crossings import PAPER, LinesCrossing
+from graphkin.reading.drawn_ink import PAPER
+from graphkin.reading.line_crossings import LinesCrossing
 
 CLOSE, ROOM, WIDEST = 0.7, 0.3, 10.0
 """Least half width of the window for a point, what is added to its cloud's, and the most, in mm."""

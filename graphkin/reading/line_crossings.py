@@ -9,14 +9,12 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.reading.drawn_ink import InkLine
+from graphkin.reading.drawn_ink import PAPER, InkLine
 
 CROSSING = 0.12
 """Least sine of the angle at which lines cross that give a point."""
 PASSES = 0.45
 """A line passes through a point that lies so many mm beside it at most."""
-PAPER = 0.08
-"""Standard deviation of a place that is read, whatever the lines say: the map's, in mm."""
 
 
 class LinesCrossing(Struct, frozen=True):

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from graphkin.reading.paper_ripple import Ripple
+
 MIDDLE, HALF = (210.0, 148.5), 210.0
 """The middle of an A3 sheet and half its width, in mm: the unit of the paper's own places."""
 FLAT = 148.5 / 210.0
@@ -26,11 +28,12 @@ COUNT = PLAIN + 2 * len(BENDS)
 
 
 class PaperMap(Struct, frozen=True, dict=True):
-    """A map from paper to a picture of so many pixels, by its parameters."""
+    """A map from paper to a picture of so many pixels: its parameters, and the paper's ripples."""
 
     width: int
     height: int
     parameters: tuple[float, ...]
+    ripple: Ripple | None = None
 
     @cached_property
     def array(self) -> Any:
@@ -39,6 +42,8 @@ class PaperMap(Struct, frozen=True, dict=True):
 
     def __call__(self, places: Any) -> Any:
         """The pixels of places in mm, both along the last axis; pixel (0, 0) is a centre."""
+        if self.ripple is not None:
+            places = places + self.ripple(places)
         return pixels_of(self.array, places, self.width, self.height)
 
     def scale(self, place: Any) -> float:

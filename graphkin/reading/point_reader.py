@@ -46,7 +46,8 @@ OFF = 16.0
 VAGUE, MEET, BESIDE = 4.0, 3, 2.5
 """Where the pencil explains so many mm, a point that fits is looked at all the same, unless so many
 lines meet there, nothing on the sheet is wrong or missing before it, and it lies no farther off
-than so many mm.
+than so many mm. Where fewer meet, one that lies farther off is looked at, and what follows from it:
+another's lines may cross there.
 """
 AT_KEY = 2.0
 """The squared distance from the key, in deviations, up to which a point is there."""
@@ -56,6 +57,8 @@ NEARLY = 0.85
 """The share of the ways to a point that must be there for the same."""
 WHOLE = 0.9
 """The share of its lines that must be there for nobody to be asked of a point."""
+SHORTEST = 1e-3
+"""A place that lies nearer to another, in mm, lies there."""
 LEVER = 15.0
 """Two points so many mm apart tell the direction of the line that is drawn through them."""
 
@@ -69,6 +72,7 @@ class PointReader(PointSearch):
         self.noted: set[int] = set()
         self.doubted: set[int] = set()
         self.vaguely: set[int] = set()
+        self.strayed: set[int] = set()
         self.readings: dict[int, PointReading] = {}
         self.crossings: dict[int, LinesCrossing] = {}
 
@@ -301,11 +305,12 @@ class PointReader(PointSearch):
             there = self.is_there(number, best, key)
             ended = best.ends and close and own.radius <= VAGUE
             ended = ended and self.is_single(number, best.place)
+            stray = away <= FITS and not near and best.count < MEET
             # untried: by an auxiliary plan nobody saw
             vague = not there and ((own.radius > VAGUE and not met) or untried)
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             ask = (
-                away > SURE
+                self.swayed(away, abs(best.place - own.middle)) > SURE
                 or (best.count < 2 and not ended)
                 or best.cover < WHOLE
                 or (
@@ -316,7 +321,7 @@ class PointReader(PointSearch):
                 or doubtful
                 or (best.count == 2 and not self.is_reached(number, best.place))
             )
-            ask = ask or vague or odd
+            ask = ask or vague or odd or stray or bool(self.strayed & behind)
             if away <= FITS and fresh and from_key > FITS:
                 verdict = "wrong"
             elif away <= FITS and not after:
@@ -336,6 +341,7 @@ class PointReader(PointSearch):
                 ask = ask or (hangs and not self.is_met(number, best.place))
             else:
                 verdict, ask = "wrong", True
+            self.strayed |= {number} if stray else set()
         if doubtful:
             self.doubted.add(number)
         if verdict in ("wrong", "missing", "unread"):
@@ -354,6 +360,12 @@ class PointReader(PointSearch):
             round(own.radius, 3),
             *self.tail(number),
         )
+
+    def swayed(self, away: float, off: float) -> float:
+        """The squared distance of a place that lies so far off, were it farther by what the paper's
+        ripples leave open.
+        """
+        return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
 
     def is_met(self, number: int, place: complex) -> bool:
         """Whether ways to a place that are drawn cross there, and its vectors do not run on."""

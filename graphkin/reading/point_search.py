@@ -337,6 +337,8 @@ class PointSearch:
                         count = 1 if self.is_open(number) else 2
                 stops = count == 1 and shift is not None
                 place = foot + line.way * (shift or 0.0)
+                if along == SPOT and self.ink.is_marked_beside(place, line.way):
+                    count, stops = 1, False
                 near = any(abs(place - e) < SHORT for e in ends)
                 if shift is None or near or not self.is_own(number, place, where):
                     shift, along, count, stops = 0.0, where.reach, 1, len(flat) > 1

@@ -30,7 +30,7 @@ from graphkin.writers.lock import locked
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 8
+METHOD = 9
 """Raised when the same photograph would be read otherwise: readings of before are made anew."""
 FEWEST = 3
 """Photographs from which a worker process pays for itself."""

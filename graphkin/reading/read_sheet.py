@@ -15,6 +15,7 @@ from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.classroom.printing.register_crosses import without_crosses
 from graphkin.drawing.marks import Page
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
@@ -143,14 +144,18 @@ def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
     from graphkin.reading.codes import codes_in
 
     found = codes_in(grey)
-    ours = {each.text: each for each in found if each.text in variants}
+    ours = [each for each in found if each.text in variants]
     if len(ours) > 1:
-        raise Unreadable(f"holds several sheets: {', '.join(sorted(ours))}; one in each picture")
+        told = ", ".join(sorted(each.text for each in ours))
+        raise Unreadable(f"holds several sheets: {told}; one in each picture")
     if not ours and found:
         raise Unreadable("its code is that of no student of this class: another class, or a copy")
     if not ours:
-        raise Unreadable("no code is found: the square left of the title block must be seen whole")
-    (each,) = ours.values()
+        raise Unreadable(
+            "no code is found: the square left of the title block must be seen whole; "
+            "halves of a sheet are named NAME-left and NAME-right"
+        )
+    (each,) = ours
     return each.text, each.corners
 
 
@@ -193,7 +198,8 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
         if found is not None:
             drawing = next(each for each in sheets.drawings if each.kind == kind)
             most, refused, held = shares[kind], found.refused, found.own
-            sheet = LetteredSheet(drawing, pages[kind])
+            page = pages[kind] if found.crossed else without_crosses(pages[kind])
+            sheet = LetteredSheet(drawing, page)
             best = FoundSheet(sheet, found.map, found.residual, sheets)
         if held >= SURE_OF_SHEET:
             break

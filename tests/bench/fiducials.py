@@ -1,34 +1,32 @@
-"""Whether small crosses on the fields would help to flatten hard photographs of a sheet.
+"""How much the small crosses in the fields help to flatten hard photographs of a sheet.
 
     python -m tests.bench.fiducials 24 [--seed 23]
 
-Blank sheets of the pump, half of them with twelve crosses of 6 mm on the fields, are photographed
-with cropped edges, a thumb on the frame, paper that ripples by half a millimetre, and all of that
-at once: the same pictures with and without. Prints how many are refused and how far the map is off.
+Blank sheets of the pump, with and without their crosses, are photographed with cropped edges, a
+thumb on the frame, paper that ripples by half a millimetre, and all of that at once: the same
+pictures twice. Prints how many are refused and how far the map is off.
 """
 
 from __future__ import annotations
 
 import argparse
-from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import cv2
 import numpy as np
-from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_folder import open_class
-from graphkin.drawing.areas import AREA
-from graphkin.drawing.marks import LineMark, Page
+from graphkin.classroom.printing.register_crosses import without_crosses
+from graphkin.drawing.marks import Page
 from graphkin.reading.codes import codes_in
 from graphkin.reading.read_run import read_order
 from graphkin.reading.read_sheet import Grid, task_pages
 from graphkin.reading.registration import Registration, SheetSearch
 from tests.bench.reading import XS, YS, folder_of
 from tests.reading.camera import Shot, photograph
-from tests.reading.hand import DENSITY, printed, sheets_of
+from tests.reading.hand import printed_page, sheets_of
 
 CASES = {
     "cropped": {"fill": 1.04},
@@ -36,25 +34,6 @@ CASES = {
     "ripple": {"ripple": 0.5},
     "all": {"fill": 1.02, "thumb": True, "ripple": 0.5},
 }
-HALF = 3.0
-"""Half the size of a cross, in mm."""
-WIDTH = 0.25
-
-
-def crosses() -> list[LineMark]:
-    """The crosses: four across and three down, as far from the fields' edges as from one another
-    at least.
-    """
-    left, top, right, bottom = AREA
-    marks = []
-    for i, j in product(range(4), range(3)):
-        x = left + 12 + i * (right - left - 24) / 3
-        y = top + 12 + j * (bottom - top - 24) / 2
-        marks += [
-            LineMark(x - HALF, y, x + HALF, y, "panel"),
-            LineMark(x, y - HALF, x, y + HALF, "panel"),
-        ]
-    return marks
 
 
 def found(image: Any, page: Page, shot: Shot, seed: int) -> tuple[Registration | None, Any]:
@@ -79,23 +58,18 @@ def main(count: int, seed: int) -> None:
     with TemporaryDirectory() as where:
         folder = folder_of("pump", Path(where), seed)
         code = next(iter(read_order(open_class(folder), Grid()).variants))
-        kind, page = task_pages(sheets_of(folder, code))[0]
-        plain = printed(folder, code, kind)
-        marked = plain.copy()
-        for mark in crosses():
-            ends = np.array([[mark.x1, mark.y1], [mark.x2, mark.y2]]) * DENSITY - 0.5
-            first, last = np.round(ends * 16).astype(int).tolist()
-            cv2.line(marked, first, last, 60, round(WIDTH * DENSITY), cv2.LINE_AA, 4)
-        crossed = replace(page, marks=[*page.marks, *crosses()])
+        _, page = task_pages(sheets_of(folder, code))[0]
+        both = {"without": without_crosses(page), "with": page}
+        images = {name: printed_page(own) for name, own in both.items()}
         for case, more in CASES.items():
-            for name, image, own in (("without", plain, page), ("with", marked, crossed)):
+            for name, image in images.items():
                 offs, refused = [], 0
                 for i in range(count // len(CASES)):
                     rng = np.random.default_rng([seed, i])
                     hard = {"tilt": rng.uniform(0, 20), "bow": rng.uniform(0, 4)}
                     hard |= {"k1": rng.uniform(-0.06, 0.06), "turn": rng.uniform(-5, 5)}
                     shot = Shot(**{"fill": 0.92, **hard, **more})
-                    result, off = found(image, own, shot, 100 * seed + i)
+                    result, off = found(image, page, shot, 100 * seed + i)
                     if result is None or result.refused:
                         refused += 1
                     else:

@@ -87,10 +87,15 @@ def sheets_of(folder: Path, code: str) -> Sheets:
 @lru_cache(maxsize=16)
 def printed(folder: Path, code: str, kind: str) -> Any:
     """A student's task sheet as it leaves the printer."""
+    found = next(each for each in sheets_of(folder, code).of("task") if each.kind == kind)
+    return printed_page(found.pages[0])
+
+
+def printed_page(sheet: Page) -> Any:
+    """A page as it leaves the printer."""
     import pypdfium2
 
-    found = next(each for each in sheets_of(folder, code).of("task") if each.kind == kind)
-    data = write_pdf(found.pages[:1], "colour", title="task")
+    data = write_pdf([sheet], "colour", title="task")
     page = pypdfium2.PdfDocument(data)[0]
     bitmap = page.render(scale=DENSITY * 25.4 / 72 * (1 - 1e-6), grayscale=True)
     return np.array(bitmap.to_numpy()).reshape(bitmap.height, bitmap.width)

@@ -532,6 +532,23 @@ def test_a_point_is_seen_by_its_mark_on_a_line(mark: str) -> None:
     assert through.spot(places, 1 + 0j) is None
 
 
+@pytest.mark.parametrize("mark", MARKS)
+def test_a_mark_beside_a_line_is_none_of_a_point_on_it(mark: str) -> None:
+    """As where somebody put a point of a link beside its line by mistake."""
+    line = (200 + 100j, 260 + 100j)
+    assert not ink_of(line, *MARKS[mark]).is_marked_beside(230 + 100j, 1 + 0j)
+    aside = ring_of(230 + 101.2j, 0.9)
+    assert ink_of(line, *aside).is_marked_beside(230 + 100j, 1 + 0j)
+
+
+def test_a_line_that_leaves_the_window_it_was_seen_in_is_another() -> None:
+    """By 3 degrees, as after a mistake: it passes where it begins, not where it should end."""
+    ink = ink_of((200 + 100.2j, 255.9 + 97.2j))
+    assert not ink.lines(200 + 100j, 255.9 + 98.8j, 1.6, 0.5)
+    found = ink.lines(200 + 100j, 255.9 + 97.5j, 1.6, 0.5)
+    assert found and all(abs(line.off(255.9 + 97.2j)) < 0.15 for line in found)
+
+
 def test_a_mark_over_a_printed_line_is_seen_on_both_its_sides() -> None:
     dashes = [(x + 100j, x + 5 + 100j) for x in (200, 207, 214, 221, 228, 235, 242, 249)]
     along = ink_of(*dashes, *MARKS["dot"]).on_print(228 + 100j, 1 + 0j, 4.0)

@@ -16,6 +16,7 @@ from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import form, quantity_of, why
 from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.personal import Owner, owned, owned_pages, owner, signed
+from graphkin.classroom.printing.register_crosses import crossed
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
 from graphkin.documents.calculation import calculation
@@ -115,7 +116,8 @@ class Sheets:
         """The sheets of a view, each page with its student's name and code."""
         own = [replace(owned(each, self.whose), computed=self.computed) for each in self.drawings]
         for sheet in drawn_sheets(own, view):
-            yield SheetDocument(sheet.kind, tuple(signed(sheet.pages, view, self.whose)))
+            first, *more = signed(sheet.pages, view, self.whose)
+            yield SheetDocument(sheet.kind, (crossed(first) if view == "task" else first, *more))
         if view in ("task", "key"):
             pages = calculation(owned_pages(self.drawings, self.whose), view, self.computed)
             pages = tuple(signed(pages, view, self.whose))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from time import sleep
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,7 +17,8 @@ from graphkin.classroom.printing.edition import Variant, read_edition
 from graphkin.classroom.printing.personal import fits, owner, shortened
 from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
-from graphkin.classroom.printing.qr_code import modules
+from graphkin.classroom.printing.qr_code import boxes, modules
+from graphkin.classroom.printing.register_crosses import crosses_of, without_crosses
 from graphkin.drawing.glyphs import measures
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
@@ -100,6 +102,27 @@ def test_every_task_sheet_and_form_of_this_lab_has_its_square(edition):
         assert [mark for mark in page.marks if mark.cls == "qr"]
     for page in pages(sheets, "key"):
         assert not [mark for mark in page.marks if mark.cls == "qr"]
+
+
+def test_crosses_stand_clear_of_all_print_in_line_with_the_border(edition):
+    """In the fields of a task's drawing sheets, and nowhere else: 20 mm apart about the middle of
+    the sheet, as the divisions of an ISO 5457 border are 50 mm apart, below all that is drawn.
+    """
+    sheets = Sheets(order(edition), edition.variants[0])
+    *drawings, form = sheets.of("task")
+    for sheet in drawings:
+        page = sheet.pages[0]
+        crosses = np.array(crosses_of(page))
+        assert len(crosses) > 100
+        assert np.rint((crosses - (210, 148.5)) / 20) * 20 == pytest.approx(crosses - (210, 148.5))
+        first = [mark.cls for mark in page.marks[: 2 * len(crosses)]]
+        assert set(first) == {"register"}
+        for mark in without_crosses(page).marks:
+            for left, top, right, bottom in boxes(mark):
+                x, y = np.clip(crosses, (left, top), (right, bottom)).T - crosses.T
+                assert (np.maximum(abs(x), abs(y)) > 2.4).all()
+    rest = [*form.pages, *pages(sheets, "key"), *pages(sheets, "overlay")]
+    assert not any(crosses_of(page) for page in rest)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
