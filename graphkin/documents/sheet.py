@@ -262,8 +262,8 @@ def boards(
     both = left_board(drawing, layout, view), right_board(drawing, layout, view)
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
-        told = " ".join(each.markup for each in said or sentences(drawing))
-        both[0].dispensable = [label for label in letters if label.markup not in told]
+        told = {name for each in said or sentences(drawing) for name in each.corners}
+        both[0].dispensable = [label for label in letters if label.name not in told]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
     if view == "key" and not said and has_many_auxiliary(drawing):
         both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
