@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import Measured, PaletteAction
-from graphkin.construction.core.naming import plan_amount, rate_symbol
+from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, letter, owned
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
@@ -183,19 +183,8 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
-        """The construction in full; by its number where it leaves too little to be drawn."""
-        size = self.size(drawing)
-        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
-        if self.is_left_out(drawing):
-            return Wording("short", self.left_out(drawing))
-        if not drawing.settled(size):
-            return Wording("ν none", drawing.words("step.normal-none", **fields))
-        if self.is_hidden(drawing):
-            drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
-            return Wording(
-                "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
-            )
+    def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
+        """The construction in full, each time."""
         markup = "; ".join(markup for _, markup in self.in_parts(drawing))
         return Wording("ν by chord", markup, self.corner_names(drawing, *CORNERS))
 

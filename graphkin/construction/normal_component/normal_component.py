@@ -184,20 +184,17 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         if self.is_left_out(drawing):
             return Wording("short", self.left_out(drawing))
         size = self.size(drawing)
-        fields = {
-            "p": symbol(self.p),
-            "q": symbol(self.q),
-            "bar": bar(self.p, self.q),
-            "v": symbol(self.speed),
-            "a": self.symbol,
-        }
+        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
         if not drawing.settled(size):
             return Wording("ν none", drawing.words("step.normal-none", **fields))
         if self.is_hidden(drawing):
             drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
-            return Wording(
-                "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
-            )
+            by_number = drawing.words("step.normal-computed", drawn=drawn, **fields)
+            return Wording("ν by number", by_number)
+        return self.drawing_words(drawing, fields, first=first)
+
+    def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
+        """How it is drawn; from what it comes where another is drawn likewise."""
         if not first:
             return Wording("ν", drawing.words("step.normal-again", **fields))
         cut, over = self.in_full(drawing, "step.normal-over")
