@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import CircleMark, Letter, LineMark, Mark, Text, box
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, PointLetter, Text, box
 from graphkin.drawing.placement import Spot, Wish
 from graphkin.drawing.richtext import extent
 
@@ -44,9 +44,9 @@ class Label(Struct, frozen=True):
     spare: bool = False
     optional: bool = False
     part: int = 0
-    letters: tuple[Letter, ...] = ()
+    letters: tuple[PointLetter, ...] = ()
 
-    def of_letters(self, letters: tuple[Letter, ...]) -> Label:
+    def of_letters(self, letters: tuple[PointLetter, ...]) -> Label:
         """The same for points that fall together, which share it."""
         names = " ".join(letter.name for letter in letters)
         markup = "".join(letter.joined for letter in letters)
