@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, PointLetter, Text, box
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, SharedLetter, Text, box
 from graphkin.drawing.placement import Spot, Wish
 from graphkin.drawing.richtext import extent
 
@@ -44,9 +44,9 @@ class Label(Struct, frozen=True):
     spare: bool = False
     optional: bool = False
     part: int = 0
-    letters: tuple[PointLetter, ...] = ()
+    letters: tuple[SharedLetter, ...] = ()
 
-    def of_letters(self, letters: tuple[PointLetter, ...]) -> Label:
+    def of_letters(self, letters: tuple[SharedLetter, ...]) -> Label:
         """The same for points that fall together, which share it."""
         names = " ".join(letter.name for letter in letters)
         markup = "".join(letter.joined for letter in letters)

@@ -78,7 +78,7 @@ class Arc(Struct, frozen=True):
         return self.cx + self.r * cos(turn), self.cy - self.r * sin(turn)
 
 
-class PointLetter(Struct, frozen=True):
+class SharedLetter(Struct, frozen=True):
     """A letter of a text that points share which fall together, and what joins it to the last."""
 
     name: str
@@ -107,7 +107,7 @@ class Text(Struct, frozen=True):
     step: int | None = None
     rotate: float = 0.0
     part: int = 0
-    letters: tuple[PointLetter, ...] = ()
+    letters: tuple[SharedLetter, ...] = ()
 
     def left(self) -> float:
         """Tell how far the text's beginning lies from x along the baseline, in mm."""

@@ -13,7 +13,7 @@ from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.segments import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label
-from graphkin.drawing.marks import CircleMark, LineMark, PointLetter
+from graphkin.drawing.marks import CircleMark, LineMark, SharedLetter
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import PIN, SHORT, arrow
@@ -76,11 +76,11 @@ def name_point(
         apart = hypot(x - at[0], y - at[1])
         if apart < TINY:
             label, joint = board.labels[i], "≡" if apart < SAME else "≈"
-            letters = (*label.letters, PointLetter(name, symbol(name), f" {joint} "))
+            letters = (*label.letters, SharedLetter(name, symbol(name), f" {joint} "))
             board.labels[i] = label.of_letters(letters)
             return
     board.lettered[len(board.labels)] = at
-    letters = (PointLetter(name, symbol(name)),)
+    letters = (SharedLetter(name, symbol(name)),)
     label = Label("", look, at, height, "", number, priority=2, radius=radius)
     board.labels.append(label.of_letters(letters))
 
