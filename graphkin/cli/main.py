@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import gc
-import os
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from graphkin import __version__
-from graphkin.cli.console import FAILED, CommandGroup, complain, end, say
+from graphkin.cli.console import FAILED, CommandGroup, complain, say
 from graphkin.cli.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
@@ -38,9 +36,6 @@ LATER = {
     "studio": "graphkin.cli.studio_command:studio",
 }
 """The commands of other modules and where they stand."""
-GARBAGE = 50_000
-"""New objects after which garbage is looked for: at 700, as usual, that takes a seventh of the time
-of ``graphkin solve pump``."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
 
 
@@ -315,13 +310,3 @@ def doubts(
     if verdict is not None and not verdict.agrees:
         complain(f"the independent check {verdict_words(verdict, scene)}")
     return flat or verdict is None or not verdict.agrees or unsure
-
-
-def main() -> None:
-    """Run the command line and leave with its status."""
-    gc.set_threshold(GARBAGE)
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # our matrices are small, its threads slow
-    try:
-        app(prog_name="graphkin")
-    except SystemExit as left:
-        end(left)

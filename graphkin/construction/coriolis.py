@@ -28,6 +28,7 @@ from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.vocabulary import (
     action,
@@ -213,18 +214,20 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """2·ω·v."""
         return f"2{rate_symbol(drawing, self.omega)}·{symbol(f'v_{self.index}')}"
 
-    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+    def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """Its triangles in full, the first time on a pivot; else its origin, or its number."""
         if self.is_left_out(drawing):
-            return "short", self.left_out(drawing)
+            return Wording("short", self.left_out(drawing))
         fields = self.fields(drawing)
         if drawing.settled(self.size(drawing)) == 0:
-            return self.sign, drawing.words("step.coriolis-none", **fields)
+            return Wording(self.sign, drawing.words("step.coriolis-none", **fields))
         if not self.is_drawn(drawing):
-            return self.sign, drawing.words("step.coriolis-computed", **fields)
+            return Wording(self.sign, drawing.words("step.coriolis-computed", **fields))
         if not first and self.stands_as_before(drawing):
-            return self.sign, drawing.words("step.coriolis-again", **fields)
-        return self.sign, "; ".join(self.in_full(drawing, "step.coriolis-top"))
+            return Wording(self.sign, drawing.words("step.coriolis-again", **fields))
+        corners, along = self.corner_names(drawing, "foot", "top"), self.triangle_along(drawing)
+        corners += along.corner_names(drawing, "tip") if along else ()
+        return Wording(self.sign, "; ".join(self.in_full(drawing, "step.coriolis-top")), corners)
 
     def stands_as_before(self, drawing: Drawing) -> bool:
         """Whether the triangles drawn last stand on the same pivot, by the same pin."""
@@ -280,12 +283,18 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         w = set_length(drawing, vector_of(drawing, start, end, symbol(f"v_{self.pin_name}")))
         if not all(each.is_along(drawing) for each in drawn(drawing)):
             return drawing.words("step.coriolis-line", w=w, **fields)
-        kinds = (kind for _, kind in self.same_velocity(drawing))
-        right = next((kind for kind in kinds if not isinstance(kind, CoriolisComponent)), None)
+        right = self.triangle_along(drawing)
         if right is None:
             return drawing.words("step.coriolis-line-tip", w=w, **fields)
         tip = symbol(right.letter(drawing, "tip"))
         return drawing.words("step.coriolis-line-letter", tip=tip, **fields)
+
+    def triangle_along(self, drawing: Drawing) -> TriangleComponent | None:
+        """The triangle of another kind whose tip its leaning line leads to, on the guide itself."""
+        if not all(each.is_along(drawing) for each in drawn(drawing)):
+            return None
+        kinds = (kind for _, kind in self.same_velocity(drawing))
+        return next((kind for kind in kinds if not isinstance(kind, CoriolisComponent)), None)
 
     def is_along(self, drawing: Drawing) -> bool:
         """Whether twice its relative velocity, set at the pivot, lies on the line of the guide."""

@@ -98,9 +98,9 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
         if component is not None:
             first = type(component) not in shown and component.is_drawn(drawing)
             shown |= {type(component)} if first else set()
-            name, markup = component.sentence(drawing, first=first)
-            if markup:
-                yield Sentence(number, name, markup)
+            said = component.sentence(drawing, first=first)
+            if said.markup:
+                yield Sentence(number, said.kind, said.markup, corners=said.corners)
         elif plan := auxiliary_plan(drawing, number):
             yield from plan.sentences(drawing, number)
         elif laid is not None:

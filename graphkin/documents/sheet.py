@@ -36,7 +36,6 @@ from graphkin.documents.members import members
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
-from graphkin.documents.step_visibility import TOGETHER
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.bare_stretches import at_bare_stretches
@@ -272,8 +271,8 @@ def boards(
     settle_in_plates(both[0])
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
-        told = " ".join(each.markup for each in said or sentences(drawing))
-        both[0].dispensable = [label for label in letters if label.markup not in told]
+        told = {name for each in said or sentences(drawing) for name in each.corners}
+        both[0].dispensable = [label for label in letters if label.name not in told]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
     if view == "key" and not said and has_many_auxiliary(drawing):
         both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
@@ -292,14 +291,12 @@ def without_auxiliary(drawing: Drawing, labels: Iterable[Label]) -> Iterator[Lab
     steps = drawing.trace.program.steps
     auxiliary = {steps[number].name for number in drawing.auxiliary}
     for label in labels:
-        letters = zip(label.name.split(), TOGETHER.split(label.markup), strict=False)
-        kept = [letter for letter in letters if letter[0] not in auxiliary]
-        if segment_of(label) or not auxiliary & {*label.name.split()}:
+        kept = [letter for letter in label.letters if letter.name not in auxiliary]
+        if len(kept) == len(label.letters):
             yield label
         elif kept:
-            names, markups = zip(*kept, strict=True)
-            markup = " ≡ ".join(markups)
-            yield replace(label, name=" ".join(names), markup=markup, cls=drawing.kind)
+            alone = label.of_letters((replace(kept[0], joint=""), *kept[1:]))
+            yield replace(alone, cls=drawing.kind)
 
 
 def is_thin(mark: Mark) -> bool:

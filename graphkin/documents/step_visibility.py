@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
@@ -19,8 +18,6 @@ from graphkin.drawing.richtext import extent
 from graphkin.drawing.style import NOW
 from graphkin.drawing.symbol_markup import symbol
 
-TOGETHER = re.compile(" [≡≈] ")
-"""What stands between the letters of points that fall together, or as good as together."""
 AMONG = "; "
 """What stands between the notes at the foot of a field."""
 
@@ -77,8 +74,8 @@ def grown(
     subjects |= {m.step: m.x1 for _, m in timed if isinstance(m, LineMark) and is_leader(m)}
     keys = {m.markup: at for at, m in timed if isinstance(m, Text) and m.markup.endswith(")")}
     for appears, mark in timed:
-        if isinstance(mark, Text) and TOGETHER.search(mark.markup) and mark.step is not None:
-            stages = [telling[name] for name in mark.name.split()]
+        if isinstance(mark, Text) and len(mark.letters) > 1 and mark.step is not None:
+            stages = [telling[letter.name] for letter in mark.letters]
             yield from shared(mark, stage, stages, subjects[mark.step])
         elif isinstance(mark, Text) and mark.name == "note" and stage < appears:
             yield from noted(mark, stage, {**telling, **keys})
@@ -91,23 +88,16 @@ def is_leader(mark: Mark) -> bool:
     return mark.cls.startswith("leader")
 
 
-def letters_of(mark: Text) -> list[str]:
-    """The letters of a label, each with what joins it to the one before."""
-    joints = ["", *TOGETHER.findall(mark.markup)]
-    return [*map("".join, zip(joints, TOGETHER.split(mark.markup), strict=True))]
-
-
 def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:
     """Of the letters that share a label those that stand already, as near as all to their point.
 
     ``stages`` are those at which the letters appear, ``subject`` is where their leader or their
     point stands from left to right.
     """
-    letters, joints = TOGETHER.split(mark.markup), ["", *TOGETHER.findall(mark.markup)]
-    every = zip(joints, letters, stages, strict=True)
-    seen = [(joint, letter) for joint, letter, appears in every if appears <= stage]
-    markup = "".join(letter if i == 0 else joint + letter for i, (joint, letter) in enumerate(seen))
-    if markup:
+    every = zip(mark.letters, stages, strict=True)
+    seen = [letter for letter, appears in every if appears <= stage]
+    if seen:
+        markup = seen[0].markup + "".join(letter.joined for letter in seen[1:])
         whole, width = (extent(each, mark.height)[0] for each in (mark.markup, markup))
         aside = min(max(subject - mark.x - width / 2, 0.0), whole - width)
         cls = f"{mark.cls} {NOW}" if stage in stages else mark.cls

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, box
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, SharedLetter, Text, box
 from graphkin.drawing.placement import Spot, Wish
 from graphkin.drawing.richtext import extent
 
@@ -25,7 +26,8 @@ class Label(Struct, frozen=True):
 
     ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``
     may be left out in a crowd, for the construction and the tables name it too; ``optional`` is
-    drawn only where there is a place for it at once.
+    drawn only where there is a place for it at once. ``letters`` are those of the points of a plan
+    that it names.
     """
 
     markup: str
@@ -42,6 +44,13 @@ class Label(Struct, frozen=True):
     spare: bool = False
     optional: bool = False
     part: int = 0
+    letters: tuple[SharedLetter, ...] = ()
+
+    def of_letters(self, letters: tuple[SharedLetter, ...]) -> Label:
+        """The same for points that fall together, which share it."""
+        names = " ".join(letter.name for letter in letters)
+        markup = "".join(letter.joined for letter in letters)
+        return replace(self, name=names, markup=markup, letters=letters)
 
     def size(self) -> tuple[float, float]:
         """Width and height of the label's box."""
@@ -87,7 +96,9 @@ class Label(Struct, frozen=True):
         x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
         style = f"label {self.cls}".strip()
         own = self.name, self.step
-        return Text(x, y, self.markup, style, self.height, "start", *own, part=self.part)
+        return Text(
+            x, y, self.markup, style, self.height, "start", *own, 0.0, self.part, self.letters
+        )
 
     def area(self, spot: Spot) -> Rect:
         """The box that the text's ink takes up at a place."""

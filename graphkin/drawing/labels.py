@@ -157,7 +157,7 @@ class FieldContent(Struct):
             elif i in crowded and label.priority < KEY:
                 meanings.append(f"{len(meanings) + 1}) {label.markup}")
                 key = f"{len(meanings)})"
-                self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY)
+                self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY, letters=())
 
     def spots_of_new(
         self, foot: Sequence[Mark], before: Sequence[Label], spots: Sequence[Spot]

@@ -78,8 +78,24 @@ class Arc(Struct, frozen=True):
         return self.cx + self.r * cos(turn), self.cy - self.r * sin(turn)
 
 
+class SharedLetter(Struct, frozen=True):
+    """A letter of a text that points share which fall together, and what joins it to the last."""
+
+    name: str
+    markup: str
+    joint: str = ""
+
+    @property
+    def joined(self) -> str:
+        """It after what joins it."""
+        return self.joint + self.markup
+
+
 class Text(Struct, frozen=True):
-    """Marked-up text: baseline at y, capitals ``height`` mm high, turned by ``rotate``°."""
+    """Marked-up text: baseline at y, capitals ``height`` mm high, turned by ``rotate``°.
+
+    ``letters`` are those of the points of a plan that it names.
+    """
 
     x: float
     y: float
@@ -91,6 +107,7 @@ class Text(Struct, frozen=True):
     step: int | None = None
     rotate: float = 0.0
     part: int = 0
+    letters: tuple[SharedLetter, ...] = ()
 
     def left(self) -> float:
         """Tell how far the text's beginning lies from x along the baseline, in mm."""

@@ -44,7 +44,8 @@ MEASURED = rf"(?as)(.*[\w.)\s])((?<![A-Za-z_])(?:{'|'.join((*RATES, *UNITS))})|Â
 """A number or an expression with a unit behind it."""
 MARKS = "_.+-*/() \t\r\n"
 JUXTAPOSED = r"(?a)(?<![A-Za-z0-9_.])(?>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z_(]"
-DECIMAL = r"(?a)(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+DECIMAL = frozenset("0123456789.eE+-")
+"""The signs of a decimal number."""
 SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**", ast.Mod: "mod"}
 REST = r"\bmod\b"
 """The sign of a rest: ``number mod 30``."""
@@ -191,10 +192,9 @@ def refuse(node: ast.expr, text: str) -> NoReturn:
 
 def decimal(text: str) -> Fraction:
     """The exact value of a decimal number as written; underscores, nan and inf are refused."""
-    bare = text.lstrip("+-")
-    if not re.fullmatch(DECIMAL, bare):
-        raise UnreadableError(f"{text[:40]} is not a finite decimal number")
     try:
+        if not DECIMAL.issuperset(text):
+            raise InvalidOperation
         number = Decimal(text)
     except InvalidOperation:
         raise UnreadableError(f"{text[:40]} is not a finite decimal number") from None

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.documents.step_visibility import letters_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.glyphs import font_face
 from graphkin.drawing.marks import Mark, Text
@@ -56,8 +55,8 @@ def drawn_mark(timed: Timed) -> str:
     """A mark; of a label that several letters share each appears with its own sentence."""
     if not timed.letters or not isinstance(timed.mark, Text):
         return element(timed.mark)
-    parts = zip(letters_of(timed.mark), timed.letters, strict=True)
-    return parted_text(timed.mark, [(part, f'data-from="{at}"') for part, at in parts])
+    parts = zip(timed.mark.letters, timed.letters, strict=True)
+    return parted_text(timed.mark, [(letter.joined, f'data-from="{at}"') for letter, at in parts])
 
 
 def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:

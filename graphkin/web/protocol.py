@@ -21,7 +21,7 @@ from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.sentences import SET_ON, TURNING, set_on_mechanism
 from graphkin.documents.step_numbers import behind, stage_of, stages
-from graphkin.documents.step_visibility import accompanied, letters_of, when_told
+from graphkin.documents.step_visibility import accompanied, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
 from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
@@ -232,8 +232,8 @@ def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
     """The sentences (from 1) that find the letters of a label that several share, 0 for given."""
     if not isinstance(mark, Text) or mark.step is None or mark.rotate:
         return ()
-    names, count = mark.name.split(), len(letters_of(mark))
-    return tuple(telling.get(name, -1) + 1 for name in names) if len(names) == count > 1 else ()
+    shared = mark.letters if len(mark.letters) > 1 else ()
+    return tuple(telling.get(letter.name, -1) + 1 for letter in shared)
 
 
 def later(one: Timed, before: int) -> Timed:

@@ -163,7 +163,7 @@ import atexit, sys
 atexit.register(print, "registered")
 sys.argv = ["graphkin", *{words!r}]
 {before}
-from graphkin.cli.main import main
+from graphkin.__main__ import main
 try:
     main()
 except SystemExit:

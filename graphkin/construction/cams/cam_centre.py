@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import wraps
 from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -72,58 +73,20 @@ def plate_law(place: Real, start: Real, *rest: Real) -> Rise:
     return Rise(found.at, sense * found.rate, found.bend)
 
 
-@action("cam-lift")
-def plate_lift(place: Real, start: Real, *rest: Real) -> Real:
-    """The displacement of the follower of a plate."""
-    return plate_law(place, start, *rest).at
+def read_off(law: Callable[..., Rise]) -> tuple[Action, Action, Action]:
+    """What gives the displacement of a follower by a law, and its two derivatives: by the cam's
+    angle, counter-clockwise, or by the coordinate of a plate.
+    """
+
+    def part(name: str) -> Action:
+        return Action("cam-lift", wraps(law)(lambda *known: getattr(law(*known), name)))
+
+    return part("at"), part("rate"), part("bend")
 
 
-@action("cam-lift")
-def plate_rate(place: Real, start: Real, *rest: Real) -> Real:
-    """Its derivative by the coordinate of the plate."""
-    return plate_law(place, start, *rest).rate
-
-
-@action("cam-lift")
-def plate_bend(place: Real, start: Real, *rest: Real) -> Real:
-    """Its second derivative."""
-    return plate_law(place, start, *rest).bend
-
-
-@action("cam-lift")
-def lift(axis: Point, start: Point, *rest: Real) -> Real:
-    """The displacement of the follower."""
-    return law(axis, start, *rest).at
-
-
-@action("cam-lift")
-def lift_rate(axis: Point, start: Point, *rest: Real) -> Real:
-    """Its derivative by the cam's angle, counter-clockwise."""
-    return law(axis, start, *rest).rate
-
-
-@action("cam-lift")
-def lift_bend(axis: Point, start: Point, *rest: Real) -> Real:
-    """Its second derivative."""
-    return law(axis, start, *rest).bend
-
-
-@action("cam-lift")
-def table_lift(axis: Point, start: Point, *rest: Real) -> Real:
-    """The displacement of the follower by a table."""
-    return table(axis, start, *rest).at
-
-
-@action("cam-lift")
-def table_rate(axis: Point, start: Point, *rest: Real) -> Real:
-    """Its derivative by the cam's angle, counter-clockwise."""
-    return table(axis, start, *rest).rate
-
-
-@action("cam-lift")
-def table_bend(axis: Point, start: Point, *rest: Real) -> Real:
-    """Its second derivative."""
-    return table(axis, start, *rest).bend
+lift, lift_rate, lift_bend = read_off(law)
+table_lift, table_rate, table_bend = read_off(table)
+plate_lift, plate_rate, plate_bend = read_off(plate_law)
 
 
 @action("cam-height")

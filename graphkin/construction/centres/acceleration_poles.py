@@ -12,7 +12,6 @@ from graphkin.construction.centres.centre import (
     two_points,
 )
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
@@ -23,6 +22,7 @@ from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, Ratio
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 

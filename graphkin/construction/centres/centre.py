@@ -9,7 +9,6 @@ from math import degrees
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
@@ -20,6 +19,7 @@ from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, Ratio, cross
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 Places = dict[str, complex]

@@ -17,7 +17,6 @@ from graphkin.construction.centres.centre import (
 )
 from graphkin.construction.centres.relative_centre import RelativeCentre, relative_centre
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
@@ -31,6 +30,7 @@ from graphkin.numbers.plane import Ratio, cross, dot
 from graphkin.scene.model import FRAME
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 PARALLEL = 1e-6

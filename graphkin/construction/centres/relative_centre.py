@@ -17,7 +17,6 @@ from graphkin.construction.centres.centre import (
     meet_anywhere,
     way_to,
 )
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action
@@ -27,6 +26,7 @@ from graphkin.numbers.plane import Line, Ratio, crossing_sine
 from graphkin.scene.model import FRAME
 
 if TYPE_CHECKING:
+    from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
 
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
     from graphkin.construction.core.drawn_scene import Drawing
     from graphkin.construction.core.relation import Relation
+    from graphkin.construction.core.sentence import Wording
 
 
 class Size(Struct, frozen=True):
@@ -154,8 +155,8 @@ class Component(Construction, frozen=True, kw_only=True):
         return f"{self.symbol} = {self.formula(drawing)} ({drawn})"
 
     @abstractmethod
-    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
-        """What to draw, in full the ``first`` time: the kind of the sentence, and its markup."""
+    def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
+        """What to draw, in full the ``first`` time."""
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """What is said of it alone, part by part, each with the step that it ends with."""
@@ -163,7 +164,7 @@ class Component(Construction, frozen=True, kw_only=True):
         if self.is_left_out(drawing):
             yield self.vector, drawing.words("step.too-short", list=self.left_out(drawing))
         else:
-            yield self.vector, self.sentence(drawing, first=True)[1]
+            yield self.vector, self.sentence(drawing, first=True).markup
 
     def laid_alone(self, drawing: Drawing, **fields: str) -> str:
         """What is said of it where it leads to a point that is known; nothing where it is clear."""
@@ -241,6 +242,10 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
     def is_whole(self, known: Container[int]) -> bool:
         """Whether all its steps are known."""
         return all(number in known for _, number in self.given())
+
+    def corner_names(self, drawing: Drawing, *roles: str) -> tuple[str, ...]:
+        """The names of corners, by which their letters on the mechanism are known."""
+        return tuple(drawing.trace.program.steps[getattr(self, role)].name for role in roles)
 
     def letter(self, drawing: Drawing, role: str) -> str:
         """The letter of a corner: with its index only where another triangle has the same."""

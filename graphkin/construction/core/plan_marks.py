@@ -5,8 +5,6 @@ from __future__ import annotations
 from math import hypot
 from typing import Any
 
-from msgspec.structs import replace
-
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.plot import Plot, line_part, middle, note_tiny
@@ -15,7 +13,7 @@ from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.segments import TINY
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label
-from graphkin.drawing.marks import CircleMark, LineMark
+from graphkin.drawing.marks import CircleMark, LineMark, SharedLetter
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import PIN, SHORT, arrow
@@ -78,12 +76,13 @@ def name_point(
         apart = hypot(x - at[0], y - at[1])
         if apart < TINY:
             label, joint = board.labels[i], "≡" if apart < SAME else "≈"
-            together = f"{label.markup} {joint} {symbol(name)}"
-            board.labels[i] = replace(label, markup=together, name=f"{label.name} {name}")
+            letters = (*label.letters, SharedLetter(name, symbol(name), f" {joint} "))
+            board.labels[i] = label.of_letters(letters)
             return
     board.lettered[len(board.labels)] = at
-    letter = symbol(name)
-    board.labels.append(Label(letter, look, at, height, name, number, priority=2, radius=radius))
+    letters = (SharedLetter(name, symbol(name)),)
+    label = Label("", look, at, height, "", number, priority=2, radius=radius)
+    board.labels.append(label.of_letters(letters))
 
 
 def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:

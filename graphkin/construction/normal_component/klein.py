@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import Measured, PaletteAction
-from graphkin.construction.core.naming import plan_amount, rate_symbol
+from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, letter, owned
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import figure
+from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -87,6 +88,9 @@ def klein_by_hand(pin: Point, foot: Point, omega: Real) -> Point:
 
 
 # --- what it is ----------------------------------------------------------------------------------
+
+CORNERS = ("corner", "foot", "whole")
+"""What has a letter of its own."""
 
 
 class KleinComponent(NormalComponent, frozen=True, kw_only=True):
@@ -179,18 +183,10 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
-        """The construction in full; by its number where it leaves too little to be drawn."""
-        size = self.size(drawing)
-        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
-        if self.is_left_out(drawing):
-            return "short", self.left_out(drawing)
-        if not drawing.settled(size):
-            return "ν none", drawing.words("step.normal-none", **fields)
-        if self.is_hidden(drawing):
-            drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
-            return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
-        return "ν by chord", "; ".join(markup for _, markup in self.in_parts(drawing))
+    def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
+        """The construction in full, each time."""
+        markup = "; ".join(markup for _, markup in self.in_parts(drawing))
+        return Wording("ν by chord", markup, self.corner_names(drawing, *CORNERS))
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The turned velocities; both circles; what their common chord cuts off."""
@@ -203,7 +199,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
-        for role in ("corner", "foot", "whole"):
+        for role in CORNERS:
             fields[role] = symbol(self.letter(drawing, role))
         fields["more"] = in_plan(drawing)
         yield self.corner, drawing.words("step.klein", **fields)

@@ -26,7 +26,7 @@ from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.segments import laid_off
-from graphkin.construction.core.sentence import Sentence, in_one, together
+from graphkin.construction.core.sentence import Sentence, Wording, in_one, together
 from graphkin.construction.core.set_lengths import laid_times, set_length
 from graphkin.construction.core.vocabulary import (
     action,
@@ -179,27 +179,26 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         """v²/l."""
         return f"{symbol(self.speed)}^2/{bar(self.p, self.q)}"
 
-    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+    def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """Its right triangle in full the first time; else from what it comes, or its number."""
         if self.is_left_out(drawing):
-            return "short", self.left_out(drawing)
+            return Wording("short", self.left_out(drawing))
         size = self.size(drawing)
-        fields = {
-            "p": symbol(self.p),
-            "q": symbol(self.q),
-            "bar": bar(self.p, self.q),
-            "v": symbol(self.speed),
-            "a": self.symbol,
-        }
+        fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
         if not drawing.settled(size):
-            return "ν none", drawing.words("step.normal-none", **fields)
+            return Wording("ν none", drawing.words("step.normal-none", **fields))
         if self.is_hidden(drawing):
             drawn = plan_amount(drawing, Plane.ACCELERATIONS, size)
-            return "ν by number", drawing.words("step.normal-computed", drawn=drawn, **fields)
+            by_number = drawing.words("step.normal-computed", drawn=drawn, **fields)
+            return Wording("ν by number", by_number)
+        return self.drawing_words(drawing, fields, first=first)
+
+    def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
+        """How it is drawn; from what it comes where another is drawn likewise."""
         if not first:
-            return "ν", drawing.words("step.normal-again", **fields)
+            return Wording("ν", drawing.words("step.normal-again", **fields))
         cut, over = self.in_full(drawing, "step.normal-over")
-        return "ν1", f"{cut}; {over}"
+        return Wording("ν1", f"{cut}; {over}", self.corner_names(drawing, "tip", "cut", "end"))
 
     def in_full(self, drawing: Drawing, over: str) -> tuple[str, str]:
         """Its right triangle in full: as far as the cut; by the key ``over`` that turned over."""

@@ -20,6 +20,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.segments import laid_off
+from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -104,9 +105,9 @@ class RollingNormal(Component, frozen=True, kw_only=True):
         """The square of its rate, times the radius or what takes its place."""
         return f"{self.rate(drawing)}^2·{self.lengths(*(bar(*each) for each in self.bars()))}"
 
-    def sentence(self, drawing: Drawing, *, first: bool) -> tuple[str, str]:
+    def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """Nothing by itself: the image in which it ends tells of it."""
-        return "", ""
+        return Wording("", "")
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How it is laid off; why it is the whole acceleration, the first time."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import end_before, laid_off
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen, against, image, letter
