@@ -1,4 +1,4 @@
-"""Every scene that is shipped: solved, proved by the second route, at the ends of its ranges, too."""
+"""Every scene that is shipped: solved, proved by the second route, also at the ends of ranges."""
 
 from __future__ import annotations
 
