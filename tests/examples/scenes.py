@@ -6,11 +6,9 @@ import cmath
 import math
 from collections.abc import Callable
 from functools import cache
-from itertools import combinations
 from pathlib import Path
 
 import mpmath
-import pytest
 
 from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism, load
@@ -157,20 +155,3 @@ def follows(
     assert same(stands.position, exact[0]), point
     assert same(stands.velocity, exact[1], math.sqrt(a * z)), point
     assert same(stands.acceleration, exact[2], v**2 / z if z else a), point
-
-
-def is_rigid(found: Solution, points: tuple[str, ...]) -> None:
-    """Points of one link keep their distances: (v·r) = 0 and (a·r) + v² = 0, v and a relative."""
-    for one, other in combinations(points, 2):
-        p, q = found.points[one], found.points[other]
-        way, v, a = (
-            q.position - p.position,
-            q.velocity - p.velocity,
-            q.acceleration - p.acceleration,
-        )
-        drift = (way.conjugate() * v).real
-        bend = (way.conjugate() * a).real + abs(v) ** 2
-        fast = max(abs(p.velocity), abs(q.velocity), abs(v))
-        pushed = max(abs(p.acceleration), abs(q.acceleration), abs(a))
-        assert drift == pytest.approx(0, abs=EXACT * abs(way) * fast)
-        assert bend == pytest.approx(0, abs=EXACT * (abs(way) * pushed + fast**2))

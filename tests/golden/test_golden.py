@@ -49,7 +49,8 @@ def share() -> list[tuple[str, str]]:
     found = [pair for pair in found if not (pair[0] in SLOW and "html" in pair[1])]
     found = [(subject, work) for subject, work in found if not work.endswith(SLOWER)]
     tried = {subject for subject, _ in found}
-    return found + [(subject, "check") for subject in SCENES if subject not in tried]
+    rest = [subject for subject in SCENES if subject not in tried]
+    return found + [(each, "solve --json" if n % 3 else "check") for n, each in enumerate(rest)]
 
 
 @pytest.mark.parametrize(("subject", "work"), share())

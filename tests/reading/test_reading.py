@@ -463,13 +463,13 @@ def test_the_code_is_told_where_the_halves_lack_some_of_it(a_class: Path, code: 
 def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path: Path) -> None:
     drawing = drawn_sheet(a_class, code, "velocity", Habits(), 3)
     for name in ("one-left", "one-right"):
-        left = scan(drawing.image, 100, 0.0, 1, (0.0, 210.0))
+        left = scan(drawing.image, 150, 0.0, 1, (0.0, 210.0))
         (tmp_path / f"{name}.jpg").write_bytes(left.data)
     found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
     assert "one: refused: the frame of the right half is not found" in found.output
     if not EVERY:
         return  # the other way round it takes twenty seconds more
-    right = scan(drawing.image, 100, 0.0, 1, (210.0, 420.0))
+    right = scan(drawing.image, 150, 0.0, 1, (210.0, 420.0))
     for name in ("two-left", "two-right"):
         (tmp_path / f"{name}.jpg").write_bytes(right.data)
     found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
