@@ -23,7 +23,7 @@ CHOSEN = (
         "crank-slot",
         "cylinders-two",
         "excavator-relative",
-        "gears-double-planet",
+        "gears-simpson",
         "gears-kutzbach",
         "gears-pair",
         "gears-rack",

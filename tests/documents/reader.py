@@ -785,7 +785,8 @@ class Reader(Trials):
     # accelerations
 
     @says(
-        "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ∥ ⟨p⟩⟨q⟩, from ⟨q2⟩ to ⟨p2⟩, "
+        r"from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩(?: = ω_\{.*?\}\^\{2\}·.*?)? ∥ ⟨p⟩⟨q⟩, "
+        "from ⟨q2⟩ to ⟨p2⟩, "
         "(?:(?:⟨times:number⟩ times )?as long as ⟨m⟩⟨n⟩ is drawn(?:: ⟨same:number⟩ mm)?|"
         "⟨drawn:number⟩ mm)"
     )

@@ -118,7 +118,10 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         if role == "end":
             if has_no_length(drawing, self.end):
                 return drawing.words(falls(drawing, self.end, fields["s"]), **fields)
-            return drawing.words(f"step.centripetal{by_bar(drawing, self.omega, fields)}", **fields)
+            key = by_bar(drawing, self.omega, fields)
+            if key == "-scaled" and not self.is_of_driver(drawing, self.omega):
+                fields["vector"] += f" = {fields['omega']}^2·{self.bar}"
+            return drawing.words(f"step.centripetal{key}", **fields)
         assert self.image is not None
         alone = has_no_length(drawing, self.end)
         if not alone:
