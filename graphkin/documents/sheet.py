@@ -26,7 +26,7 @@ from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.links.link_numbers import settle_in_plates
 from graphkin.construction.result_tables import tables
-from graphkin.documents.captions import headlines
+from graphkin.documents.captions import HEADING, headlines
 from graphkin.documents.data_heading import data_heading, height_beyond
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import flattest_line
@@ -42,7 +42,7 @@ from graphkin.drawing.bare_stretches import at_bare_stretches
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import LineMark, Mark, Page, Text
+from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
@@ -57,6 +57,8 @@ CROWD = 3
 """So many triangles at one pin are shown enlarged."""
 MANY = 24
 """So many named auxiliary points of a plan have their names on a continuation sheet."""
+CUT = 3.0
+"""How far below the fields' upper edges guides and loci begin, in mm."""
 RAISED = (*VECTORS, "arrowhead")
 """What stands above bars and pins, so that one sees where vectors begin and where they point."""
 
@@ -170,10 +172,20 @@ def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved]
     marks, x, y = title_line(drawing)
 
     def made() -> list[Mark]:
-        return data_heading(drawing, view, x, y, lambda: spare_height(drawing))
+        return data_heading(drawing, view, x, y, lambda: spare_above(drawing))
 
     data, moved = with_room(drawing, Moved.DATA, made, x, y)
     return [*marks, *data], moved, height_beyond(data)
+
+
+def spare_above(drawing: Drawing) -> float:
+    """By how much the fields' upper edges may be lowered, in mm, so that nothing that is drawn on
+    the key is cut but what reaches up to them: guides and lines without end."""
+    layout = lay_out(drawing)
+    both = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
+    tops = (reach(mark)[1] for board in both for mark in board.marks if mark.name != HEADING)
+    drawn = (top for top in tops if top > AREA[1] + CUT + 0.5)
+    return max(min(spare_height(drawing), min(drawn, default=AREA[3]) - CUT - AREA[1]), 0.0)
 
 
 def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, float]:

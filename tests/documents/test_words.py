@@ -219,6 +219,7 @@ TELLING = (
     "klein-engine",
     "mobility-cam",
     "plank-axle",
+    "plates-ring",
     "platform-3rpr",
     "roller-plates",
 )
