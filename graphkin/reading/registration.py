@@ -216,7 +216,9 @@ class SheetSearch:
         fit.refine(self.smooth, lines)
         last = measure(self.smooth, fit.map, lines, NEAR)
         found = judged(fit.map, last, lines, self.sides)
-        return found if found.refused else rippled(found, last, self.smooth, page)
+        if found.refused or self.square is not None:  # a half of a sheet lies flat on its glass
+            return found
+        return rippled(found, last, self.smooth, page)
 
     def square_of(self, page: Page) -> Any:
         """The square from which a page is followed."""
@@ -243,7 +245,8 @@ class SheetSearch:
         if over is None:
             return -1.0
         own = self.share(over, ours.some(~ours.shared))
-        foreign = (self.share(over, printed_lines(other).beside(ours)) for other in others)
+        theirs = (printed_lines(other) for other in others)
+        foreign = (self.share(over, each.some(~each.shared).beside(ours)) for each in theirs)
         return own - max(foreign, default=0.0)
 
     def share(self, over: PaperMap, lines: PrintedLines) -> float:
