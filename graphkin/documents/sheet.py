@@ -212,7 +212,7 @@ def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, f
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)
     ]
-    marks += check_bar(AREA[2] - 106, top + 5.5, "")
+    marks += check_bar(AREA[2] - 106, top + 5.5)
     bar = words("page.check_bar")
     marks.append(Text(AREA[2] - 109, top + 5.5, bar, "check-bar", 1.8, "end"))
     return marks, left, data

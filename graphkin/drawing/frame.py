@@ -15,7 +15,7 @@ from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError, Problem
 
-SIZES = {"A3": (420.0, 297.0), "A2": (594.0, 420.0)}
+A3 = (420.0, 297.0)
 FILING, EDGE, BAND, FIELD = 20.0, 10.0, 5.0, 50.0  # margins, grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # I and O are left out
 LEADING = 1.7  # distance of lines in heights of capitals
@@ -61,16 +61,16 @@ CELLS: tuple[tuple[str, Rect, float], ...] = (
 )
 
 
-def sheet_frame(title_block: TitleBlock, size: str = "A3") -> tuple[Mark, ...]:
-    """Draw the frame, centring marks, fields and title block of a landscape sheet."""
-    width, height = SIZES[size]
+def sheet_frame(title_block: TitleBlock) -> tuple[Mark, ...]:
+    """Draw the frame, centring marks, fields and title block of an A3 sheet."""
+    width, height = A3
     frame = (FILING, EDGE, width - EDGE, height - EDGE)
     right, bottom = frame[2:]
     return (
         *fields(width, height),
         edged(frame, "frame"),
         *centring_marks(width, height),
-        Text(right - 1, bottom + 4.2, size, "field", 3.5, "end", "size"),
+        Text(right - 1, bottom + 4.2, "A3", "field", 3.5, "end", "size"),
         *title_block_marks(title_block, right - TITLE_WIDTH, bottom - TITLE_HEIGHT),
     )
 
@@ -191,19 +191,16 @@ def title_block_marks(block: TitleBlock, x: float, y: float) -> tuple[Mark, ...]
 
 
 @lru_cache(maxsize=8)
-def check_bar(x: float, y: float, caption: str = "", length: int = 100) -> tuple[Mark, ...]:
-    """Draw a ruler from (x, y) to the right to check the print: 1 mm ticks, numbers each 10 mm.
-
-    It takes 4 mm above y, 4 mm below it, and the caption (markup) to its right.
+def check_bar(x: float, y: float) -> tuple[Mark, ...]:
+    """Draw a ruler of 100 mm from (x, y) to the right to check the print: 1 mm ticks, numbers each
+    10 mm. It takes 4 mm above y, 4 mm below it.
     """
-    marks: list[Mark] = [LineMark(x, y, x + length, y, "check-bar", "check-bar")]
-    for i in range(length + 1):
+    marks: list[Mark] = [LineMark(x, y, x + 100, y, "check-bar", "check-bar")]
+    for i in range(101):
         tick = 4.0 if i % 10 == 0 else 3.0 if i % 5 == 0 else 2.0
         marks.append(LineMark(x + i, y, x + i, y - tick, "check-bar"))
-    for i in range(0, length + 1, 10):
+    for i in range(0, 101, 10):
         marks.append(Text(x + i, y + 3.0, str(i), "check-bar", 1.8, "middle"))
-    if caption:
-        marks.append(Text(x + length + 4, y, caption, "check-bar", 1.8))
     return tuple(marks)
 
 

@@ -167,9 +167,7 @@ class PdfPen:
         return self.shown[key]
 
 
-def write_pdf(
-    pages: Sequence[Page], ink: Ink = "colour", title: str = "", author: str = ""
-) -> bytes:
+def write_pdf(pages: Sequence[Page], ink: Ink = "colour", title: str = "") -> bytes:
     """Write pages as PDF, each of its own true size; the same pages give the same bytes."""
     target = BytesIO()
     canvas = Canvas(
@@ -180,7 +178,7 @@ def write_pdf(
         lang=pages[0].lang if pages else None,
     )
     canvas.setTitle(title or (pages[0].title if pages else ""))
-    canvas.setAuthor(author)
+    canvas.setAuthor("")
     canvas.setCreator("graphkin")
     canvas.setSubject("")
     canvas.setViewerPreference("PrintScaling", "None")

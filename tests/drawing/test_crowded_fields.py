@@ -13,7 +13,7 @@ from graphkin.documents.scaling import scales
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import boards, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
-from graphkin.drawing.label import Label
+from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent, in_turn
 from graphkin.drawing.marks import LineMark, Page, Text, reach
 from graphkin.drawing.richtext import plain
@@ -132,6 +132,20 @@ def test_a_dispensable_letter_is_drawn_where_the_others_leave_room_near_its_poin
     full = FieldContent((0.0, 0.0, 60.0, 30.0), walls, dispensable=[HELPER])
     assert full.finish() == walls
     assert len(FieldContent(full.rect, list(walls), labels=[POINT]).finish()) > len(walls)
+
+
+@pytest.mark.parametrize(
+    "name", ["plates-coupled", "klein-engine", "oscillating-slide", "platform-six"]
+)
+def test_sentences_name_the_corners_that_stand_in_their_words(name):
+    """Right triangles in full and likewise, Klein's construction, triangles of Coriolis."""
+    _, drawing = drawings(name)
+    left, _ = boards(drawing, lay_out(drawing), "key")
+    said = " ".join(sentence.markup for sentence in sentences(drawing))
+    corners = [x for x in left.labels if x.cls == "construction" and not segment_of(x)]
+    assert corners
+    assert all(label.markup in said for label in corners)
+    assert not any(label.markup in said for label in left.dispensable)
 
 
 def test_letters_that_no_sentence_says_give_way_to_the_others():
