@@ -207,7 +207,7 @@ def of_components(drawing: Drawing) -> list[Section]:
         for each in components_on(drawing):
             if isinstance(each, kind):
                 section, relation = each.section(drawing), each.relation(drawing)
-                if relation not in found.setdefault(section, []):  # said of both trials alike
+                if relation not in found.setdefault(section, []):  # plans may say it alike
                     found[section].append(relation)
     return list(found.items())
 

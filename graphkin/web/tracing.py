@@ -102,7 +102,7 @@ class Tracing(Struct, frozen=True, dict=True):
     def tried_rates(
         self, drawn: Trace, needed: Sequence[int], overrides: Mapping[int, Any]
     ) -> dict[int, Any]:
-        """What trial plans are drawn with, traced: they keep their size beside the right plan."""
+        """The rates that are tried, traced: their plans keep their size beside the right plan."""
         chosen = {n: v for n, v in self.mechanism.trial_rates.items() if n in drawn.values}
         if not chosen:
             return {}
