@@ -10,6 +10,7 @@ import secrets
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 from wsgiref.util import setup_testing_defaults
 
 import cv2
@@ -24,6 +25,8 @@ from pypdf import PdfWriter
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.classroom.grading.probes import Probe, probes
+from graphkin.classroom.printing.edition import Variant
+from graphkin.classroom.printing.qr_code import modules
 from graphkin.cli.main import app
 from graphkin.construction.core.program import Plane
 from graphkin.drawing.areas import AREA
@@ -49,7 +52,7 @@ from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.point_search import DRAWINGS, PointSearch
 from graphkin.reading.read_run import ReadOutcome, read_order
-from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves
+from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code
 from graphkin.reading.settled_points import (
     SETTLED,
     PointDecision,
@@ -547,6 +550,18 @@ def test_a_line_that_leaves_the_window_it_was_seen_in_is_another() -> None:
     assert not ink.lines(200 + 100j, 255.9 + 98.8j, 1.6, 0.5)
     found = ink.lines(200 + 100j, 255.9 + 97.5j, 1.6, 0.5)
     assert found and all(abs(line.off(255.9 + 97.2j)) < 0.15 for line in found)
+
+
+def test_two_sheets_in_one_picture_are_told_also_of_one_student() -> None:
+    """A picture shows as many sheets as there are squares in it."""
+    whose = {"TZHG6MXPZY": cast(Variant, None), "HCZRNFKJ4X": cast(Variant, None)}
+    first, second = (255 - 255 * np.kron(modules(code), np.ones((8, 8))) for code in whose)
+    for pair in ((first, first), (first, second)):
+        picture = np.hstack([np.pad(each, 80, constant_values=255) for each in pair])
+        with pytest.raises(Unreadable, match=r"several sheets: .*, "):
+            known_code(picture.astype(np.uint8), whose)
+        half = np.ascontiguousarray(picture[:, : picture.shape[1] // 2].astype(np.uint8))
+        assert known_code(half, whose)[0] == "TZHG6MXPZY"
 
 
 def test_a_mark_over_a_printed_line_is_seen_on_both_its_sides() -> None:
