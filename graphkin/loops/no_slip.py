@@ -392,7 +392,11 @@ def rack_on(scene: Scene, slip: NoSlip, slips: Sequence[NoSlip], guides: Sequenc
     pinned = any(slip.track.point in link.points for link in scene.every_link if link.name != wheel)
     if not pinned and not any(each.links[0] == wheel for each in slips if each is not slip):
         return ""
-    own = (g for g in guides if rack in (g.block, g.on) and g.turns_alike)
+    own = (
+        g
+        for g in guides
+        if rack in (g.block, g.on) and g.turns_alike and g.block not in scene.keepers
+    )
     return next((g.on if g.block == rack else g.block for g in own), "")
 
 
