@@ -9,7 +9,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.cam_laws import ByLaw
-from graphkin.loops.no_slip import Apart, CountedApart, turned_from, waiting
+from graphkin.loops.no_slip import CountedApart, OwnTurns, turned_from, waiting
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
 from graphkin.scene.model import Driver, Scene
@@ -131,7 +131,7 @@ def drives_of(
     guides: Sequence[Guide],
     turned: Turnings,
     numbers: Numbers,
-    apart: Apart,
+    own_turns: OwnTurns,
     whole: bool,
 ) -> Drives:
     """The drivers' equations; ``whole`` counts full turns, on which places of wheels depend."""
@@ -162,12 +162,12 @@ def drives_of(
     rates = speed, acceleration
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
-    bases = bases_of(scene, turned, apart, numbers)
+    bases = bases_of(scene, turned, own_turns, numbers)
     return Drives(selects[:, 1:], turning, *places, whole, *rates, lifts, bases)
 
 
 def bases_of(
-    scene: Scene, turned: Turnings, apart: Apart, numbers: Numbers
+    scene: Scene, turned: Turnings, own_turns: OwnTurns, numbers: Numbers
 ) -> tuple[CountedApart, ...]:
     """The links that drivers turn others against, where these turn as one with further links.
 
@@ -175,7 +175,7 @@ def bases_of(
     """
     counting = turned_from(scene, turned)
     against = [(d, each.against) for d, each in enumerate(scene.drivers) if each in counting]
-    return tuple(base for d, link in against for base in apart.of(d, link, -1, turned, numbers))
+    return tuple(base for d, link in against for base in own_turns.of(d, link, -1, turned, numbers))
 
 
 def lifts_of(

@@ -21,9 +21,9 @@ from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
     Gear,
     Slips,
-    apart_of,
     counted_turnings,
     gears_of,
+    own_turns_of,
     packed_slips,
     slips_of,
     standing,
@@ -250,7 +250,7 @@ def equations(
     slips = slips_of(gears, rolled, guides, numbers)
     every, written = slips, scene
     near = starting_angles(written, every, numbers)
-    apart = apart_of(written, every, guides, turned, near)
+    own_turns = own_turns_of(written, every, guides, turned, near)
     if within is not None:
         names = {FRAME, *within}
         bodies = {name: body for name, body in bodies.items() if name in names}
@@ -282,8 +282,8 @@ def equations(
         gears=gears,
         chains=chains,
         closing=tuple(closing),
-        slips=packed_slips(slips, counted, apart, turned, guides, numbers),
-        drives=drives_of(scene, bodies, guides, turned, numbers, apart, bool(every)),
+        slips=packed_slips(slips, counted, own_turns, turned, guides, numbers),
+        drives=drives_of(scene, bodies, guides, turned, numbers, own_turns, bool(every)),
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
     )

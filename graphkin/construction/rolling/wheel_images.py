@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.acceleration import led_points
 from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.acceleration.turned_acceleration import (
     turned_image as accelerated_image,
@@ -225,7 +224,9 @@ def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) ->
     pen.bases[link] = Base(link, start, None, pen.bases[link].others)
     touching = under(name, link)
     pen.want("acceleration", touching, found_by_turning(pen, link, name, "acceleration"))
-    led_points(pen, pen.bases[link])
+    for point in pen.bases[link].others:
+        if not pen.has("acceleration", point):
+            turn_from_rim(pen, link, start, point)
 
 
 def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
@@ -270,7 +271,8 @@ def turned_from_rim(pen: Pen, link: str, name: str, point: str, start: int) -> i
 
 
 def turn_from_rim(pen: Pen, link: str, rim: str, point: str) -> None:
-    """Second image of a point of a link whose rates are known, from that of its point of contact.
+    """Second image of a point of a link whose rates are known, from that of its point of contact or
+    of its pin.
 
     There is no tangential component where a driver turns the link steadily.
     """
