@@ -112,7 +112,7 @@ def in_lines(
         Problem(
             "data",
             f"does not fit: {len(lines)} lines of small lettering",
-            "lines above the drawings",
+            "fewer lines above the drawings",
             "shorten names and notes, or split the scene",
         )
     )

@@ -135,7 +135,7 @@ def test_a_dispensable_letter_is_drawn_where_the_others_leave_room_near_its_poin
 
 
 @pytest.mark.parametrize(
-    "name", ["plates-coupled", "klein-engine", "oscillating-slide", "platform-six"]
+    "name", ["stephenson-2-binary", "klein-engine", "oscillating-slide", "platform-six"]
 )
 def test_sentences_name_the_corners_that_stand_in_their_words(name):
     """Right triangles in full and likewise, Klein's construction, triangles of Coriolis."""

@@ -12,14 +12,14 @@ from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
 from graphkin.text.errors import StructureError, WitnessError
 from tests.documents.sheet_tools import mechanism_named
-from tests.loops.loops_alone import by_loops
+from tests.loops.loops_alone import as_solution, by_loops
 from tests.scene_files import scene_text
 
 
 @pytest.fixture
-def pump(sheet, solved, written, pump_start):
+def pump(sheet, solved, pump_start):
     scene = sheet("pump", n=7)
-    return scene, written(solved(scene, **pump_start))
+    return scene, as_solution(solved(scene, **pump_start))
 
 
 def moved(solution, point, **changes):
@@ -100,10 +100,10 @@ def test_a_solution_without_a_number_does_not_agree(pump):
         ({"D": -0.06 + 0j}, {"5"}),
     ],
 )
-def test_a_wrong_branch_is_caught(start, broken, sheet, solved, written, pump_start):
+def test_a_wrong_branch_is_caught(start, broken, sheet, solved, pump_start):
     scene = sheet("pump", n=7)
     found = solved(scene, **{**pump_start, **start})
-    verdict = compare(scene, written(found))
+    verdict = compare(scene, as_solution(found))
     assert verdict.largest_difference < 1e-12
     assert set(verdict.branches) == broken
     assert not verdict.agrees
@@ -113,9 +113,9 @@ SHAPER = scene_text("loops/shaper-2")
 RIGHT = {"A": 1 + 0.6j, "B": 1.9 + 3.7j, "C": 3.9 + 3.5j}
 
 
-def test_coriolis_and_slides_are_held(read, solved, written):
+def test_coriolis_and_slides_are_held(read, solved):
     scene = read(SHAPER)
-    solution = written(solved(scene, **RIGHT))
+    solution = as_solution(solved(scene, **RIGHT))
     assert compare(scene, solution).agrees
     for name, share in (("position", 1), ("speed", 1), ("acceleration", 1), ("coriolis", -1j)):
         slide = solution.slides["2"]
@@ -125,10 +125,10 @@ def test_coriolis_and_slides_are_held(read, solved, written):
         assert verdict.quantity == f"slides.2.{name}"
 
 
-def test_the_point_of_a_guide_under_a_block_is_held(read, solved, written):
+def test_the_point_of_a_guide_under_a_block_is_held(read, solved):
     scene = read(SHAPER)
     found = solved(scene, **RIGHT)
-    solution = written(found)
+    solution = as_solution(found)
     under = found.motion.point("A@3")
     point = PointMotion(*(row[0].item() for row in under))
     assert compare(scene, replace(solution, points={**solution.points, "A@3": point})).agrees
@@ -145,7 +145,7 @@ def test_the_point_of_a_guide_under_a_block_is_held(read, solved, written):
         ({"C": 0.1 + 3.5j}, ("5",)),
     ],
 )
-def test_the_other_closure_of_a_slide(start, broken, read, solved, written):
+def test_the_other_closure_of_a_slide(start, broken, read, solved):
     """Backwards the lever points down and the ram cannot follow; the ram has its own two."""
     scene = read(SHAPER)
     start = {**RIGHT, **start}
@@ -153,22 +153,22 @@ def test_the_other_closure_of_a_slide(start, broken, read, solved, written):
         with pytest.raises(WitnessError, match="do not close"):
             solved(scene, **start)
         return
-    assert compare(scene, written(solved(scene, **start))).branches == broken
+    assert compare(scene, as_solution(solved(scene, **start))).branches == broken
 
 
-def test_a_backward_block_on_a_swinging_guide(read, solved, written):
+def test_a_backward_block_on_a_swinging_guide(read, solved):
     lever = SHAPER.partition("[links.4]")[0] + SHAPER[SHAPER.index("[[drivers]]") :]
     forward = read(lever.replace('5 = "forward"\n', ""))
     found = solved(forward, A=1 + 0.6j, B=-1.9 - 9.7j, _2=-3.8 + 0j)
     assert found.motion.slide(0).position[0] < 0
-    assert compare(forward, written(found)).branches == ("2",)
+    assert compare(forward, as_solution(found)).branches == ("2",)
     backward = read(lever.replace('5 = "forward"\n', "").replace("forward", "backward"))
-    assert compare(backward, written(found)).agrees
+    assert compare(backward, as_solution(found)).agrees
 
 
-def test_a_mechanism_at_rest_is_compared_absolutely(read, solved, written):
+def test_a_mechanism_at_rest_is_compared_absolutely(read, solved):
     scene = read(SHAPER.replace("speed = 6", "speed = 0"))
-    solution = written(solved(scene, **RIGHT))
+    solution = as_solution(solved(scene, **RIGHT))
     assert compare(scene, solution).agrees
     assert not compare(scene, moved(solution, "B", velocity=1e-6 + 0j)).agrees
 
@@ -208,7 +208,7 @@ def test_too_few_drivers_are_named(read, solved):
         solved(replace(scene, drivers=()), B=1 + 0j)
 
 
-def test_far_from_the_origin_nothing_is_lost(read, solved, written):
+def test_far_from_the_origin_nothing_is_lost(read, solved):
     """Velocities and their comparison count from the mechanism, not from a far origin."""
     far = SHAPER.replace("[0, 0]\nO2 = [0, -3]", "[4096, -8192]\nO2 = [4096, -8195]")
     far = far.replace("through = [0, 3.5]", "through = [4096, -8188.5]")
@@ -217,7 +217,7 @@ def test_far_from_the_origin_nothing_is_lost(read, solved, written):
     there = solved(read(far), **{name: z + home for name, z in RIGHT.items()})
     for mine, its in zip(near.motion.points[1:], there.motion.points[1:], strict=True):
         assert abs(mine - its).max() < 1e-12 * abs(mine).max()
-    assert compare(read(far), written(there)).agrees
+    assert compare(read(far), as_solution(there)).agrees
 
 
 WHEELS = scene_text("loops/wheels")

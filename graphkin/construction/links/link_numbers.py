@@ -210,4 +210,5 @@ def settle_in_plates(board: FieldContent) -> None:
         assert isinstance(y, float)
         place = nearest_points(free, Point(x + wide + GAP, y))[0]
         board.marks += label.marks(Spot(place.x, place.y, None, True))
+        board.taken.append(place.buffer(wide).bounds)  # no leader cuts its ring
     board.labels = waiting
