@@ -6,6 +6,7 @@ and at the density of a scanner; from there its lines are followed. The code is 
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import cv2
@@ -17,7 +18,7 @@ from graphkin.drawing.style import style_of
 from graphkin.reading.drawn_ink import flattened
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Unreadable
-from graphkin.reading.registration import SHARED, SIDES, SheetSearch, segments
+from graphkin.reading.registration import BENT_FROM, SHARED, SIDES, SheetSearch, segments
 
 CUT, HIGH = 210.0, 297.0
 """Where the sheet is parted, and how high it is, in mm."""
@@ -51,8 +52,10 @@ def half_found(grey: Any, frame: Page, half: str) -> PaperMap:
     x1, y1, x2, y2 = CORNERS[half]
     square = np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])
     sides = tuple(side for side in SIDES if side in (half, "upper", "lower"))
-    for at in corners_in(grey, frame, CORNERS[half]):
-        found = SheetSearch(grey, at, square, sides).registered(frame)
+    corners = corners_in(grey, frame, CORNERS[half])
+    for at, faint in (*product(corners, (False,)), *product(corners[:1], (True,))):
+        search = SheetSearch(grey, at, square, sides)
+        found = search.fitted(frame, BENT_FROM, faint=faint)
         if found is not None and not found.refused:
             return found.map
     raise Unreadable(f"the frame of the {half} half is not found")

@@ -471,7 +471,7 @@ def test_halves_that_are_no_sheet_are_refused(a_class: Path, code: str, tmp_path
     found = call("read", a_class, tmp_path, "-o", tmp_path / "read", "--jobs", "1")
     assert "one: refused: the frame of the right half is not found" in found.output
     if not EVERY:
-        return  # the other way round it takes twenty seconds more
+        return  # the other way round it takes as long again
     right = scan(drawing.image, 150, 0.0, 1, (210.0, 420.0))
     for name in ("two-left", "two-right"):
         (tmp_path / f"{name}.jpg").write_bytes(right.data)
