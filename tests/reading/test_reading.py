@@ -292,7 +292,9 @@ def heic(image: np.ndarray) -> bytes:
     import pillow_heif
 
     out = io.BytesIO()
-    pillow_heif.from_pillow(Image.fromarray(image).convert("RGB")).save(out, quality=90)
+    pillow_heif.from_pillow(Image.fromarray(image).convert("RGB")).save(
+        out, quality=90, enc_params={"preset": "ultrafast"}
+    )
     return out.getvalue()
 
 
