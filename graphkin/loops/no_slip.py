@@ -355,7 +355,7 @@ def own_turns_of(
     Contacts lead one after the other, as each leaves the angle of a wheel or an arm unknown; where
     none does, pins show one, of what is no wheel first.
     """
-    of, led, racks = turned.of, set[str](), dict[str, str]()
+    of, led = turned.of, set[str]()
     driven = {of[FRAME], *(of[d.link] for d in scene.drivers if d.kind == "turn")}
     known, left = set(driven), list(slips)
 
@@ -369,35 +369,32 @@ def own_turns_of(
         ready = (slip for slip in left if len(unknown(slip)) < 2 and leads(slip))
         if (slip := next(ready, None)) is not None:
             left.remove(slip)
-            on = "" if slip.links[0] in unknown(slip) else rack_on(scene, slip, slips, guides)
-            if on and on not in racks:
-                racks.setdefault(slip.links[1], on)
             led.update(unknown(slip))
             known.update(of[link] for link in slip.weights)
             continue
         wheels = {of[slip.links[0]] for slip in left}
         missing = [of[link] for slip in left for link in unknown(slip)]
         known.add(next((k for k in missing if k not in wheels), missing[0]))
+    racks = {slip.links[1]: on for slip in slips if (on := rack_on(scene, slip, guides))}
     links = {each for slip in slips for each in slip.weights}
     links |= {driver.against for driver in scene.drivers if driver.kind == "turn"}
     counts = {link: racks.get(link, link) for link in links if of[link] not in driven}
     return OwnTurns({link: own for link, own in counts.items() if own not in led}, near)
 
 
-def rack_on(scene: Scene, slip: NoSlip, slips: Sequence[NoSlip], guides: Sequence[Guide]) -> str:
-    """What the track of a contact slides along where a wheel that stands moves it, else nothing."""
-    wheel, rack, *_ = slip.links
+def rack_on(scene: Scene, slip: NoSlip, guides: Sequence[Guide]) -> str:
+    """What the track of a contact slides along where only the wheel moves it, else nothing."""
+    rack = slip.links[1]
     if slip.track is None or any((d.kind, d.link) == ("slide", rack) for d in scene.drivers):
         return ""
-    pinned = any(slip.track.point in link.points for link in scene.every_link if link.name != wheel)
-    if not pinned and not any(each.links[0] == wheel for each in slips if each is not slip):
-        return ""
-    own = (
-        g
+    shared = {point for link in scene.every_link if link.name != rack for point in link.points}
+    along = [
+        g.on if g.block == rack else g.block
         for g in guides
-        if rack in (g.block, g.on) and g.turns_alike and g.block not in scene.keepers
-    )
-    return next((g.on if g.block == rack else g.block for g in own), "")
+        if rack in (g.block, g.on) and g.turns_alike
+    ]
+    own = set(scene.link(rack).points) & shared
+    return along[0] if len(along) == 1 and not own and rack != FRAME else ""
 
 
 def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:

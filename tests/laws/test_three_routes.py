@@ -48,7 +48,6 @@ SEEN = {
     20870: "a plank on rollers on a bar that another wheel holds",
     22276: "a rack on a link whose closures are numbered before it comes",
     30334: "a bar kept at a wheel that a rack carries",
-    30620: "a rack on which a bar hangs, on a block that turns far round",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 LONG = {
