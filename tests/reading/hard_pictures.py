@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 import cv2
@@ -31,7 +32,7 @@ def shown(data: bytes, read: SheetRead) -> Any:
     taken = cv2.resize(picture_of(data), (WIDE, HIGH), interpolation=cv2.INTER_AREA)
     flat = np.full((HIGH, WIDE, 3), 255, np.uint8)
     if read.record.refused is not None:
-        words = read.record.refused.replace(": ", ":\n").split("\n")
+        words = wrap(read.record.refused, 44)
         for i, line in enumerate(("refused:", *words)):
             cv2.putText(flat, line, (14, 150 + 26 * i), SIGN, 0.42, (24, 24, 200), 1, cv2.LINE_AA)
         return np.vstack([taken, flat])
