@@ -63,7 +63,7 @@ def split(
     Raises GradebookError for a quote that is never closed, or as soon as there are too many cells.
     """
     piece = re.compile(
-        rf'([^\S\r\n{separator}]*+"[^"]*+(?:""[^"]*+)*+")?+([^\r\n{separator}]*+)'
+        rf'([^\S\r\n{separator}]*+"[^"]*+(?:""[^"]*+)*+"|)([^\r\n{separator}]*+)'
         rf"({separator}|\r\n|\r|\n|\Z)"
     )
     rows: list[tuple[Cell, ...]] = []
