@@ -7,7 +7,7 @@ carries both centres; where no link does, an arm without substance from centre t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 from msgspec import Struct
@@ -220,7 +220,9 @@ def tracks_of(
                 for wheel in link.wheels
                 if not wheel.inside
             ]
-            track = found[0] if len(found) == 1 else kept(Tree(bodies, guides, turned), found)
+            track = found[0]
+            if len(found) > 1:
+                track = kept(Tree(bodies, guides, turned, rolling.on), found)
             rolled.append((len(guides), rolling, abs(track.offset)))
             guides.append(track)
     return tuple(guides), tuple(rolled)
@@ -321,26 +323,20 @@ def packed_slips(
 class OwnTurns(Struct, frozen=True, eq=False):
     """Which links count their whole turns by themselves, though they turn as one with others.
 
-    ``counts`` gives for each the link that counts for it: of a rack that a wheel moves the one
-    along which it slides. It stands within half a turn of what it stands ``near`` (radians).
+    Each of the ``links`` stands within half a turn of what it stands ``near`` (radians).
     """
 
-    counts: Mapping[str, str]
+    links: Collection[str]
     near: Mapping[str, Real]
 
     def of(
         self, row: int, link: str, weight: Real, turned: Turnings, numbers: Numbers
     ) -> list[CountedApart]:
         """A link of an equation, where it counts otherwise than its turning."""
-        own = self.counts.get(link)
-        if (
-            own is None
-            or own not in turned.of
-            or list(turned.of.values()).count(turned.of[own]) < 2
-        ):
+        if link not in self.links or list(turned.of.values()).count(turned.of[link]) < 2:
             return []
-        lean, near = (numbers.reals(z) for z in (turned.angle[own], self.near.get(own, 0.0)))
-        return [CountedApart(row, turned.of[own], weight, lean, near)]
+        lean, near = (numbers.reals(z) for z in (turned.angle[link], self.near.get(link, 0.0)))
+        return [CountedApart(row, turned.of[link], weight, lean, near)]
 
 
 def own_turns_of(
@@ -350,7 +346,7 @@ def own_turns_of(
     turned: Turnings,
     near: Mapping[str, Real],
 ) -> OwnTurns:
-    """Which links count by themselves: none that a contact leads or that turns with a driven one.
+    """Which links count by themselves: none that turns with a driven one or one a contact leads.
 
     Contacts lead one after the other, as each leaves the angle of a wheel or an arm unknown; where
     none does, pins show one, of what is no wheel first.
@@ -375,26 +371,10 @@ def own_turns_of(
         wheels = {of[slip.links[0]] for slip in left}
         missing = [of[link] for slip in left for link in unknown(slip)]
         known.add(next((k for k in missing if k not in wheels), missing[0]))
-    racks = {slip.links[1]: on for slip in slips if (on := rack_on(scene, slip, guides))}
+    counted = driven | {of[link] for link in led}
     links = {each for slip in slips for each in slip.weights}
     links |= {driver.against for driver in scene.drivers if driver.kind == "turn"}
-    counts = {link: racks.get(link, link) for link in links if of[link] not in driven}
-    return OwnTurns({link: own for link, own in counts.items() if own not in led}, near)
-
-
-def rack_on(scene: Scene, slip: NoSlip, guides: Sequence[Guide]) -> str:
-    """What the track of a contact slides along where only the wheel moves it, else nothing."""
-    rack = slip.links[1]
-    if slip.track is None or any((d.kind, d.link) == ("slide", rack) for d in scene.drivers):
-        return ""
-    shared = {point for link in scene.every_link if link.name != rack for point in link.points}
-    along = [
-        g.on if g.block == rack else g.block
-        for g in guides
-        if rack in (g.block, g.on) and g.turns_alike
-    ]
-    own = set(scene.link(rack).points) & shared
-    return along[0] if len(along) == 1 and not own and rack != FRAME else ""
+    return OwnTurns(frozenset(link for link in links if of[link] not in counted), near)
 
 
 def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:

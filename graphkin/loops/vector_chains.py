@@ -104,13 +104,17 @@ def spread(seed: str, tied: Sequence[Guide], found: Found) -> None:
 
 
 class Tree:
-    """A spanning tree of the joints from the frame; every joint left over closes a loop."""
+    """A spanning tree of the joints from a link; every joint left over closes a loop."""
 
     def __init__(
-        self, bodies: Mapping[str, Body], guides: Sequence[Guide], turned: Turnings
+        self,
+        bodies: Mapping[str, Body],
+        guides: Sequence[Guide],
+        turned: Turnings,
+        root: str = FRAME,
     ) -> None:
         self.bodies, self.guides, self.turned = bodies, guides, turned
-        self.origins: dict[str, Chain] = {FRAME: Chain()}
+        self.origins: dict[str, Chain] = {root: Chain()}
         self.spent: set[tuple[str, str]] = set()
         self.passed: set[int] = set()
         self.owners: dict[str, list[str]] = {}
@@ -121,7 +125,7 @@ class Tree:
         for index, guide in enumerate(guides):
             for link in dict.fromkeys((guide.on, guide.block)):
                 self.led.setdefault(link, []).append(index)
-        waiting = [FRAME]
+        waiting = [root]
         while waiting:
             waiting += self._reach_from(waiting.pop(0))
 

@@ -463,7 +463,7 @@ def rack(m: Maker) -> None:
     pinion = wheel_body(m, centre)
     m.turn(pinion, on)
     along, radius = m.direction(), m.length()
-    name = m.rack({m.name(): centre[1] + m.vector()}, on, along)
+    name = m.block({m.name(): centre[1] + m.vector()}, on, along)
     straight(m, pinion, centre[0], name, along * m.sign(), radius).kept = True
 
 
@@ -603,7 +603,8 @@ def plank(m: Maker) -> None:
     lower = place - along * (m.length() + 1j * side * radius)
     upper = place + along * (m.length() + 1j * side * radius)
     name = m.body({m.name(): upper + m.vector()}, along)
-    turned, own = m.angle(on), m.along(on, name)
+    turned = m.angle(on)
+    own = m.along(on, name) if m.counts(on) else m.standing.bodies[name].angle
     way = 0.0
     for number in range(2):
         spot = place + along * way

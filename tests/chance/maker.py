@@ -231,17 +231,26 @@ class Maker:
                     straight = abs(line.imag) < 1e-12 * abs(line)
                     line = complex(line.real, 0.0) if straight else line
                 return self.angle(drive.against) + drive.position - phase(line)
-        known = self.slid_with_driven(body) or self.standing.racks.get(body)
+        known = self.slid_with_counted(body)
         return bodies[body].angle if known is None else self.along(known, body)
 
-    def slid_with_driven(self, body: str) -> str | None:
-        """The next body along slides towards one that a driver turns: they turn as one."""
-        driven = {d.body for d in self.standing.drives if d.kind == "turn"}
+    def counts(self, body: str) -> bool:
+        """Whether a driver or a contact turns a body, or one that it slides along."""
+        return body in self.counted or self.slid_with_counted(body) is not None
+
+    @property
+    def counted(self) -> set[str]:
+        """The bodies that drivers or contacts turn."""
+        return {d.body for d in self.standing.drives if d.kind == "turn"} | self.standing.led
+
+    def slid_with_counted(self, body: str) -> str | None:
+        """The next body along slides towards one that a driver or a contact turns."""
+        counted = self.counted
         slides = [(slide.block, slide.on) for slide in self.standing.slides.values()]
         towards, waiting = {body: body}, [body]
         while waiting:
             here = waiting.pop(0)
-            if here in driven:
+            if here != body and here in counted:
                 return towards[here]
             beside = [on for block, on in slides if block == here]
             beside += [block for block, on in slides if on == here]
@@ -250,6 +259,12 @@ class Maker:
                     towards[each] = each if here == body else towards[here]
                     waiting.append(each)
         return None
+
+    def turned_by_contacts(self) -> set[str]:
+        """Bodies that roll on a track or on one another, or keep such apart, but for driven ones."""
+        found = {each.wheel for each in self.standing.straights}
+        found |= {name for gear in self.standing.gears for name in (gear.wheel, gear.on, gear.arm)}
+        return found - {drive.body for drive in self.standing.drives if drive.kind == "turn"}
 
     def shifts(self, body: str) -> bool:
         """Whether slides alone join a body to the frame, so that it never turns."""
@@ -270,12 +285,6 @@ class Maker:
         lean = phase(bodies[body].axis * bodies[on].axis.conjugate())
         return self.angle(on) + (lean if lean > ROUND - math.pi else lean + math.tau)
 
-    def rack(self, points: dict[str, complex], on: str, along: complex) -> str:
-        """A block that a wheel alone moves along a guide of a body, with which it counts turns."""
-        name = self.block(points, on, along)
-        self.standing.racks[name] = on
-        return name
-
     def slide_coordinate(self, block: str) -> float:
         """Where a block stands on its guide."""
         slide = self.standing.slides[block]
@@ -290,6 +299,7 @@ class Maker:
             yield
             if stiffness(self.standing, set(before.bodies)) < STIFF:
                 raise LooseError
+            self.standing.led |= self.turned_by_contacts() - set(before.bodies)
         except (LooseError, ZeroDivisionError):
             self.standing, self.count = before, count
             raise LooseError from None

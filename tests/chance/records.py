@@ -206,8 +206,8 @@ class Standing:
     drives: list[Drive] = field(default_factory=list)
     moment: float = 0.0
     """The time (s) at which laws of time are drawn."""
-    racks: dict[str, str] = field(default_factory=dict)
-    """What wheels alone move, and the bodies along which that slides."""
+    led: set[str] = field(default_factory=set)
+    """Bodies that contacts turn, which so count whole turns."""
     idle: dict[str, tuple[str, str]] = field(default_factory=dict)
     """Idle bars: what they are pinned to, and the point that they only point to."""
 

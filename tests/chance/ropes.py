@@ -16,7 +16,7 @@ def centre_of(m: Maker, body: str, place: complex) -> str:
 
 def strand(m: Maker, on: str, place: complex, along: complex) -> str:
     """A taut strand that moves along itself: a block on a guide of a body."""
-    return m.rack({m.name(): place + along * m.length() * m.sign()}, on, along)
+    return m.block({m.name(): place + along * m.length() * m.sign()}, on, along)
 
 
 def hoist(m: Maker) -> None:

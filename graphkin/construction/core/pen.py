@@ -54,6 +54,7 @@ class Pen:
         self.drives: dict[int, Drive] = {}
         self.turning: dict[str, bool] = {FRAME: False}
         self.near = counted_near(scene)
+        self.counted: set[str] = set()
         self.scale_step: int | None = None
         self.shared: dict[tuple[Any, ...], int] = {}
         self.peeked: dict[int, Any] = {}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
 from msgspec import Struct
@@ -353,6 +353,7 @@ def rolled_to(
 
 def settle_turn(pen: Pen, link: str, turn: int) -> None:
     """The angle of a link's x axis in radians, whole turns counted, and so its axis."""
+    pen.counted.add(link)
     pen.want("turned", link, turn)
     pen.want("axis", link, pen.draw(axis_turned, turn))
 
@@ -399,8 +400,8 @@ def turned_by(
 def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
     """The angle of a link's x axis in radians.
 
-    Whole turns are counted for driven links, for what slides along them and for rolling wheels; for
-    others it is that within half a turn of the angle that they count near.
+    Whole turns are counted for driven links, for what contacts turn and for what slides along
+    either; for others it is that within half a turn of the angle that they count near.
     """
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if link == FRAME:
@@ -410,7 +411,7 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
         driver = gives_angle(pen.scene, link)
         if driver is not None and stands(pen, driver.against):
             return pen.want("turned", link, driven_turn(pen, shapes, driver))
-        known = turned_with_driven(pen.scene, link)
+        known = turned_with(pen.scene, link, pen.counted)
         if known is not None and stands(pen, known):
             axes = axis(pen, shapes, link), axis(pen, shapes, known)
             found = pen.draw(counted_near, *axes, angle_of(pen, shapes, known))
@@ -436,7 +437,7 @@ def refuse_idle_turns(pen: Pen) -> None:
         if link in counted:
             continue
         found = f"no wheel depends on how often link {link} went round"
-        if gives_angle(pen.scene, link) or turned_with_driven(pen.scene, link) is not None:
+        if gives_angle(pen.scene, link) or turned_with(pen.scene, link) is not None:
             found = f"a driver gives the angle of link {link}, whole turns included"
         elif pen.has("turned", link):
             found = f"link {link} rolls, which counts its whole turns"
@@ -451,12 +452,12 @@ def gives_angle(scene: Scene, link: str) -> Driver | None:
     return next((d for d in scene.drivers if d.kind == "turn" and d.link == link), None)
 
 
-def turned_with_driven(scene: Scene, link: str) -> str | None:
-    """The next link towards a driven one along slides, with which a link turns as one."""
+def turned_with(scene: Scene, link: str, counted: Collection[str] = ()) -> str | None:
+    """The next link towards a driven or a counted one along slides, with which a link turns."""
     towards, waiting = {link: link}, [link]
     while waiting:
         here = waiting.pop(0)
-        if here != link and gives_angle(scene, here):
+        if here != link and (here in counted or gives_angle(scene, here)):
             return towards[here]
         beside = slid_on(scene.link(here))
         beside += [name for name, each in scene.links.items() if here in slid_on(each)]
@@ -521,14 +522,11 @@ def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
         turn = angle_of(pen, shapes, wheel)
         if pen.turns(link):
             known = partner(slide, link)
-            held = angle_of(pen, shapes, known)
             if known in pen.scene.keepers and contact.rolling.angle is not None:
                 lean = pen.given("number", contact.rolling.angle)
-                own = pen.draw(difference, held, lean)
+                own = pen.draw(difference, angle_of(pen, shapes, known), lean)
             else:
-                own = pen.draw(counted_near, axis_, axis(pen, shapes, known), held)
-                if not pen.has("turned", link):
-                    pen.want("turned", link, own)
+                own = angle_of(pen, shapes, link)
             turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)
