@@ -10,6 +10,7 @@ from msgspec import Struct
 from graphkin.accuracy.compared_answers import Found, Reference, rows_of
 from graphkin.accuracy.methods import batch_work, found_singly, radii_in
 from graphkin.accuracy.other_routes import columns_of, in_floats, start_before
+from graphkin.loops.closing_groups import counted_in_order
 from graphkin.loops.equations import equations
 from graphkin.loops.newton import closed_from
 from graphkin.motion.course import Reals
@@ -71,7 +72,7 @@ def bounds_of(reference: Reference) -> Reals:
     places = reference.places
     scene, values = places.course.scene, in_floats(places.repeated(len(places.at)))
     start = start_before(reference, scene, values)
-    bounds = closed_from(equations(scene, values), start, singular=True).rounding
+    bounds = closed_from(counted_in_order(equations(scene, values)), start, singular=True).rounding
     every = columns_of(bounds, reference)
     rows = [np.stack([every[t] for t in some if t in every]) for some in reference.answers.targets]
     return np.stack([row.max(axis=0) for row in rows], axis=1)

@@ -26,6 +26,7 @@ from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
 from graphkin.construction.core.solution import gathered
 from graphkin.construction.tape.batch_runner import BatchRunner, Way
+from graphkin.loops.closing_groups import counted_in_order
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import newton, ratios_at
@@ -119,7 +120,7 @@ def newton_work(
     scene, values = places.course.scene, in_floats(places.repeated(count))
     time = natural_time(scene, values, float(reference.scales[0])) or 0.0
     start = start_before(reference, scene, moved(scene, values, -WARM * time))
-    loops = equations(scene, values)
+    loops = counted_in_order(equations(scene, values))
 
     def work() -> dict[Target, Any]:
         with np.errstate(all="ignore"):
@@ -141,7 +142,9 @@ def start_before(reference: Reference, scene: Scene, before: Values) -> Reals:
     keep = [program.targets[target] for target in positions]
     with np.errstate(all="ignore"):
         trace = BatchRunner(program).run(needed, before, keep, way="steps")
-    return started(scene, equations(scene, before), gathered(trace, scene.links))[0]
+    return started(scene, counted_in_order(equations(scene, before)), gathered(trace, scene.links))[
+        0
+    ]
 
 
 def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, Any]:

@@ -14,8 +14,8 @@ from msgspec.structs import replace
 
 from graphkin.loops.branch_closures import closures, scattered, turned_side
 from graphkin.loops.cam_laws import by_law
-from graphkin.loops.closing_groups import Group, speaks_of, stages
-from graphkin.loops.equations import Equations, equations, undriven
+from graphkin.loops.closing_groups import Group, counted_in_order, speaks_of, stages
+from graphkin.loops.equations import Equations, equations, part_of, undriven
 from graphkin.loops.loop_motion import Motion, Pose, pose_of, setting_of, spot, unknowns_of
 from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, newton, scaled
 from graphkin.loops.newton_start import Start
@@ -37,7 +37,7 @@ def assemble(scene: Scene, values: Mapping[str, Any] | None = None) -> LoopSolut
     could close in several ways and the scene does not say which, or where drivers are missing.
     """
     scene = by_law(scene)
-    loops = equations(scene, values)
+    loops = counted_in_order(equations(scene, values))
     return closed_from(loops, starting(scene, loops))
 
 
@@ -49,7 +49,7 @@ def starting(scene: Scene, loops: Equations) -> Reals:
     for n in range(loops.numbers.count):
         values = setting_of(loops, n)
         try:
-            rows[n] = assembled(scene, equations(scene, values, loops.links))[0]
+            rows[n] = assembled(scene, part_of(loops, loops.links, values))[0]
         except GraphkinError:
             continue
     return rows
@@ -98,7 +98,7 @@ def assembled(scene: Scene, loops: Equations) -> Reals:
     order = stages(scene, loops)
     refuse_undetermined(loops, order)
     for group in order:
-        part = equations(scene, loops.numbers.values, group.known | set(group.links))
+        part = part_of(loops, group.known | set(group.links))
         found = closures(part, unknowns_of(part, pose), group)
         row = picked(scene, loops, part, group, found)
         pose = pose_of(part, row)

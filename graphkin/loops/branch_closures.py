@@ -12,13 +12,12 @@ from __future__ import annotations
 import numpy as np
 
 from graphkin.loops.closing_groups import Group, Joint, Mask, moved_by
-from graphkin.loops.equations import Equations, equations
+from graphkin.loops.equations import Equations, part_of
 from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
 from graphkin.loops.newton import CLOSED, largest, linear_solve, newton, scaled
 from graphkin.loops.newton_start import as_meant, counted_freely, settle
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import PositionBounds
-from graphkin.scene.model import Scene
 
 STARTS = {1: 12, 2: 48}
 """Random starts from which the closures of a group of so many links are looked for."""
@@ -68,16 +67,14 @@ def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
 
 
-def closure_numbers(
-    scene: Scene, loops: Equations, group: Group, row: Reals, setting: int
-) -> range:
+def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) -> range:
     """Which closure of a group the unknowns ``row`` (K + m,) of a setting may be; empty if none.
 
     One number, 1, 2, …, unless rounding hides whether others, before it, are one closure, two or
     none. The links known before are held in place, and those that come after left out.
     """
     values = setting_of(loops, setting)
-    part = equations(scene, values, group.known | set(group.links))
+    part = part_of(loops, group.known | set(group.links), values)
     stands, moving = unknowns_of(part, pose_of(loops, row, setting)), moved_by(part, group)
     every = closures(part, stands, group)
     if not len(every):

@@ -17,7 +17,7 @@ from math import comb
 import numpy as np
 from msgspec import Struct
 
-from graphkin.loops.equations import Equations, equations, tied_by
+from graphkin.loops.equations import Equations, equations, part_of, tied_by
 from graphkin.loops.loop_motion import setting_of
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
@@ -123,6 +123,15 @@ def stages(scene: Scene, loops: Equations) -> list[Group]:
         known |= set(group.links)
         for each in net.sets_beside(group.links, known):
             heappush(waiting, each)
+
+
+def counted_in_order(loops: Equations) -> Equations:
+    """The same equations, whole turns counted in the order in which groups of links are known."""
+    if not loops.doubtful:
+        return loops
+    order = enumerate(stages(loops.scene, loops), 1)
+    known = {link: number for number, group in order for link in group.links}
+    return equations(loops.scene, loops.numbers.values, loops.links, known)
 
 
 def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equations) -> bool:
@@ -293,7 +302,7 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
     if exact and ((group.is_dyad and len(group.slides) < 3) or is_sure(scene, group)):
         return True
     try:
-        part = equations(scene, setting_of(loops, 0), group.known | set(group.links))
+        part = part_of(loops, group.known | set(group.links), setting_of(loops, 0))
     except StructureError:
         return False
     moving = moved_by(part, group)

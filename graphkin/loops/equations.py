@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -124,7 +125,8 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
     ``bodies`` place each link's points about its origin; ``owners`` gives the first link of each of
     the ``points`` and the point's local coordinates (N, points); ``closing`` names what each
     closed chain closes; ``home`` (N,) is the frame's first point; ``size`` (N,) is the longest bar
-    in metres.
+    in metres. ``known`` numbers the groups of links in the order in which they are known, as far as
+    whole turns depend on that, and ``doubtful`` says that they do.
     """
 
     scene: Scene
@@ -142,6 +144,8 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
     drives: Drives
     home: Complexes
     size: Reals
+    known: Mapping[str, int]
+    doubtful: bool
 
     @property
     def turning_count(self) -> int:
@@ -230,11 +234,15 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
 
 
 def equations(
-    scene: Scene, values: Mapping[str, Any] | None = None, within: Collection[str] | None = None
+    scene: Scene,
+    values: Mapping[str, Any] | None = None,
+    within: Collection[str] | None = None,
+    known: Mapping[str, int] = MappingProxyType({}),
 ) -> Equations:
     """Write the loop equations of a scene, for its own parameter values or for a batch of them.
 
-    ``within`` keeps to some of its links, with the joints and drivers among them. Raises
+    ``within`` keeps to some of its links, with the joints and drivers among them; ``known`` numbers
+    the groups of links, where whole turns depend on which is known first. Raises
     StructureError for links that nothing joins, wheels that do not touch, and a block whose angle
     on a further guide is not told.
     """
@@ -250,7 +258,7 @@ def equations(
     slips = slips_of(gears, rolled, guides, numbers)
     every, written = slips, scene
     near = starting_angles(written, every, numbers)
-    own_turns = own_turns_of(written, every, guides, turned, near)
+    own_turns = own_turns_of(written, every, turned, near, known)
     if within is not None:
         names = {FRAME, *within}
         bodies = {name: body for name, body in bodies.items() if name in names}
@@ -286,7 +294,16 @@ def equations(
         drives=drives_of(scene, bodies, guides, turned, numbers, own_turns, bool(every)),
         home=numbers.complexes(starts[FRAME]),
         size=longest(scene, bodies, numbers),
+        known=known,
+        doubtful=own_turns.doubtful,
     )
+
+
+def part_of(
+    loops: Equations, links: Collection[str], values: Mapping[str, Any] | None = None
+) -> Equations:
+    """The equations within some links, for the same parameter values or for others."""
+    return equations(loops.scene, values or loops.numbers.values, links, loops.known)
 
 
 def tied_by(driver: Driver) -> tuple[str, ...]:

@@ -324,39 +324,46 @@ class OwnTurns(Struct, frozen=True, eq=False):
     """Which links count their whole turns by themselves, though they turn as one with others.
 
     Each of the ``links`` stands within half a turn of what it stands ``near`` (radians).
+    ``doubtful`` says that they depend on which of several links pins show first.
     """
 
     links: Collection[str]
     near: Mapping[str, Real]
+    doubtful: bool
 
     def of(
         self, row: int, link: str, weight: Real, turned: Turnings, numbers: Numbers
     ) -> list[CountedApart]:
         """A link of an equation, where it counts otherwise than its turning."""
-        if link not in self.links or list(turned.of.values()).count(turned.of[link]) < 2:
+        if link not in self.links or not turns_with_others(link, turned):
             return []
         lean, near = (numbers.reals(z) for z in (turned.angle[link], self.near.get(link, 0.0)))
         return [CountedApart(row, turned.of[link], weight, lean, near)]
 
 
+def turns_with_others(link: str, turned: Turnings) -> bool:
+    """Whether a link turns as one with another."""
+    return list(turned.of.values()).count(turned.of[link]) > 1
+
+
 def own_turns_of(
     scene: Scene,
     slips: Sequence[NoSlip],
-    guides: Sequence[Guide],
     turned: Turnings,
     near: Mapping[str, Real],
+    known: Mapping[str, int],
 ) -> OwnTurns:
     """Which links count by themselves: none that turns with a driven one or one a contact leads.
 
     Contacts lead one after the other, as each leaves the angle of a wheel or an arm unknown; where
-    none does, pins show one, of what is no wheel first.
+    none does, pins show one, of the first group that is ``known``, of what is no wheel first.
     """
-    of, led = turned.of, set[str]()
+    of, led, doubtful = turned.of, set[str](), False
     driven = {of[FRAME], *(of[d.link] for d in scene.drivers if d.kind == "turn")}
-    known, left = set(driven), list(slips)
+    told, left = set(driven), list(slips)
 
     def unknown(slip: NoSlip) -> list[str]:
-        return [link for link in slip.weights if of[link] not in known]
+        return [link for link in slip.weights if of[link] not in told]
 
     def leads(slip: NoSlip) -> bool:
         return slip.track is None or slip.links[0] in unknown(slip) or not unknown(slip)
@@ -366,15 +373,18 @@ def own_turns_of(
         if (slip := next(ready, None)) is not None:
             left.remove(slip)
             led.update(unknown(slip))
-            known.update(of[link] for link in slip.weights)
+            told.update(of[link] for link in slip.weights)
             continue
         wheels = {of[slip.links[0]] for slip in left}
-        missing = [of[link] for slip in left for link in unknown(slip)]
-        known.add(next((k for k in missing if k not in wheels), missing[0]))
+        missing = [link for slip in left for link in unknown(slip)]
+        doubtful |= len({of[link] for link in missing}) > 1
+        told.add(of[min(missing, key=lambda link: (known.get(link, 0), of[link] in wheels))])
     counted = driven | {of[link] for link in led}
     links = {each for slip in slips for each in slip.weights}
     links |= {driver.against for driver in scene.drivers if driver.kind == "turn"}
-    return OwnTurns(frozenset(link for link in links if of[link] not in counted), near)
+    own = frozenset(link for link in links if of[link] not in counted)
+    concerned = any(turns_with_others(link, turned) for link in links if of[link] not in driven)
+    return OwnTurns(own, near, doubtful and concerned)
 
 
 def starting_angles(scene: Scene, slips: Sequence[NoSlip], numbers: Numbers) -> dict[str, Real]:

@@ -261,7 +261,7 @@ class Maker:
         return None
 
     def turned_by_contacts(self) -> set[str]:
-        """Bodies that roll on a track or on one another, or keep such apart, but for driven ones."""
+        """Bodies that contacts turn, or whose wheels they keep apart, but for driven ones."""
         found = {each.wheel for each in self.standing.straights}
         found |= {name for gear in self.standing.gears for name in (gear.wheel, gear.on, gear.arm)}
         return found - {drive.body for drive in self.standing.drives if drive.kind == "turn"}

@@ -21,8 +21,8 @@ from graphkin.construction.core.solution import (
 from graphkin.loops.assemble import LEVEL, completed, led_by
 from graphkin.loops.branch_closures import closure_numbers, closures, other_closure, turned_side
 from graphkin.loops.cam_laws import by_law, without_linkages
-from graphkin.loops.closing_groups import Group, groups, speaks_of, stages
-from graphkin.loops.equations import Equations, equations
+from graphkin.loops.closing_groups import Group, counted_in_order, groups, speaks_of, stages
+from graphkin.loops.equations import Equations, equations, part_of
 from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
 from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
 from graphkin.loops.newton_start import Start, start_values
@@ -101,19 +101,17 @@ def picked_rows(
     for n in settings[np.unique(spread.astype(int))]:
         if isinstance(branch, Closure):
             row = solved.unknowns[n]
-            numbers = closure_numbers(scene, solved.loops, group, row, int(n))
+            numbers = closure_numbers(solved.loops, group, row, int(n))
             holds[n] = branch.number in numbers
         else:
-            holds[n] = farthest(scene, branch, solved, group, name, int(n))
+            holds[n] = farthest(branch, solved, group, name, int(n))
     return holds
 
 
-def farthest(
-    scene: Scene, branch: Way, solved: LoopSolution, group: Group, name: str, n: int
-) -> bool:
+def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int) -> bool:
     """Whether the coordinate of a group is the largest (or least) of all its closures."""
     loops = solved.loops
-    part = equations(scene, setting_of(loops, n), group.known | set(group.links))
+    part = part_of(loops, group.known | set(group.links), setting_of(loops, n))
     stands = unknowns_of(part, pose_of(loops, solved.unknowns[n], n))
     j = led_by(name, group, loops, part)
     if j is None:
@@ -225,6 +223,7 @@ def examine(
     if within is not None:
         loops = equations(scene, values, within)
         scene = scene_of(loops)
+    loops = counted_in_order(loops)
     refuse_undriven(loops)
     start, guessed = started(scene, loops, solution)
     solved = closed_from(loops, start, accelerations=has_acceleration(solution), singular=True)
