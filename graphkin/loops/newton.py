@@ -176,9 +176,13 @@ def largest(rows: Reals) -> Reals:
 def linear_solve(matrix: Reals, right: Reals) -> Reals:
     """Solve stacks of equations; least squares where there are more than unknowns, or singular.
 
-    Shapes (N, e, u) and (N, e, R) give (N, u, R); settings with a NaN stay NaN.
+    Shapes (N, e, u) and (N, e, R) give (N, u, R); settings with a NaN stay NaN. Equations that have
+    none of the unknowns in any setting tell nothing.
     """
     finite = finite_rows(matrix) & finite_rows(right)
+    told = matrix[finite].any(axis=(0, 2))
+    if np.count_nonzero(told) == matrix.shape[2]:
+        matrix, right = matrix[:, told], right[:, told]
     matrix = np.where(finite[:, None, None], matrix, np.eye(*matrix.shape[1:]))
     right = np.where(finite[:, None, None], right, np.nan)
     if matrix.shape[1] == matrix.shape[2]:

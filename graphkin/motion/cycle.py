@@ -106,7 +106,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         """The motion of every row, with NaN for each quantity of which no digit is sure there."""
         from graphkin.loops.witness import sure_of
 
-        return sure_of(self.solution, self.witnessed.unsure)
+        return sure_of(self.solution, witnessed(self, numbered=False).unsure)
 
     @cached_property
     def profiles(self) -> Mapping[str, CamProfile]:
@@ -343,8 +343,11 @@ def placed(whole: Any, value: Any, rows: Any, count: int) -> Any:
     return whole
 
 
-def witnessed(found: Cycle) -> Witnessed:
-    """Each piece held against the vector loops with its own closures."""
+def witnessed(found: Cycle, *, numbered: bool = True) -> Witnessed:
+    """Each piece held against the vector loops with its own closures.
+
+    Without ``numbered`` numbers of closures are not verified, which takes most of the time.
+    """
     from graphkin.loops.witness import examine
 
     count = len(found.at)
@@ -357,7 +360,10 @@ def witnessed(found: Cycle) -> Witnessed:
         course = piece.course
         try:
             examined = examine(
-                course.scene, rows_of(found.solution, rows), course.values(found.at[rows])
+                course.scene,
+                rows_of(found.solution, rows),
+                course.values(found.at[rows]),
+                numbered=numbered,
             )
         except GraphkinError as error:
             return Witnessed(difference, agrees, str(error))
