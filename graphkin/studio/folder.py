@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from functools import lru_cache
 from itertools import count
 from pathlib import Path
 
@@ -147,19 +148,22 @@ def stem_of(name: str) -> str:
     return folders[-1] if folders and file == SCENE else file.removesuffix(ENDING)
 
 
+@lru_cache(maxsize=8)
 def shipped(language: str) -> list[tuple[str, str]]:
     """The labs that come with graphkin: names and titles."""
-    return [(name, title_of(shipped_text(name), language)) for name in scene_files.names()]
+    shelf = scene_files.shelf()
+    return [(name, title_in(shelf / name / SCENE, language)) for name in scene_files.names()]
 
 
+@lru_cache(maxsize=8)
 def examples(language: str) -> list[tuple[str, str]]:
     """The other scenes that come with it: names and titles."""
-    return [(name, title_of(example_text(name), language)) for name in scene_files.examples()]
+    return [(name, title_in(path, language)) for name, path in scene_files.examples().items()]
 
 
-def title_of(text: str, language: str) -> str:
+def title_in(path: Path, language: str) -> str:
     """The title of a scene that comes with it, in a language where it has one there."""
-    tables = tables_of(text)
+    tables = tables_of(decoded(read_bytes(path)))
     titles = tables.get("titles")
     own = titles.get(language) if isinstance(titles, dict) else None
     return str(own or tables.get("title", ""))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import lru_cache
 
 from graphkin import __version__
 from graphkin.studio.look import spoken_in
@@ -146,7 +147,7 @@ SPOKEN = (
 def page(opened: Opened, words: Words) -> str:
     """The whole page, to begin with a text; the words of all languages go with it."""
     spoken = {language: spoken_in(language) for language in LANGUAGES}
-    said = {language: said_in(each) for language, each in spoken.items()}
+    said = {language: said_in(language) for language in LANGUAGES}
     start = {"language": words.language, "words": said}
     page = filled(
         "studio/web/page.html",
@@ -164,8 +165,10 @@ def page(opened: Opened, words: Words) -> str:
     return f"{page}\n"
 
 
-def said_in(words: Words) -> dict[str, str]:
+@lru_cache(maxsize=8)
+def said_in(language: str) -> dict[str, str]:
     """The sentences of the page in one language."""
+    words = spoken_in(language)
     return {key: words(key, **gaps(words, key)) for key in SPOKEN}
 
 

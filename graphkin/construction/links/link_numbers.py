@@ -188,7 +188,7 @@ def settle_in_plates(board: FieldContent) -> None:
     Each stands there before other labels seek their places; where there is no such place, it seeks
     one as they do.
     """
-    from shapely import MultiLineString, Point, Polygon, box, union_all
+    from shapely import MultiLineString, Point, Polygon, box, buffer, get_parts, union_all
     from shapely.ops import nearest_points
 
     plates = {m.name: m for m in board.marks if isinstance(m, Polyline) and m.cls == "plate"}
@@ -202,8 +202,8 @@ def settle_in_plates(board: FieldContent) -> None:
         wide = label.size()[0] / 2
         body = Polygon(plates[label.name].points).buffer(-wide - EDGE)
         near = MultiLineString(lines).intersection(body.buffer(wide + EDGE))
-        taken = union_all([box(*rect) for rect in board.taken])
-        free = body - union_all([near, taken]).buffer(wide + EDGE)
+        taken = [*get_parts(near), *(box(*rect) for rect in board.taken)]
+        free = body - union_all(buffer(taken, wide + EDGE))  # at once it takes twenty times as long
         if free.is_empty:
             waiting.append(label)
             continue
