@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from itertools import chain, zip_longest
@@ -10,7 +11,11 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from graphkin.__main__ import GARBAGE
 from tests.chosen import EVERY
+
+gc.set_threshold(GARBAGE)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # both as the command line has it
 
 settings.register_profile(
     "same", derandomize=True, database=None, deadline=None, max_examples=200 if EVERY else 50

@@ -140,23 +140,28 @@ def newton(
 
     Only the unknowns ``moving`` change, all of them without it; more equations than unknowns are
     met by least squares. Gives the unknowns and the number of iterations, of which there are at
-    ``most`` so many; a step shorter than ``settled`` is the last.
+    ``most`` so many; a step shorter than ``settled`` is the last. Of many starts in one setting
+    those that have settled are left alone.
     """
-    unknowns, done = start, np.zeros(len(start), dtype=np.bool_)
+    unknowns, done = start.copy(), np.zeros(len(start), dtype=np.bool_)
     columns = np.ones(start.shape[1], dtype=np.bool_) if moving is None else moving
-    before = np.full(len(start), np.inf)
+    before, some = np.full(len(start), np.inf), np.arange(len(start))
     iterations = 0
     while iterations < most and not done.all():
-        residual, jacobian = scaled(loops, unknowns)
-        step = np.zeros_like(unknowns)
+        if loops.numbers.single:
+            some = np.flatnonzero(~done)
+        residual, jacobian = scaled(loops, unknowns[some])
+        step = np.zeros_like(unknowns[some])
         step[:, columns] = -linear_solve(jacobian[:, :, columns], residual[:, :, None])[:, :, 0]
         length = largest(step)
-        done |= ~np.isfinite(length) | ((length > 0.9 * before) & (before < NEAR))
-        done |= (largest(residual) < AT_REST) & (length > NEAR)
+        end = done[some] | ~np.isfinite(length)
+        end |= (length > 0.9 * before[some]) & (before[some] < NEAR)
+        end |= (largest(residual) < AT_REST) & (length > NEAR)
         shortened = step * np.minimum(1, LONGEST / np.maximum(length, LONGEST))[:, None]
-        unknowns = np.where(done[:, None], unknowns, unknowns + shortened * loops.columns)
-        done |= length < settled
-        before, iterations = length, iterations + 1
+        moved = unknowns[some] + shortened * loops.columns
+        unknowns[some] = np.where(end[:, None], unknowns[some], moved)
+        done[some] = end | (length < settled)
+        before[some], iterations = length, iterations + 1
     return unknowns, iterations
 
 

@@ -330,22 +330,20 @@ def profiles(
     normal = lines.normals[:, :1] * right + lines.normals[:, 1:] * down
     tangent = lines.normals[:, :1] * down - lines.normals[:, 1:] * right
     middle = over(lines.places) + np.broadcast_to(about, len(normal))[:, None] * normal
-    pixels = (
-        middle[:, None, None]
-        + across[None, :, None, None] * normal[:, None, None]
-        + ALONG[None, None, :, None] * tangent[:, None, None]
-    ).astype(np.float32)
+    middles = middle[:, None] + across[None, :, None] * normal[:, None]
+    beside = ALONG[:, None, None] * tangent
+    pixels = np.empty((2, len(ALONG), *middles.shape[:2]), np.float32)
+    for k in range(2):
+        np.add(middles[None, ..., k], beside[..., None, k], out=pixels[k], casting="same_kind")
     height, width = grey.shape
-    spots = pixels[:, :: len(across) - 1].reshape(len(pixels), -1, 2)
-    inside = (spots > 1).all((1, 2)) & (spots < [width - 2, height - 2]).all((1, 2))
-    light = cv2.remap(
-        grey,
-        np.nan_to_num(pixels[..., 0]).reshape(len(pixels), -1),
-        np.nan_to_num(pixels[..., 1]).reshape(len(pixels), -1),
-        cv2.INTER_LINEAR,
-        borderMode=cv2.BORDER_REPLICATE,
-    ).reshape(pixels.shape[:3])
-    profile = light.mean(axis=2).astype(np.float64)
+    spots = pixels[..., :: len(across) - 1]
+    far = np.array([width - 2, height - 2])[:, None, None, None]
+    inside = ((spots > 1) & (spots < far)).all((0, 1, 3))
+    if not np.isfinite(pixels).all():
+        pixels = np.nan_to_num(pixels)
+    x, y = pixels.reshape(2, -1, len(across))
+    light = cv2.remap(grey, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    profile = light.reshape(pixels.shape[1:]).mean(axis=0).astype(np.float64)
     white = np.maximum(np.percentile(profile, 90, axis=1), 20.0)
     return 1 - profile / white[:, None], inside
 

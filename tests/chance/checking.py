@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-import mpmath
-
 from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
@@ -18,8 +16,9 @@ from graphkin.text.errors import StructureError, WitnessError
 from tests.chance.branches import DeadChainError, branches_of
 from tests.chance.exact import Motion, motion
 from tests.chance.making import made
+from tests.chance.many_digits import in_many_digits
 from tests.chance.records import FRAME, Standing
-from tests.chance.written import DIGITS, Shaken, Written
+from tests.chance.written import Shaken, Written
 
 EPS = 2.0**-52
 FLATTEST = 1e-4
@@ -77,7 +76,7 @@ class Case:
     @cached_property
     def shaken(self) -> float:
         """How far the exact motion moves when every number is off by the share of a rounding."""
-        with mpmath.workdps(DIGITS):
+        with in_many_digits():
             others = [motion(self.written, Shaken(self.written, n)) for n in range(SHAKES)]
         return max(max(differences(each, self.exact))[0] for each in others)
 

@@ -1,6 +1,6 @@
 """What joins the bodies of a mechanism, as equations that must vanish: plain distances and angles.
 
-Poses are (x, y, θ) of each body's own axes; the numbers may be floats or of any precision.
+Poses are (x, y, θ) of each body's own axes; the numbers are floats or of many digits.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import mpmath
+from flint import acb, arb
 
 from tests.chance.lifts import lifted, raised
+from tests.chance.many_digits import radians, unit
 from tests.chance.records import FRAME, CamLaw, Drive, Gear, Slide, Standing, Straight
 
 Pose = tuple[Any, Any, Any]
@@ -19,6 +21,9 @@ Pose = tuple[Any, Any, Any]
 
 class Geometry(Protocol):
     """The shapes of the bodies in their own axes, in some kind of numbers."""
+
+    def place(self, x: Any, y: Any) -> Any:
+        """A place of the plane."""
 
     def cis(self, angle: Any) -> Any:
         """Unit vector at an angle (radians)."""
@@ -58,7 +63,7 @@ class Moved:
     def at(self, body: str, local: Any) -> Any:
         """A point of a body, in the plane."""
         x, y, _ = self.poses[body]
-        return x + 1j * y + self.units[body] * local
+        return self.geometry.place(x, y) + self.units[body] * local
 
     def point(self, body: str, name: str) -> Any:
         """A named point of a body, in the plane."""
@@ -170,14 +175,14 @@ def lifting(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], list[Any]
     resting = swung(standing, cam) if cam.lever else raised_by(standing, cam)
 
     def off(moved: Moved, time: Any) -> list[Any]:
-        _, _, start, pieces, _ = moved.geometry.cam(cam)
+        _, _, start, law, _ = moved.geometry.cam(cam)
+        pieces = [(mpmath.mpf(end), mpmath.mpf(rise), how) for end, rise, how in law]
         if cam.slides:
             plate = standing.slides[cam.on]
-            lift = raised(pieces, cam.sense * (moved.slid(standing, plate).real - start))
+            at, law_of = moved.slid(standing, plate).real, raised
         else:
-            turned = moved.poses[cam.on][2] - moved.poses[cam.carrier][2]
-            lift = lifted(pieces, cam.sense * (turned - start))
-        return [resting(moved, lift)]
+            at, law_of = moved.poses[cam.on][2] - moved.poses[cam.carrier][2], lifted
+        return [resting(moved, arb(law_of(pieces, mpmath.mpf(cam.sense * (at - start)))))]
 
     return off
 
@@ -192,7 +197,7 @@ def raised_by(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], Any]:
         at = moved.slid(standing, slide).real - lift
         if cam.slides:
             start, way, aside = moved.geometry.guide(standing.slides[cam.on])
-            centre = through + along * mpmath.mpc(at, offset)
+            centre = through + along * acb(at, offset)
             above = ((centre - start) * way.conjugate()).imag - aside
             side = 1 if (along * way.conjugate()).imag > 0 else -1
             return above - side * (base + roller)
@@ -200,7 +205,7 @@ def raised_by(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], Any]:
         pivot = (moved.point(cam.on, cam.pivot) - moved.at(cam.carrier, through)) * own.conjugate()
         if cam.tip == "flat":
             return at - pivot.real - base
-        return at - pivot.real - mpmath.sqrt((base + roller) ** 2 - (offset - pivot.imag) ** 2)
+        return at - pivot.real - arb((base + roller) ** 2 - (offset - pivot.imag) ** 2).sqrt()
 
     return off
 
@@ -219,24 +224,19 @@ def swung(standing: Standing, cam: CamLaw) -> Callable[[Moved, Any], Any]:
             start, way, aside = moved.geometry.guide(standing.slides[cam.on])
             along = moved.units[cam.carrier] * way
             above = ((pin - moved.at(cam.carrier, start)) * along.conjugate()).imag - aside
-            towards = -1j * along if above > 0 else 1j * along
-            resting = mpmath.acos((abs(above) - prime) / arm)
+            towards = along * (-1j if above > 0 else 1j)
+            resting = arb((abs(above) - prime) / arm).acos()
         else:
             gap = moved.point(cam.on, cam.pivot) - pin
             apart, towards = abs(gap), gap / abs(gap)
             if cam.tip == "flat":
-                resting = mpmath.asin((base + face) / apart)
+                resting = arb((base + face) / apart).asin()
             else:
-                resting = mpmath.acos((apart**2 + arm**2 - prime**2) / (2 * apart * arm))
-        wanted = towards * unit(-lever.side * (resting + mpmath.radians(lift)))
+                resting = arb((apart**2 + arm**2 - prime**2) / (2 * apart * arm)).acos()
+        wanted = towards * unit(-lever.side * (resting + radians(lift)))
         return (bar / arm * wanted.conjugate()).imag
 
     return off
-
-
-def unit(angle: Any) -> Any:
-    """A unit vector at an angle."""
-    return mpmath.mpc(*mpmath.cos_sin(angle))
 
 
 def driven(standing: Standing, drive: Drive) -> Callable[[Moved, Any], list[Any]]:
@@ -267,4 +267,4 @@ def driven(standing: Standing, drive: Drive) -> Callable[[Moved, Any], list[Any]
 
 def fixed_frame(poses: Mapping[str, Pose]) -> dict[str, Pose]:
     """Poses with the frame's."""
-    return {FRAME: (0, 0, 0), **poses}
+    return {FRAME: (arb(0), arb(0), arb(0)), **poses}

@@ -10,14 +10,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import mpmath
 import numpy as np
+from flint import arb
 
 from tests.chance.constraints import Equation, Moved, Pose, equations, fixed_frame
+from tests.chance.many_digits import in_many_digits
 from tests.chance.records import FRAME, Standing
-from tests.chance.written import DIGITS, Exact, Written
+from tests.chance.written import Exact, Written
 
-INSTANT = mpmath.mpf(10) ** -13
+INSTANT = arb(2) ** -43
 """The time between the moments, in parts of the time that a driver needs for its own size."""
 ENOUGH = 1e-44
 """A correction, in parts of the mechanism, after which nothing more is gained."""
@@ -45,7 +46,7 @@ class Closing:
 
     def __init__(self, written: Written, geometry: Exact | None = None) -> None:
         self.standing, self.geometry = written.standing, geometry or Exact(written)
-        self.size = mpmath.mpf(self.standing.size)
+        self.size = arb(self.standing.size)
         self.equations: list[Equation] = equations(self.standing)
         self.names = [name for name in self.standing.bodies if name != FRAME]
         self.first = self.stacked(
@@ -60,7 +61,7 @@ class Closing:
         """Poses as a list of unknowns, lengths in parts of the mechanism."""
         found = []
         for name in self.names:
-            x, y, angle = (mpmath.mpf(each) for each in poses[name])
+            x, y, angle = (arb(each) for each in poses[name])
             found += [x / self.size, y / self.size, angle]
         return found
 
@@ -80,7 +81,7 @@ class Closing:
 
     def inverted(self) -> Any:
         """The inverse of the Jacobian, to the precision of floats."""
-        step = mpmath.mpf(10) ** -25
+        step = arb(2) ** -83
         here = self.missed(self.first, 0)
         columns = []
         for k in range(len(self.first)):
@@ -99,11 +100,11 @@ class Closing:
         unknowns, before = [*start], 1.0
         for _ in range(40):
             missed = self.missed(unknowns, time)
-            size = max(abs(value) for value in missed)
-            scale = size or mpmath.mpf(1)
+            scale = max(abs(float(value)) for value in missed) or 1.0
             step = self.inverse @ np.array([float(value / scale) for value in missed])
-            unknowns = [u - scale * float(s) for u, s in zip(unknowns, step, strict=True)]
-            moved = float(scale * abs(step).max())
+            pairs = zip(unknowns, step * scale, strict=True)
+            unknowns = [(u - float(s)).mid() for u, s in pairs]
+            moved = scale * float(abs(step).max())
             if moved < ENOUGH or (moved < 1e-40 and moved > before / 4):
                 return unknowns
             before = moved
@@ -115,15 +116,15 @@ def motion(written: Written, geometry: Exact | None = None) -> Motion:
 
     The geometry is that of what is written, or one beside it.
     """
-    with mpmath.workdps(DIGITS):
+    with in_many_digits():
         closing, standing = Closing(written, geometry), written.standing
         h = INSTANT * period(standing)
-        here = closing.closed(closing.first, mpmath.mpf(0))
+        here = closing.closed(closing.first, arb(0))
         ends = [closing.closed(here, way * h) for way in (-1, 1)]
-        off = max(abs(a - b) for a, b in zip(here, closing.first, strict=True))
+        off = max(abs(float(a - b)) for a, b in zip(here, closing.first, strict=True))
         states = [states_of(closing, unknowns) for unknowns in (ends[0], here, ends[1])]
         found = {key: rates([state[key] for state in states], h) for key in states[0]}
-        return gathered(standing, closing, here, found, (float(off), float(h / INSTANT)))
+        return gathered(standing, closing, here, found, (off, float(h / INSTANT)))
 
 
 def period(standing: Standing) -> Any:
@@ -132,7 +133,7 @@ def period(standing: Standing) -> Any:
     for drive in standing.drives:
         size = 1.0 if drive.kind == "turn" else standing.size
         rates += [abs(drive.speed) / size, (abs(drive.acceleration) / size) ** 0.5]
-    return 1 / mpmath.mpf(max(rates) or 1.0)
+    return 1 / arb(max(rates) or 1.0)
 
 
 def states_of(closing: Closing, unknowns: list[Any]) -> dict[tuple[str, str], Any]:

@@ -345,6 +345,10 @@ class AsPlaced:
     def __init__(self, standing: Standing) -> None:
         self.standing = standing
 
+    def place(self, x: float, y: float) -> complex:
+        """A place of the plane."""
+        return complex(x, y)
+
     def cis(self, angle: float) -> complex:
         """Unit vector at an angle."""
         return rect(1, angle)

@@ -7,9 +7,9 @@ from cmath import phase
 from random import Random
 from typing import Any
 
-import mpmath
+from flint import acb, arb
 
-from tests.chance.constraints import unit
+from tests.chance.many_digits import in_many_digits, radians, real, unit
 from tests.chance.records import (
     FRAME,
     Body,
@@ -23,9 +23,7 @@ from tests.chance.records import (
 )
 from tests.mechanisms import HEAD, angled, number, pair, sided
 
-DIGITS = 50
-"""Digits of the exact numbers."""
-SHARE = mpmath.mpf(10) ** -16
+SHARE = arb(2) ** -53
 """By what share numbers are shaken: no more than doubles are rounded by."""
 
 
@@ -36,7 +34,7 @@ class Written:
         self.standing = standing
         self.exact: dict[str, dict[str, Any]] = {}
         self.numbers: dict[int, tuple[Any, ...]] = {}
-        with mpmath.workdps(DIGITS):
+        with in_many_digits():
             bodies = [body for body in standing.bodies.values() if not body.unwritten]
             for touch in standing.touches:
                 self.touched(touch)
@@ -82,11 +80,11 @@ class Written:
 
     def touched(self, touch: Touch) -> str:
         """Two profiles that touch, and the bar that stands for them."""
-        own, other = (mpmath.mpf(repr(each)) for each in touch.radii)
+        own, other = (real(each) for each in touch.radii)
         apart = other - own if touch.inside else own + other
         self.exact[touch.link] = {
-            touch.centres[0]: mpmath.mpc(0),
-            touch.centres[1]: mpmath.mpc(apart),
+            touch.centres[0]: acb(0),
+            touch.centres[1]: acb(apart),
         }
         inside = ", inside = true" if touch.inside else ""
         ends = f'centres = "{"-".join(touch.centres)}", radii = [{own_words(touch.radii)}]'
@@ -95,16 +93,16 @@ class Written:
     def kept_apart(self, gear: Gear) -> None:
         """The bar between the centres of two wheels that no other link keeps, from the track's."""
         if gear.arm in self.standing.bodies and self.standing.bodies[gear.arm].unwritten:
-            own, other = (mpmath.mpf(repr(each)) for each in gear.radii)
+            own, other = (real(each) for each in gear.radii)
             first, last = reversed(gear.centres)
-            self.exact[gear.arm] = {first: mpmath.mpc(0), last: mpmath.mpc(abs(own + other))}
+            self.exact[gear.arm] = {first: acb(0), last: acb(abs(own + other))}
 
     def lifted(self, cam: CamLaw) -> list[str]:
         """A cam, of the follower that it lifts."""
-        sizes = (mpmath.mpf(repr(each)) for each in (cam.base, cam.roller))
-        pieces = [(mpmath.mpf(repr(e)), mpmath.mpf(repr(r)), how) for e, r, how in cam.pieces]
-        face = mpmath.mpf(repr(cam.lever.face)) if cam.lever else mpmath.mpf(0)
-        start = mpmath.mpf(repr(cam.start)) if cam.slides else degrees(cam.start)
+        sizes = (real(each) for each in (cam.base, cam.roller))
+        pieces = [(real(e), real(r), how) for e, r, how in cam.pieces]
+        face = real(cam.lever.face) if cam.lever else arb(0)
+        start = real(cam.start) if cam.slides else degrees(cam.start)
         self.numbers[id(cam)] = *sizes, start, pieces, face
         law = ", ".join(
             f'{{ to = {end!r}, rise = {rise!r}, motion = "{how}" }}'
@@ -133,11 +131,11 @@ class Written:
             for point, place in body.points.items():
                 local = (place - body.corner) * body.axis.conjugate()
                 lines.append(f"{point} = {pair(local)}")
-                exact[point] = mpmath.mpc(number(local.real), number(local.imag))
+                exact[point] = acb(real(number(local.real)), real(number(local.imag)))
             return lines
         (p, a), (q, b), *rest = body.points.items()
         lines = [f"{p}-{q} = {abs(b - a)!r}"]
-        exact |= {p: mpmath.mpc(0), q: mpmath.mpc(mpmath.mpf(repr(abs(b - a))))}
+        exact |= {p: acb(0), q: acb(real(abs(b - a)))}
         for point, place in rest:
             said, exact[point] = third(body.ways[point], (p, q, point), (a, b, place), exact)
             lines += said
@@ -151,7 +149,7 @@ class Written:
     def guided(self, slide: Slide) -> str:
         """A guide: through a point or coordinates at an angle, or along two points."""
         offset = f", offset = {number(slide.offset)}"
-        exact = mpmath.mpf(number(slide.offset))
+        exact = real(number(slide.offset))
         if slide.end is not None:
             first, second = (self.on_body(slide.on, point) for point in (slide.named, slide.end))
             way = second - first
@@ -174,12 +172,12 @@ class Written:
         if isinstance(joint, Slide) and joint.named is not None:
             return f'"{joint.named}"', self.on_body(joint.on, joint.named)
         local = self.local(joint.on, joint.through)
-        return pair(local), mpmath.mpc(number(local.real), number(local.imag))
+        return pair(local), acb(real(number(local.real)), real(number(local.imag)))
 
     def direction(self, on: str, along: complex) -> tuple[str, Any]:
         """A direction of the plane as an angle on a body, in degrees, and exactly."""
         words = number(math.degrees(phase(along * self.standing.bodies[on].axis.conjugate())))
-        return words, unit(mpmath.radians(mpmath.mpf(words)))
+        return words, unit(radians(real(words)))
 
     def tracked(self, straight: Straight) -> str:
         """A straight track."""
@@ -199,7 +197,7 @@ class Written:
 
     def meshed(self, gear: Gear) -> str:
         """A wheel on another."""
-        radii = tuple(mpmath.mpf(repr(each)) for each in gear.radii)
+        radii = tuple(real(each) for each in gear.radii)
         self.numbers[id(gear)] = (
             radii,
             {name: degrees(gear.start.get(name, 0.0)) for name in (gear.wheel, gear.on, gear.arm)},
@@ -215,12 +213,12 @@ class Written:
     def driver(self, drive: Drive) -> list[str]:
         """A driver."""
         position = math.degrees(drive.position) if drive.kind == "turn" else drive.position
-        where = mpmath.mpf(number(position))
+        where = real(number(position))
         if drive.kind == "turn":
-            where = mpmath.radians(where)
+            where = radians(where)
             if drive.of:
                 p, q = (self.exact[drive.body][point] for point in drive.of)
-                where -= mpmath.arg(q - p)
+                where -= (q - p).arg()
         given = drive.speed, drive.acceleration
         turned = drive.kind == "turn"
         name = drive.body if drive.body.isdigit() else f'"{drive.body}"'
@@ -229,11 +227,11 @@ class Written:
         lines += [f'of = "{"-".join(drive.of)}"'] if drive.of else []
         key = "angle" if turned else "position"
         if drive.law is None:
-            self.numbers[id(drive)] = where, *(mpmath.mpf(repr(each)) for each in given)
+            self.numbers[id(drive)] = where, *(real(each) for each in given)
             lines += [f"{key} = {number(position)}", f"speed = {drive.speed!r}"]
             return [*lines, f"acceleration = {drive.acceleration!r}"]
-        swing, rate = (mpmath.mpf(repr(each)) for each in drive.law)
-        self.numbers[id(drive)] = where, mpmath.radians(swing) if turned else swing, rate
+        swing, rate = (real(each) for each in drive.law)
+        self.numbers[id(drive)] = where, radians(swing) if turned else swing, rate
         late = f"(t - {self.standing.moment!r})"
         return [
             *lines,
@@ -246,6 +244,10 @@ class Exact:
 
     def __init__(self, written: Written) -> None:
         self.written, self.wound = written, {}
+
+    def place(self, x: Any, y: Any) -> Any:
+        """A place of the plane."""
+        return acb(x, y)
 
     def cis(self, angle: Any) -> Any:
         """Unit vector at an angle."""
@@ -261,7 +263,7 @@ class Exact:
 
     def facing(self, slide: Slide) -> Any:
         """A block's x axis lies along its guide."""
-        return mpmath.mpc(1)
+        return acb(1)
 
     def track(self, straight: Straight) -> tuple[Any, ...]:
         """A track on its body, radius and start angle."""
@@ -275,7 +277,7 @@ class Exact:
             self.wound[id(gear)] = {
                 name: angle
                 + 2
-                * mpmath.pi
+                * arb.pi()
                 * round((bodies[name].angle - float(angle) - gear.turned[name]) / (2 * math.pi))
                 for name, angle in zero.items()
             }
@@ -295,7 +297,7 @@ def moved_by(drive: Drive, given: tuple[Any, ...], time: Any) -> Any:
     where, first, second = given
     if drive.law is None:
         return where + first * time + second * time * time / 2
-    return where + first * mpmath.sin(mpmath.radians(second * time))
+    return where + first * radians(second * time).sin()
 
 
 class Shaken(Exact):
@@ -307,7 +309,7 @@ class Shaken(Exact):
     def __init__(self, written: Written, seed: int) -> None:
         super().__init__(written)
         self.seed = seed
-        self.size = mpmath.mpf(written.standing.size)
+        self.size = arb(written.standing.size)
 
     def share(self, *what: Any) -> Any:
         """A tiny share of its own, between -SHARE and SHARE, for every number."""
@@ -315,7 +317,7 @@ class Shaken(Exact):
 
     def local(self, body: str, point: str) -> Any:
         """A point of a body, beside its place."""
-        off = mpmath.mpc(self.share(body, point, "x"), self.share(body, point, "y"))
+        off = acb(self.share(body, point, "x"), self.share(body, point, "y"))
         return super().local(body, point) + self.size * off
 
     def guide(self, slide: Slide) -> tuple[Any, ...]:
@@ -366,12 +368,12 @@ def own_words(numbers: tuple[float, ...]) -> str:
 
 def degrees(angle: float) -> Any:
     """A written angle, in radians."""
-    return mpmath.radians(mpmath.mpf(number(angle)))
+    return radians(real(number(angle)))
 
 
 def radius_of(radius: float) -> Any:
     """A written radius."""
-    return mpmath.mpf(repr(radius))
+    return real(radius)
 
 
 def third(
@@ -382,13 +384,13 @@ def third(
     if way == "polar":
         angle = number(math.degrees(phase((c - a) / (b - a))))
         said = f'{r} = {{ from = "{p}", length = {abs(c - a)!r}, angle = {angle} }}'
-        return [said], mpmath.mpf(repr(abs(c - a))) * unit(degrees(float(angle)))
+        return [said], real(abs(c - a)) * unit(degrees(float(angle)))
     if way == "angle":
         angle = number(math.degrees(phase((c - a) / (b - a))))
-        local = mpmath.mpf(repr(abs(c - a))) * unit(degrees(float(angle)))
+        local = real(abs(c - a)) * unit(degrees(float(angle)))
         return angled(p, q, r, a, b, c), local
     lines = sided(p, q, r, a, b, c)
-    base, near, far = (mpmath.mpf(repr(abs(each))) for each in (b - a, c - a, c - b))
+    base, near, far = (real(abs(each)) for each in (b - a, c - a, c - b))
     x = (near * near - far * far + base * base) / (2 * base)
     side = 1 if "left" in lines[-1] else -1
-    return lines, mpmath.mpc(x, side * mpmath.sqrt(near * near - x * x))
+    return lines, acb(x, side * (near * near - x * x).sqrt())

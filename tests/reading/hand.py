@@ -101,8 +101,9 @@ def printed_page(sheet: Page) -> Any:
     return np.array(bitmap.to_numpy()).reshape(bitmap.height, bitmap.width)
 
 
+@lru_cache(maxsize=6)
 def drawn_sheet(folder: Path, code: str, kind: str, habits: Habits, seed: int) -> DrawnSheet:
-    """A student's sheet with the construction drawn on it."""
+    """A student's sheet with the construction drawn on it, kept for those who look at it."""
     sheets = sheets_of(folder, code)
     drawing = next(each for each in sheets.drawings if each.kind == kind)
     for attempt in range(40):
@@ -117,7 +118,9 @@ def drawn_sheet(folder: Path, code: str, kind: str, habits: Habits, seed: int) -
         raise AssertionError("no drawing stays on the sheet")
     image = printed(folder, code, kind).astype(np.float32)
     ink = pencilled(page, drawing, hidden, habits, rng, image.shape)
-    return DrawnSheet(np.clip(image * (1 - ink), 0, 255).astype(np.uint8), code, kind, points)
+    drawn = np.clip(image * (1 - ink), 0, 255).astype(np.uint8)
+    drawn.setflags(write=False)
+    return DrawnSheet(drawn, code, kind, points)
 
 
 # --- the construction -----------------------------------------------------------------------------

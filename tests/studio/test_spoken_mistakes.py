@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -35,8 +36,10 @@ CONSTANT = {"LEADING": LEADING, "LINK_KEYS": LINK_KEYS}
 FOREIGN = ("it", "ro")
 
 
-def literals() -> Iterator[str]:
+@cache
+def literals() -> frozenset[str]:
     """The texts of all problems that are written out where they are made, gaps as X1, X2."""
+    found: set[str] = set()
     for room in ROOMS:
         for path in sorted((ROOT / room).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -46,7 +49,8 @@ def literals() -> Iterator[str]:
                     said = [
                         k.value for k in node.keywords if k.arg in ("found", "expected", "hint")
                     ]
-                    yield from filter(None, map(text_of, [*node.args[1:], *said]))
+                    found.update(filter(None, map(text_of, [*node.args[1:], *said])))
+    return frozenset(found)
 
 
 def text_of(node: ast.expr) -> str | None:

@@ -7,6 +7,7 @@ What no drawing of these data makes is a mistake, of any size.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import exp, log, pi
 from typing import Any
 
@@ -64,8 +65,15 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     off = answers - key.sizes
     astray = log(MISTAKES) + scattered(answers, key)
     near = abs(off) <= FAR * np.sqrt(np.diag(key.spread + noise))
-    tried = {tuple(each): each for each in (np.ones_like(near), near, *starts)}
-    found = [cleared(off, key.spread, noise, astray, each) for each in tried.values()]
+    seen: dict[bytes, tuple[Fit, int | None]] = {}
+
+    def judge(fits: Any) -> tuple[Fit, int | None]:
+        told = fits.tobytes()  # one way often comes to where another began
+        if told not in seen:
+            seen[told] = judged(off, key.spread, noise, astray, fits)
+        return seen[told]
+
+    found = [cleared(judge, each) for each in (np.ones_like(near), near, *starts)]
     return max(found, key=lambda each: each.likelihood)
 
 
@@ -83,13 +91,13 @@ def drawn(answers: Any, rounding: Any, key: Key, fits: Any) -> float:
     return judged(answers - key.sizes, key.spread, noise, astray, fits)[0].likelihood
 
 
-def cleared(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> Fit:
+def cleared(judge: Callable[[Any], tuple[Fit, int | None]], fits: Any) -> Fit:
     """The fit without mistakes, which are taken out one by one."""
-    best, worst = judged(off, spread, noise, astray, fits)
+    best, worst = judge(fits)
     while worst is not None:
         fewer = best.fits.copy()
         fewer[worst] = False
-        found, worst = judged(off, spread, noise, astray, fewer)
+        found, worst = judge(fewer)
         if found.likelihood <= best.likelihood:
             break
         best = found
@@ -104,18 +112,20 @@ def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[F
     lost = float(astray[~fits].sum())
     if not len(places):
         return Fit(lost, fits, PENCILS[0]), None
-    own = np.ix_(places, places)
-    scale = np.sqrt(np.maximum(np.diag(spread + noise)[places], SURELY))
-    square = np.outer(scale, scale)
-    lower = np.linalg.cholesky(noise[own] / square + 1e-9 * np.eye(len(places)))
+    own = places[:, None], places
+    scale = np.sqrt(np.maximum((spread.diagonal() + noise.diagonal())[places], SURELY))
+    square = scale[:, None] * scale
+    regular = noise[own] / square
+    regular.flat[:: len(places) + 1] += 1e-9
+    lower = np.linalg.cholesky(regular)
     inverse = np.linalg.inv(lower)
     wide, axes = np.linalg.eigh(inverse @ (spread[own] / square) @ inverse.T)
     apart = axes.T @ inverse @ (off[places] / scale)
-    variances = 1 + np.multiply.outer(np.square(PENCILS), np.maximum(wide, 0.0))
-    size = np.log(variances).sum(axis=1) + 2 * np.log(np.diag(lower) * scale).sum()
+    variances = 1 + np.square(PENCILS)[:, None] * np.maximum(wide, 0.0)
+    size = np.log(variances).sum(axis=1) + 2 * np.log(lower.diagonal() * scale).sum()
     each = -0.5 * ((apart**2 / variances).sum(axis=1) + len(places) * log(2 * pi) + size)
     likely = int(each.argmax())
-    drawn = each[likely] + log(np.exp(each - each[likely]).mean())
+    drawn = each[likely] + log(np.exp(each - each[likely]).sum() / len(PENCILS))
     back = (axes.T @ inverse).T
     pulled = back @ (apart / variances[likely])
     alone = (back**2 / variances[likely]).sum(axis=1)
