@@ -24,6 +24,7 @@ from graphkin.construction.core.solution import (
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene import scene_files
 from graphkin.scene.link_names import in_language
+from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
@@ -350,7 +351,7 @@ class Mechanism(Struct, frozen=True, dict=True):
 
 def point_of(scene: Scene, name: str) -> str:
     """The name under which a point's motion is found: A for A@3 where link 3 owns A."""
-    point, _, link = name.partition("@")
+    point, link = ends_of(name)
     return point if link and point in scene.link(link).points else name
 
 

@@ -21,6 +21,7 @@ from graphkin.construction.core.run import StepFailed, run
 from graphkin.motion.course import Reals
 from graphkin.numbers.arithmetic import is_ball, is_decimal
 from graphkin.numbers.kinds import ball_kind
+from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Scene
 from graphkin.structure.pairs import is_in_scene
 from graphkin.text.errors import GraphkinError, Problem, WitnessError
@@ -71,7 +72,7 @@ def of_all(known: Mapping[Target, int], quantities: Sequence[str]) -> list[str]:
         name
         for name in names
         if is_in_scene(name)
-        and "@" not in name
+        and not is_under(name)
         and all((quantity, name) in known for quantity in quantities)
     ]
 

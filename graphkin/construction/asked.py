@@ -14,6 +14,7 @@ from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.guides.coincident_points import carried
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Vector
+from graphkin.scene.link_points import ends_of
 
 
 @action("set-on")
@@ -65,7 +66,7 @@ def show(pen: Pen, kind: AskedQuantity, tips: Iterable[str]) -> None:
 
 def constructed(pen: Pen, name: str, quantity: str) -> str:
     """The point that a name asks about, its image found: A for A@3 where link 3 owns A."""
-    point, _, link = name.partition("@")
+    point, link = ends_of(name)
     if not link:
         return name
     owned = point in pen.scene.link(link).points

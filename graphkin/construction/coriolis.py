@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.bases import under
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
@@ -43,8 +42,10 @@ from graphkin.construction.guides.coincident_points import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
+from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
+from graphkin.text.markup import AND, NOTHING, saying
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -140,6 +141,16 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """What it is called in a report."""
         return f"the Coriolis triangles of {self.pin_name} about {self.pivot_name}"
 
+    @property
+    def speed(self) -> str:
+        """Name of the velocity along the guide that it follows from."""
+        return f"v_{self.index}"
+
+    @property
+    def indexed_by(self) -> tuple[str, ...]:
+        """The point of the guide under the one that slides on it."""
+        return (lettered(under(self.point, self.guide)),)
+
     def symbols(self) -> Mapping[str, str]:
         """The guide, and the point that slides on it."""
         return {"k": self.guide, "q": symbol(self.point)}
@@ -212,7 +223,8 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def formula(self, drawing: Drawing) -> str:
         """2·ω·v."""
-        return f"2{rate_symbol(drawing, self.omega)}·{symbol(f'v_{self.index}')}"
+        speed = symbol(self.speed)
+        return saying(f"2{rate_symbol(drawing, self.omega)}·{speed}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """Its triangles in full, the first time on a pivot; else its origin, or its number."""
@@ -225,9 +237,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             return Wording(self.sign, drawing.words("step.coriolis-computed", **fields))
         if not first and self.stands_as_before(drawing):
             return Wording(self.sign, drawing.words("step.coriolis-again", **fields))
-        corners, along = self.corner_names(drawing, "foot", "top"), self.triangle_along(drawing)
-        corners += along.corner_names(drawing, "tip") if along else ()
-        return Wording(self.sign, "; ".join(self.in_full(drawing, "step.coriolis-top")), corners)
+        return Wording(self.sign, AND.join(self.in_full(drawing, "step.coriolis-top")))
 
     def stands_as_before(self, drawing: Drawing) -> bool:
         """Whether the triangles drawn last stand on the same pivot, by the same pin."""
@@ -238,11 +248,11 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""
         steps = drawing.trace.program.steps
-        segment = "".join(symbol(steps[end].name) for end in (self.tail, self.tip))
+        segment = NOTHING.join(symbol(steps[end].name) for end in (self.tail, self.tip))
         return {
             "a": self.symbol,
-            "v": symbol(f"v_{self.index}"),
-            "two": twice_set(drawing, symbol(f"v_{self.index}")),
+            "v": symbol(self.speed),
+            "two": twice_set(drawing, symbol(self.speed)),
             "segment": twice_set(drawing, segment),
             "omega": rate_symbol(drawing, self.omega),
             "drawn": plan_amount(drawing, Plane.ACCELERATIONS, self.size(drawing)),
@@ -250,12 +260,13 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
         """Its triangles in full: as far as the perpendicular; by the key ``top`` what cuts it."""
+        corners = self.corner_symbols(drawing, "foot", "top")
         fields = self.fields(drawing) | {
             "p": symbol(self.pivot_name),
             "q": symbol(self.pin_name),
             "bar": bar(self.pivot_name, self.pin_name),
-            "e": symbol(self.letter(drawing, "foot")),
-            "f": symbol(self.letter(drawing, "top")),
+            "e": corners["foot"],
+            "f": corners["top"],
             "more": laid_times(drawing),
         }
         line = self.leaning_line(drawing, fields)
@@ -286,8 +297,8 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         right = self.triangle_along(drawing)
         if right is None:
             return drawing.words("step.coriolis-line-tip", w=w, **fields)
-        tip = symbol(right.letter(drawing, "tip"))
-        return drawing.words("step.coriolis-line-letter", tip=tip, **fields)
+        tip = right.corner_symbols(drawing, "tip")
+        return drawing.words("step.coriolis-line-letter", **tip, **fields)
 
     def triangle_along(self, drawing: Drawing) -> TriangleComponent | None:
         """The triangle of another kind whose tip its leaning line leads to, on the guide itself."""
@@ -306,7 +317,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
         """The turning of the guide, and the relative velocity."""
-        arrow = picks.arrow(self.tail, self.tip, symbol(f"v_{self.index}"))
+        arrow = picks.arrow(self.tail, self.tip, symbol(self.speed))
         return picks.rate(self.omega), arrow
 
     def shown_between(self) -> tuple[int | None, ...]:
@@ -322,7 +333,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         values = drawing.trace.values
         omega = drawing.rate_size(self.omega)
         speed = abs(values[self.tip] - values[self.tail])
-        rate, v = rate_symbol(drawing, self.omega), symbol(f"v_{self.index}")
+        rate, v = rate_symbol(drawing, self.omega), symbol(self.speed)
         size = drawing.settled(2 * omega * speed)
         return Relation(
             self.symbol,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Plane, Step
+from graphkin.text.markup import AND
 
 
 def point_sentence(drawing: Drawing, step: Step) -> str:
@@ -15,7 +16,7 @@ def point_sentence(drawing: Drawing, step: Step) -> str:
     assert kind is not None
     before = kind.said_before(drawing, step.role)
     parts = [clause for arg in before for clause in clauses(drawing, arg, step.plane)]
-    return "; ".join([*parts, kind.point_sentence(drawing, step.role)])
+    return AND.join([*parts, kind.point_sentence(drawing, step.role)])
 
 
 def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
@@ -34,7 +35,7 @@ def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
         yield number, point_sentence(drawing, step)
         return
     for arg in kind.said_before(drawing, step.role):
-        if said := "; ".join(clauses(drawing, arg, step.plane)):
+        if said := AND.join(clauses(drawing, arg, step.plane)):
             yield arg, said
     yield number, apart
 

@@ -100,7 +100,7 @@ def said_of_steps(drawing: Drawing) -> Iterator[Sentence]:
             shown |= {type(component)} if first else set()
             said = component.sentence(drawing, first=first)
             if said.markup:
-                yield Sentence(number, said.kind, said.markup, corners=said.corners)
+                yield Sentence(number, said.kind, said.markup)
         elif plan := auxiliary_plan(drawing, number):
             yield from plan.sentences(drawing, number)
         elif laid is not None:

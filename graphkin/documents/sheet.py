@@ -14,7 +14,6 @@ from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
 from graphkin.construction.core.plan_pole import PlanPole
@@ -46,8 +45,10 @@ from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.scene.link_points import lettered
 from graphkin.scene.requests import LINKS_ASKED
 from graphkin.text.errors import PageError
+from graphkin.text.markup import names_in
 
 TITLE = 182.0
 """Widest title that stays clear of the centring mark, in mm."""
@@ -283,7 +284,7 @@ def boards(
     settle_in_plates(both[0])
     letters = [x for x in both[0].labels if x.cls == "construction" and not segment_of(x)]
     if letters:
-        told = {name for each in said or sentences(drawing) for name in each.corners}
+        told = {name for each in said or sentences(drawing) for name in names_in(each.markup)}
         both[0].dispensable = [label for label in letters if label.name not in told]
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
     if view == "key" and not said and has_many_auxiliary(drawing):
@@ -414,7 +415,7 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     return lines
 
 
-def asked(drawing: Drawing) -> list[str]:
+def asked(drawing: Drawing) -> Sequence[str]:
     """What a sheet asks for, in words."""
     words, ask = drawing.words, drawing.scene.ask
     shown = {drawing.kind, "position" if drawing.kind == "velocity" else drawing.kind}

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.sentence import Sentence
@@ -16,6 +15,7 @@ from graphkin.construction.links.idle_links import IDLE
 from graphkin.documents.mark_dependencies import Target, rests_on
 from graphkin.documents.sentences import SET_ON
 from graphkin.drawing.marks import Mark
+from graphkin.scene.link_points import lettered
 
 AT_LAST = ("detail", "note")
 """The names of marks that stand when all is drawn."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
+from graphkin.text.markup import Markup
+
 NAME = (
     r"^(?P<times>\d*)(?P<letter>[^\W\d_¹²]+)(?P<index>\d*(?:,\w+?)?)(?P<prime>[′″‴⁗]?)"
     r"(?:_(?P<sub>[^\W¹²](?:[\w,]*[^\W¹²])?))?(?P<tag>[¹²]*)(?:\^(?P<sup>\w))?$"
@@ -30,7 +32,14 @@ def tag_words(tag: str) -> str:
 
 
 @lru_cache(maxsize=1024)
-def symbol(name: str) -> str:
+def symbol(name: str, short: str = "") -> Markup:
+    """The symbol of a name, or of how it is written ``short`` where no other is written so."""
+    said = Markup(written(short or name))
+    said.names = frozenset((name,)) if name else frozenset()
+    return said
+
+
+def written(name: str) -> str:
     """Markup of a name: O1 gets its index, b⁗ its numeral, a_BA^ν its two scripts, b¹ the
     numeral of its plan; nothing where there is no name."""
     found = re.match(NAME, name)
@@ -48,6 +57,6 @@ def symbol(name: str) -> str:
     return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"
 
 
-def bar(p: str, q: str) -> str:
+def bar(p: str, q: str) -> Markup:
     """Markup of the bar between two points: O₁A."""
     return symbol(p) + symbol(q)

@@ -16,6 +16,7 @@ from graphkin.construction.core.solution import Solution
 from graphkin.loops.rigid_bodies import Body, Numbers, bodies_of, guide_line
 from graphkin.numbers.arithmetic import Point, Real, turn_by
 from graphkin.scene.expression import Number
+from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import FRAME, Cam, Driver, Link, Scene
 from graphkin.scene.quantity import Quantity, exact
 
@@ -148,7 +149,7 @@ def without_linkages(scene: Scene, solution: Solution) -> Solution:
     centres, out = scene.cam_centres, scene.cam_links
 
     def stays(name: str) -> bool:
-        point, _, link = name.partition("@")
+        point, link = ends_of(name)
         return point not in centres and link not in out
 
     return replace(

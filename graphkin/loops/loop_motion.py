@@ -10,6 +10,7 @@ from msgspec import Struct
 
 from graphkin.loops.equations import Equations
 from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
+from graphkin.scene.link_points import ends_of
 from graphkin.text.errors import Problem, StructureError
 
 Spot = tuple[str, int, str]
@@ -151,7 +152,7 @@ class Motion(Struct, frozen=True, eq=False):
 
     def point(self, name: str) -> PlaceMotion:
         """Motion of a point; ``A@3`` is the point of link 3 under A. Unknown: StructureError."""
-        point, _, carrier = name.partition("@")
+        point, carrier = ends_of(name)
         if point not in self.names or (carrier and carrier not in self.index):
             known = ", ".join(self.names)
             raise StructureError(

@@ -18,6 +18,7 @@ from msgspec.structs import replace
 from graphkin.loops.equations import Equations
 from graphkin.loops.loop_motion import Motion, SlideRates
 from graphkin.loops.rigid_bodies import Complexes, Reals
+from graphkin.scene.link_points import ends_of
 
 UNIT = 4 * 2.0**-52
 """Share of its terms by which a sound computation in doubles misses an equation at most."""
@@ -109,7 +110,7 @@ class Rounding(Struct, frozen=True, eq=False):
 
     def point(self, name: str) -> PlaceBound:
         """Of a point; ``A@3`` is the point of link 3 under A."""
-        point, _, carrier = name.partition("@")
+        point, carrier = ends_of(name)
         p = self.motion.names[point]
         if carrier:
             return self.carried(carrier, self.motion.points.place[:, p], self.points.place[:, p])

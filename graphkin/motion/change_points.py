@@ -15,6 +15,7 @@ from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import KINDS
 from graphkin.motion.course import Branches, Course
 from graphkin.motion.ends import Event
+from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Branch, Closure, Side
 from graphkin.text.errors import GraphkinError
 
@@ -52,7 +53,7 @@ def followed(course: Course) -> list[Target]:
     What touches there has the velocity of a link's point under it, none of its own.
     """
     targets = course.program.targets
-    own = [(what, of) for what, of in targets if what == "position" and "@" not in of]
+    own = [(what, of) for what, of in targets if what == "position" and not is_under(of)]
     return [(what, of) for what, of in own if ("velocity", of) in targets]
 
 

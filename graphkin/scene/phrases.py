@@ -7,6 +7,7 @@ import re
 from msgspec import Struct
 
 from graphkin.scene.findings import Findings, nearest, shown, shown_key
+from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.scene.model import FRAME, LINK_KEYS, Branch, Closure, Side, Way
 from graphkin.text.errors import Hint, Mend
 
@@ -83,10 +84,10 @@ def link_name(
 
 def asked_point(place: str, raw: object, findings: Findings) -> str | None:
     """A point of which something is asked: ``A``, or ``A@3`` for the point of link 3 under A."""
-    if isinstance(raw, str) and "@" in raw:
-        point, _, link = raw.partition("@")
-        known = point_name(place, point, findings), link_name(place, link, findings)
-        return f"{known[0]}@{known[1]}" if None not in known else None
+    if isinstance(raw, str) and is_under(raw):
+        point, link = ends_of(raw)
+        of, own = point_name(place, point, findings), link_name(place, link, findings)
+        return None if of is None or own is None else under(of, own)
     return point_name(place, raw, findings)
 
 

@@ -9,6 +9,7 @@ from itertools import combinations
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
 from graphkin.scene.known_names import known_link, known_point
+from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
 from graphkin.scene.phrases import asked_point, branch_hint, branch_words, link_name, point_name
@@ -78,7 +79,7 @@ def name_asked(place: str, key: str, raw: object, findings: Findings, scene: Sce
             findings.add(place, f"link {name} does not slide", "a link with slides")
         return name if link is not None else None
     name = (point_name if key == PATHS_ASKED else asked_point)(place, raw, findings)
-    point, _, of = (name or "").partition("@")
+    point, of = ends_of(name or "")
     if name is None or not known_point(point, scene.points, "the mechanism", place, findings):
         return None
     return None if of and known_link(scene, of, place, findings) is None else name

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from msgspec import Struct
 
 from graphkin.scene.findings import natural
+from graphkin.scene.link_points import under
 from graphkin.scene.model import Driver, joined_words
 from graphkin.structure.one_link import Crank, Driven, Tie, TriedLink, other_of
 from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
@@ -169,7 +170,7 @@ class Cylinder(Struct, frozen=True):
     @property
     def foot(self) -> Pin:
         """The pin of the bar that it stands for: the far link's point under the known pin."""
-        return Pin(f"{self.pin.point}@{self.far}", (self.far, self.pin.links[1]))
+        return Pin(under(self.pin.point, self.far), (self.far, self.pin.links[1]))
 
 
 class Stretched(Struct, frozen=True):

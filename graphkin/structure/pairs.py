@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from msgspec import Struct
 
+from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import (
     Rolling,
     Scene,
@@ -65,7 +66,7 @@ class Pin(Struct, frozen=True):
     @property
     def place(self) -> str:
         """The point where it lies; ``point`` may be one link's own under it, such as A@3."""
-        return self.point.partition("@")[0]
+        return ends_of(self.point)[0]
 
 
 class Sliding(Struct, frozen=True):

@@ -14,6 +14,7 @@ from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
 from graphkin.scene.findings import natural
+from graphkin.scene.link_points import under
 from graphkin.scene.model import Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.one_link import Driven, OneLink, TriedLink
@@ -192,7 +193,7 @@ class PinnedWheel(Struct, frozen=True):
     @property
     def rim(self) -> Pin:
         """The pin about which it turns: its own point of contact."""
-        name = ContactName(f"{self.contact.letter}@{self.own}")
+        name = ContactName(under(self.contact.letter, self.own))
         return Pin(name, (self.own, self.known))
 
 

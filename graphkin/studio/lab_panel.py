@@ -130,8 +130,8 @@ def trial_tables(outcome: LabTrial, words: Words) -> Iterator[str]:
     yield table(words("studio.unfair"), head, list(unfair_rows(outcome, words)))
     head = tuple(map(words, ("studio.on_sheets", "studio.least", "studio.half", "studio.most")))
     yield table(words("studio.spread"), head, list(spread_rows(outcome, words)))
-    head = (words("studio.scale"), "*m*", "*m′*", words("studio.times"))
-    yield table(words("studio.scales"), head, list(scale_rows(outcome)))
+    scales = (words("studio.scale"), "*m*", "*m′*", words("studio.times"))
+    yield table(words("studio.scales"), scales, list(scale_rows(outcome)))
 
 
 def unfair_rows(outcome: LabTrial, words: Words) -> Iterator[Row]:

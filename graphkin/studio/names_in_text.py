@@ -8,6 +8,7 @@ from typing import Any
 
 from tomlkit.items import SingleKey
 
+from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import JOINED, KEYWORDS
 from graphkin.studio.sketch import table_of
 
@@ -89,7 +90,7 @@ def forget(document: Any, known: Collection[str]) -> None:
             branches.pop(key)
     for key in [key for key in ASKED if isinstance(ask.get(key), list)]:
         for n in reversed(range(len(ask[key]))):
-            if not {str(ask[key][n]).partition("@")[0]} <= {*known}:
+            if not {ends_of(str(ask[key][n]))[0]} <= {*known}:
                 del ask[key][n]
 
 

@@ -101,7 +101,7 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
     rows = []
     for name, ratio in asked:
         at = place_of(ratio, breadth)
-        cells = (words("calculation.at_infinity"), "")
+        cells: tuple[str, str] = (words("calculation.at_infinity"), "")
         if at is not None and isnan(at):
             cells = ("–", "–")
         elif at is not None:

@@ -6,7 +6,10 @@ import re
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from math import floor, log10
+from string import Formatter
 from typing import Any
+
+from graphkin.text.markup import Markup, names_in, saying
 
 LANGUAGES = ("en", "it", "ro")
 MINUS = "\N{MINUS SIGN}"
@@ -30,10 +33,18 @@ class Words:
         text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
         return dict(flattened(tomllib.loads(text)))
 
-    def __call__(self, key: str, **fields: object) -> str:
+    def __call__(self, key: str, **fields: object) -> Markup:
         """The sentence under a key, with its fields filled in. Raises KeyError when missing."""
         said = self.sentences[key].format_map(fields)
-        return re.sub(EUPHONIC, r"\1d ", said) if self.language == "it" else said
+        if self.language == "it":
+            said = re.sub(EUPHONIC, r"\1d ", said)
+        if not any(map(names_in, fields.values())):
+            return Markup(said)
+        return saying(said, *(fields[name] for name in self.gaps(key)))
+
+    def gaps(self, key: str) -> frozenset[str]:
+        """The names of the fields of a sentence."""
+        return gaps_of(self.sentences[key])
 
     def has(self, key: str) -> bool:
         """True when there is a sentence under a key."""
@@ -63,6 +74,12 @@ class Words:
         return (
             self.decimal(f"{mantissa:.{digits - 1}f}") + f"·10{str(power).translate(SUPERSCRIPTS)}"
         )
+
+
+@lru_cache(maxsize=2048)
+def gaps_of(sentence: str) -> frozenset[str]:
+    """The names of a sentence's fields."""
+    return frozenset(name for _, name, _, _ in Formatter().parse(sentence) if name)
 
 
 @lru_cache(maxsize=8)

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import length_scale
 from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
@@ -15,6 +14,7 @@ from graphkin.documents.members import members
 from graphkin.documents.sheet import asked
 from graphkin.documents.task_scale import plan_at
 from graphkin.drawing.columns import Row
+from graphkin.scene.link_points import lettered
 from graphkin.writers.html_markup import marked_up
 
 SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}

@@ -22,11 +22,10 @@ from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.step_sentences import point_parts
 from graphkin.documents.sentences import SET_ON, TURNING, set_on_mechanism, unexplained
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.markup import AND
 
 MOST = 3
 """Strokes that a sentence of the page draws at most, if it can be parted."""
-AND = "; "
-"""What stands between parts that are said in one."""
 
 
 class SentencePart(Struct, frozen=True):
@@ -61,7 +60,7 @@ class PartedSentence(Struct, frozen=True):
             yield self.said, len(self.parts)
             return
         for place, some in enumerate(grouped(self.parts, strokes)):
-            markup = AND.join(part.markup for part in some)
+            markup: str = AND.join(part.markup for part in some)
             name = some[-1].name
             if self.plan is not None:
                 begins = place == 0 and self.plan.begins(drawing, self.said.all_steps)

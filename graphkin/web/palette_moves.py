@@ -589,11 +589,9 @@ class MoveFinder:
             sign = "⊥" if action == "perpendicular" else "∥"
             return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
         if action == "compass":
-            name = drawing.words("turn.say.arc", p=names[0], bar=names[1])
-            return name, name
+            return (drawing.words("turn.say.arc", p=names[0], bar=names[1]),) * 2
         if action == "join":
-            name = "".join(names)
-            return name, name
+            return ("".join(names),) * 2
         if action == "transfer":
             return names[0], names[0]
         name = self.letter(number)

@@ -25,8 +25,8 @@ from graphkin.documents.step_visibility import accompanied, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text
 from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.web.label_names import as_labelled, labels_of
-from graphkin.web.page_sentences import AND, MOST, parted_sentences
+from graphkin.text.markup import AND, EQUALS, names_in
+from graphkin.web.page_sentences import MOST, parted_sentences
 from graphkin.web.reasons import NO_STEP, VECTORS_APART, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
@@ -203,7 +203,7 @@ def vectors_apart(
         if setting:
             arrows, name = [n for n in fresh if is_set_on(drawing.trace.program.steps[n])], SET_ON
         else:
-            arrows = [n for n in fresh if vector_found(drawing, n, sentence.markup)]
+            arrows = [n for n in fresh if vector_found(drawing, n, names_in(sentence.markup))]
         late = arrows[max(len(arrows) - max(counts[stage] - MOST, 0), 0) :]
         if setting and late:
             first_ones = set_on_mechanism(drawing, "", arrows[: -len(late)])
@@ -215,7 +215,7 @@ def vectors_apart(
             if setting:
                 markup = set_on_mechanism(drawing, "", some)
             else:
-                markup = AND.join(vector_found(drawing, number, "") for number in some)
+                markup = AND.join(vector_found(drawing, number) for number in some)
             moved |= dict.fromkeys(some, len(found))
             found.append(Sentence(some[-1], name, markup, tuple(some)))
     later_own = {step: places[at] if at >= 0 else at for step, at in own.items()} | moved
@@ -234,6 +234,12 @@ def letters_told(mark: Mark, telling: Mapping[str, int]) -> tuple[int, ...]:
         return ()
     shared = mark.letters if len(mark.letters) > 1 else ()
     return tuple(telling.get(letter.name, -1) + 1 for letter in shared)
+
+
+def labels_of(sheet: ScreenSheet) -> dict[str, str]:
+    """The markup of each label of a sheet by the name of what it stands at."""
+    marks = (*sheet.left, *sheet.right)
+    return {mark.name: mark.markup for mark in marks if isinstance(mark, Text) and mark.name}
 
 
 def later(one: Timed, before: int) -> Timed:
@@ -316,10 +322,9 @@ def spoken(
     lines = crossings_on(drawing)
     for stage, sentence in enumerate(own):
         fresh = [step for step, at in staged.items() if at == stage]
-        why = [*of_sentence(drawing, sentence), *reasons(drawing, fresh, labels)]
+        why = [*of_sentence(drawing, sentence), *reasons(drawing, fresh)]
         found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
-        drawn = [steps[step].name for step in fresh if steps[step].part is Part.NORMAL]
-        markup = as_labelled(sentence.markup, drawn, labels)
+        markup = sentence.markup
         yield ProtocolSentence(
             place,
             AND.join((markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))),
@@ -351,19 +356,22 @@ def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
 
 def vectors_found(drawing: Drawing, fresh: Iterable[int], markup: str) -> Iterator[str]:
     """Which segments are the vectors of the plan that a sentence draws without a word of them."""
-    return (told for number in fresh if (told := vector_found(drawing, number, markup)))
+    said = names_in(markup)
+    return (told for number in fresh if (told := vector_found(drawing, number, said)))
 
 
-def vector_found(drawing: Drawing, number: int, markup: str) -> str:
+def vector_found(drawing: Drawing, number: int, said: AbstractSet[str] = frozenset()) -> str:
     """Which segment is the vector of the plan that a step draws; nothing for any other step, and
-    for one of which a sentence tells.
+    for one of which a sentence has ``said`` it.
     """
     step = drawing.trace.program.steps[number]
     vector = plan_vector(step)
     if vector is None or step.plane is not drawing.plane or not vector.symbol:
         return ""
-    told, segment = symbol(vector.symbol), segment_of(drawing, step)
-    return f"{segment} = {told}" if segment and told not in markup else ""
+    segment = segment_of(drawing, step)
+    if not segment or vector.symbol in said:
+        return ""
+    return EQUALS.join((segment, symbol(vector.symbol)))
 
 
 def timed_marks(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from string import Formatter
+from collections.abc import Iterable, Iterator
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import component_of, is_hidden
@@ -17,8 +16,6 @@ from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Line
-from graphkin.text import Words
-from graphkin.web.label_names import as_labelled
 
 AGAIN = {
     "why.height": "why.height_again",
@@ -42,34 +39,29 @@ NO_STEP = -1
 """Whose reason it is that belongs to no single step."""
 
 
-def reasons(
-    drawing: Drawing, numbers: Iterable[int], labels: Mapping[str, str]
-) -> list[tuple[str, int]]:
-    """The reasons for some steps as markup, each with its step, in their order, none twice.
-
-    ``labels`` are those of the drawing, by the names of what they stand at.
-    """
+def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[tuple[str, int]]:
+    """The reasons for some steps as markup, each with its step, in their order, none twice."""
     parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
     found: dict[str, int] = {}
     given: set[str] = set()
     met: dict[str, int] = {}
     for number in sorted(numbers):
         step = drawing.trace.program.steps[number]
-        key, known = reason(drawing, step), fields(step)
+        key, known = reason(drawing, step), fields(drawing, step)
         if isinstance(kind := construction(step), PerpendicularThrough):
             known["s"] = symbol(drawing.trace.program.steps[kind.start].name)
         if step.part not in parts or not key or is_nothing(drawing, number):
             continue
         if component_of(drawing.trace.program, number) is None and is_hidden(drawing, number):
             continue
-        if not all(known[gap] for gap in gaps(drawing.words, key)):
+        if not all(known[gap] for gap in drawing.words.gaps(key)):
             continue
         if key == LAST:
             met[known["name"]] = number
             continue
         text = drawing.words(AGAIN.get(key, key) if key in given else key, **known)
         given.add(key)
-        found.setdefault(as_labelled(text, alike(step, labels), labels), number)
+        found.setdefault(text, number)
     if met:
         names, (first, *more) = drawing.words("list_mark").join(met), met.values()
         text = drawing.words(LAST_OF_MANY if more else LAST, name=names)
@@ -102,30 +94,16 @@ def is_nothing(drawing: Drawing, number: int) -> bool:
     return bool(step.name and plan.falls_on(drawing, number))
 
 
-def alike(step: Step, names: Iterable[str]) -> Iterator[str]:
-    """The names with the letter and the index of a step: the other corners of its figure."""
-    letter, _, index = step.name.partition("_")
-    for name in names:
-        base, _, own = name.partition("_")
-        if index and own == index and base[:1] == letter[:1]:
-            yield name
-
-
 def reason(drawing: Drawing, step: Step) -> str:
     """The key of a step's reason; nothing where it needs none."""
     kind = construction(step)
     return kind.reason(drawing, step.role) if kind is not None else ""
 
 
-def gaps(words: Words, key: str) -> Iterator[str]:
-    """The letters that a reason speaks of."""
-    return (name for _, name, _, _ in Formatter().parse(words.sentences[key]) if name)
-
-
-def fields(step: Step) -> dict[str, str]:
+def fields(drawing: Drawing, step: Step) -> dict[str, str]:
     """The letters of a step as markup, each empty where the step has none."""
-    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar", "letter"), "")
+    known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar"), "")
     kind = construction(step)
     if kind is not None:
-        known |= kind.symbols()
+        known |= kind.symbols_on(drawing)
     return known | {"name": symbol(step.name) if step.name else ""}

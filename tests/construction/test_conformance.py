@@ -187,7 +187,7 @@ def reported(name: str) -> object:
 def said(name: str, language: str) -> object:
     """Sentences, reasons and relations in a language."""
     some = materials(name, language)
-    why = [reasons(drawing, list(drawing.trace.values), {}) for drawing in some]
+    why = [reasons(drawing, list(drawing.trace.values)) for drawing in some]
     parts = [parted_sentences(drawing) for drawing in some]
     told = [
         [list(of_sentence(drawing, Sentence(part.step, part.name, part.markup)))]

@@ -27,6 +27,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism, point_of
+from graphkin.scene.link_points import lettered
 
 GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"
@@ -175,10 +176,3 @@ def plain(name: str) -> str:
     """A name as part of a field: A@3 is A3 where the two cannot be mistaken, else A_3."""
     joined = lettered(name)
     return re.sub(r"\W+", "_", joined, flags=re.ASCII).strip("_") or "x"
-
-
-def lettered(point: str) -> str:
-    """The letters of a point on the drawing: A3 for A@3, the point of link 3 under A."""
-    name, _, link = point.partition("@")
-    apart = "," if link and not (link.isdigit() and name[-1:].isalpha()) else ""
-    return name + apart + link

@@ -40,6 +40,7 @@ from graphkin.documents.centre_tables import carried, with_pole
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.kinds import ball_kind, sound_ball
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import Scene
 from graphkin.text.plain_table import table
 
@@ -187,7 +188,7 @@ def completed(scene: Scene, solution: Solution) -> Solution:
 def point(name: str, entry: Record, solution: Solution, printer: Printer) -> Record:
     """Position, velocity and acceleration of a point, those of its entry in floats."""
     motion = motion_of(name, solution) or PointMotion()
-    of = name if (next(iter(entry)), name) in printer.targets else name.partition("@")[0]
+    of = name if (next(iter(entry)), name) in printer.targets else ends_of(name)[0]
     return {
         key: printer.pair(f"points.{name}.{key}", getattr(motion, key), (key, of)) for key in entry
     }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import image, letter, second_image
 from graphkin.construction.core.program import Part, Program
+from graphkin.scene.link_points import ends_of
 from graphkin.structure.pairs import name_words
 from graphkin.text.plain_table import listed
 
@@ -50,7 +51,7 @@ def point_words(program: Program, name: str) -> str:
     """The point whose letter or whose image in a plan this is; a name that is none stays itself."""
     for quantity, point in program.targets:
         if quantity == "position" and name in (letter(point), image(point), second_image(point)):
-            own, _, link = point.partition("@")
+            own, link = ends_of(point)
             words = name_words(type(point)(own))
             return f"{words} on link {link}" if link else words
     return name

@@ -26,6 +26,7 @@ from graphkin.construction.core.solution import (
     Verdict,
 )
 from graphkin.documents.centre_tables import breadth_of, completed, place_of
+from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -82,14 +83,14 @@ def wanted_of(scene: Scene, asked: bool) -> Wanted:
 def point_names(scene: Scene, solution: Solution) -> list[str]:
     """The frame's points, the links' as written, then those such as A@3."""
     written = [p for link in (scene.frame, *scene.links.values()) for p in link.points]
-    asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if "@" in name]
+    asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if is_under(name)]
     names = dict.fromkeys((*written, *asked, *solution.points))
     return [name for name in names if motion_of(name, solution) is not None]
 
 
 def motion_of(name: str, solution: Solution) -> PointMotion | None:
     """The motion of a point; A@3 is A itself where link 3 owns it."""
-    return solution.points.get(name) or solution.points.get(name.partition("@")[0])
+    return solution.points.get(name) or solution.points.get(ends_of(name)[0])
 
 
 def blocks(scene: Scene, solution: Solution) -> list[str]:

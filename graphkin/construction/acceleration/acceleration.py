@@ -23,6 +23,7 @@ from graphkin.construction.velocity.image_of_link import (
 )
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.construction.velocity.velocity import driven_rate
+from graphkin.scene.link_points import is_under
 from graphkin.structure.groups import Crank, Driven, Dyad, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading, Pin
@@ -102,7 +103,7 @@ def cross(
         for each, corner in zip(bound, corners, strict=True):
             each.arrow(pen, corner, found)
     pen.want("acceleration", name, found)
-    if "@" not in name:
+    if not is_under(name):
         acceleration_arrow(pen, name)
     for each in bound:
         each.touch(pen)
@@ -136,7 +137,7 @@ class Led(Struct, frozen=True):
 
     def arrow(self, pen: Pen, corner: int, found: int) -> None:
         """The arrow of the rest."""
-        if "@" in self.name:
+        if is_under(self.name):
             slide_arrow(pen, found, corner, self.link, self.point)
         else:
             slide_arrow(pen, corner, found, partner(self.pair, self.link), self.point)

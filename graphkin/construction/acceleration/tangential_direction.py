@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.component import laid_off
-from graphkin.construction.core.pen import Pen, about, letter, owned
+from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -23,6 +23,7 @@ from graphkin.construction.normal_component.normal_component import (
 )
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.link_points import lettered
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.pairs import Joint
 
@@ -109,8 +110,8 @@ def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
         "p": letter(pivot),
         "q": letter(pin),
         "index": about(pen, pin, pivot),
-        "whole": owned(pin),
-        "base": owned(pivot),
+        "whole": lettered(pin),
+        "base": lettered(pivot),
     }
     pen.make(TangentialDirection(**names, start=corner, line=line))
     return line

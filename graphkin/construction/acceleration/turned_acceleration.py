@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, rate_symbol
-from graphkin.construction.core.pen import Pen, about, letter, owned
+from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Effect, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
@@ -23,6 +23,8 @@ from graphkin.construction.velocity.turned_velocity import (
 )
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
+from graphkin.scene.link_points import lettered
+from graphkin.text.markup import EQUALS, NOTHING
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -109,7 +111,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         key = "none" if has_no_length(drawing, self.end) else "computed"
         fields = self.fields(drawing, role)
         if foot := symbol(letter_at(drawing, self.end)) if key == "computed" else "":
-            fields["vector"] = f"{fields['s']}{foot} = {fields['vector']}"
+            fields["vector"] = EQUALS.join((NOTHING.join((fields["s"], foot)), fields["vector"]))
         return drawing.words(f"step.lay-off-{key}", **fields)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
@@ -196,8 +198,8 @@ def turned_image(
             p=letter(pivot),
             q=letter(pin),
             index=about(pen, pin, pivot),
-            whole=owned(pin),
-            base=owned(pivot),
+            whole=lettered(pin),
+            base=lettered(pivot),
             link=link,
             start=start,
             omega=omega,

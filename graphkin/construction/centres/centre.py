@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, meet
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, Ratio, cross
+from graphkin.scene.link_points import is_under, lettered
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -309,7 +309,7 @@ def known_points(pen: Pen, base: Base) -> list[str]:
         points = [point for point in points if point not in pen.scene.cam_centres]
     moving = ("position", "velocity", "acceleration")
     known = [p for p in dict.fromkeys(points) if all(pen.has(what, p) for what in moving)]
-    return sorted(known, key=lambda point: "@" in point)
+    return sorted(known, key=is_under)
 
 
 def two_points(pen: Pen, base: Base) -> tuple[str, str] | None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.bases import under
-from graphkin.construction.core.pen import PRIME, Pen, about, letter, named, owned, second_image
+from graphkin.construction.core.pen import PRIME, Pen, about, letter, named, second_image
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
+from graphkin.scene.link_points import ends_of, lettered, under
 from graphkin.scene.model import FRAME
 
 
@@ -22,7 +22,7 @@ def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
     start, tip = pen.the("velocity", pivot), pen.the("velocity", pin)
     if start == tip or pen.pole(Plane.VELOCITIES) in (start, tip):
         return
-    if pivot == pin.partition("@")[0]:
+    if pivot == ends_of(pin)[0]:
         arrow_between(pen, tip, start, pivot, letter(pin))
     else:
         arrow_between(pen, start, tip, pin, letter(pivot))
@@ -43,15 +43,15 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
     name = f"o{PRIME}{second_image(pin)}"
     if name not in pen.arrows:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            symbol = f"a_{owned(pin)}"
-            pen.vector(join, o, tip, of=PlanVector(symbol, owned(pin)), name=name)
+            symbol = f"a_{lettered(pin)}"
+            pen.vector(join, o, tip, of=PlanVector(symbol, lettered(pin)), name=name)
 
 
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
     """The arrow of a normal (ν) or tangential (τ) component."""
     index = about(pen, pin, pivot)
     foot = "" if pen.steps[tip].name else foot_of(kind, index)
-    vector = PlanVector(f"a_{index}^{kind}", owned(pin), owned(pivot), kind, foot=foot)
+    vector = PlanVector(f"a_{index}^{kind}", lettered(pin), lettered(pivot), kind, foot=foot)
     pen.vector(join, tail, tip, of=vector)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterator, Mapping
 
 from msgspec import Struct
 
+from graphkin.scene.link_points import is_under, under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -46,11 +47,6 @@ def base_of(scene: Scene, link: str, start: str, end: str | None) -> Base:
     """The base of a link, with its other points in the order written."""
     points = scene.link(link).points
     return Base(link, start, end, tuple(p for p in points if p not in (start, end)))
-
-
-def under(point: str, link: str) -> str:
-    """Name of the point of a link under another link's point."""
-    return type(point)(f"{point}@{link}")
 
 
 def contact_name(contact: Contact) -> ContactName:
@@ -112,7 +108,7 @@ def bases(scene: Scene, group: Group | TriedLink) -> tuple[Base, ...]:
 
 def own_first(base: Base) -> Base:
     """The same base, begun at the link's own point where it began under another's."""
-    if base.end is None or "@" not in base.start:
+    if base.end is None or not is_under(base.start):
         return base
     return Base(base.link, base.end, base.start, base.others)
 

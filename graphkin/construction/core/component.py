@@ -18,6 +18,7 @@ from graphkin.construction.core.segments import TINY, is_short, letter_at
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
+from graphkin.text.markup import EQUALS, NOTHING
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -113,6 +114,16 @@ class Component(Construction, frozen=True, kw_only=True):
         return f"a_{self.index}^{self.sign}"
 
     @property
+    def speed(self) -> str:
+        """Name of the velocity that it follows from."""
+        return ""
+
+    @property
+    def indexed_by(self) -> tuple[str, ...]:
+        """The letters of the points of links under others in its index."""
+        return ()
+
+    @property
     def symbol(self) -> str:
         """Markup of its symbol."""
         return symbol(self.name)
@@ -152,7 +163,7 @@ class Component(Construction, frozen=True, kw_only=True):
     def left_out(self, drawing: Drawing) -> str:
         """What is said of one that is too short to be drawn: what it is, how long it would be."""
         drawn = plan_amount(drawing, drawing.plane, self.size(drawing))
-        return f"{self.symbol} = {self.formula(drawing)} ({drawn})"
+        return EQUALS.join((self.symbol, self.formula(drawing))) + f" ({drawn})"
 
     @abstractmethod
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
@@ -243,9 +254,11 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
         """Whether all its steps are known."""
         return all(number in known for _, number in self.given())
 
-    def corner_names(self, drawing: Drawing, *roles: str) -> tuple[str, ...]:
-        """The names of corners, by which their letters on the mechanism are known."""
-        return tuple(drawing.trace.program.steps[getattr(self, role)].name for role in roles)
+    def corner_symbols(self, drawing: Drawing, *roles: str) -> dict[str, str]:
+        """The symbols of its corners by their roles, as its sheet writes them."""
+        steps = drawing.trace.program.steps
+        names = {role: steps[getattr(self, role)].name for role in roles}
+        return {role: symbol(names[role], self.letter(drawing, role)) for role in roles}
 
     def letter(self, drawing: Drawing, role: str) -> str:
         """The letter of a corner: with its index only where another triangle has the same."""
@@ -319,7 +332,7 @@ class LaidOff(Construction, frozen=True, kw_only=True):
         if foot in ("", start):
             return self.component.symbol
         ends = (foot, start) if self.back else (start, foot)
-        return f"{''.join(ends)} = {self.component.symbol}"
+        return EQUALS.join((NOTHING.join(ends), self.component.symbol))
 
     def sentence(self, drawing: Drawing) -> str:
         """What is said where it leads to a point that is known: what is left lies along a guide.

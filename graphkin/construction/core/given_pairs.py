@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.construction.core.bases import under
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, constructions
 from graphkin.construction.core.naming import axis_of, heading, straight
@@ -15,6 +14,7 @@ from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
 from graphkin.scene.wheels import contact_letters

@@ -50,6 +50,10 @@ class Construction(Roles, frozen=True):
         """The letters that reasons and names of lines speak of."""
         return {}
 
+    def symbols_on(self, drawing: Drawing) -> Mapping[str, str]:
+        """The same as a sheet writes them."""
+        return self.symbols()
+
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """What a role's line is called in a report; nothing for other roles."""
         letters = {each: steps[number].name for each, number in self.given()}

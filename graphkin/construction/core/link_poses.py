@@ -10,6 +10,7 @@ from msgspec import Struct
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Line, cross, dot
+from graphkin.scene.link_points import is_under, lettered, under
 from graphkin.scene.model import (
     FRAME,
     Apart,
@@ -136,9 +137,9 @@ class LinkPoses(Struct, frozen=True, dict=True):
         found = dict(self.positions)
         for point, place in self.known.items():
             found.setdefault(lettered(point), place)
-            if "@" not in point:
+            if not is_under(point):
                 for link in (FRAME, *self.scene.links):
-                    found.setdefault(lettered(f"{point}@{link}"), place)
+                    found.setdefault(lettered(under(point, link)), place)
         return found
 
     def spot(self, letters: str) -> complex:
@@ -148,7 +149,7 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def name_at(self, place: complex) -> str:
         """The name of a point of the drawing that no link owns, where it stands; else nothing."""
         near = APART * self.size
-        found = (n for n in self.known if not is_in_scene(n) and "@" not in n)
+        found = (n for n in self.known if not is_in_scene(n) and not is_under(n))
         return next((lettered(n) for n in found if abs(self.known[n] - place) <= near), "")
 
     @cached_property
@@ -314,16 +315,6 @@ class LinkPoses(Struct, frozen=True, dict=True):
             share = one.radius / (one.radius + belt.sense * other.radius)
         at = one.centre + apart * share
         return Touch(rolling, one, at, 1j * apart / abs(apart), None, other)
-
-
-def lettered(point: str) -> str:
-    """The letters of a point on the drawing: A3 for A@3, the point of link 3 under A.
-
-    A comma keeps the link apart where the point's own name ends in digits or the link has a word.
-    """
-    name, _, link = point.partition("@")
-    apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
-    return name + apart + link
 
 
 def written_places(standing: LinkPoses, link: Link) -> dict[str, complex]:

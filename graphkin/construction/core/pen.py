@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
+from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
@@ -28,6 +29,7 @@ from graphkin.construction.core.quantities import TURNING
 from graphkin.construction.core.run import StepFailed, evaluate
 from graphkin.construction.core.vocabulary import Action, pole
 from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.link_points import ends_of, lettered
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import turned
 from graphkin.structure.groups import Dyad
@@ -298,51 +300,58 @@ def is_input(step: Step) -> bool:
     return step.given is not None and step.given.form == "input"
 
 
-def image(point: str) -> str:
-    """Name of a point's image in the velocity plan: the same letter, small; a_3 for A@3.
+class ImageName(Struct, frozen=True):
+    """How the image of a point is written: its small letter with primes, the index of its name, and
+    its ``link`` where that is told. One that would be the letter of a point, or of the pole, is
+    ``apart`` from it by an index of its own.
+    """
 
-    Both points where links touch have one image there, unless its name says that they slip.
+    small: str
+    index: str
+    apart: bool
+    link: str
+
+    def __str__(self) -> str:
+        """It as the name of a step."""
+        return "_".join(
+            filter(None, (self.small, self.index, "v" if self.apart else "", self.link))
+        )
+
+
+def image_name(point: str, prime: str = "") -> ImageName:
+    """The name of a point's image: the same letter, small; a_3 for A@3; in the acceleration plan
+    with a ``prime``.
+
+    Both points where links touch have one image in the velocity plan, unless the point's name says
+    that they slip.
     """
     name, link = ends_of(point)
     own = is_in_scene(point) or isinstance(point, SlippingName)
-    small, indexed = name.lower(), bool(link and own)
-    if small == name or (small == "o" and not indexed):  # the letter of a point, or of the pole
-        small += "_v"
-    return f"{small}_{link}" if indexed else small
+    small, _, index = name.lower().partition("_")
+    apart = name == name.lower() or (name.lower() == "o" and not (link and own))
+    alone = prime and not is_in_scene(point) and not (index or apart)
+    return ImageName(small + prime, index, apart, link if own or alone else "")
+
+
+def image(point: str) -> str:
+    """Name of a point's image in the velocity plan."""
+    return str(image_name(point))
 
 
 def second_image(point: str) -> str:
-    """Name of a point's image in the acceleration plan: the small letter with a prime."""
-    small, _, index = image(point).partition("_")
-    link = "" if is_in_scene(point) else ends_of(point)[1]
-    return f"{small}{PRIME}_{index or link}" if index or link else small + PRIME
-
-
-def ends_of(point: str) -> tuple[str, str]:
-    """The name of a point, and the link that it is of."""
-    name, _, link = point.partition("@")
-    return name, link
+    """Name of a point's image in the acceleration plan."""
+    return str(image_name(point, PRIME))
 
 
 def letter(point: str) -> str:
     """A point as the index of a velocity, or in a bar: where links touch it is of both."""
-    return owned(point) if is_in_scene(point) else ends_of(point)[0]
-
-
-def owned(point: str) -> str:
-    """A point as the index of a symbol: A, and A3 for the point of link 3 under A.
-
-    A comma keeps the link apart where the point's own name ends in digits or the link has a word.
-    """
-    name, link = ends_of(point)
-    apart = "," if link and not (link.isdigit() and name[-1].isalpha()) else ""
-    return name + apart + link
+    return lettered(point) if is_in_scene(point) else ends_of(point)[0]
 
 
 def about(pen: Pen, pin: str, pivot: str) -> str:
     """Index of a relative acceleration: BA for B about A, and B alone about a fixed pivot."""
     fixed = pivot in pen.scene.frame.points
-    return owned(pin) if fixed else owned(pin) + owned(pivot)
+    return lettered(pin) if fixed else lettered(pin) + lettered(pivot)
 
 
 def against(pen: Pen, pin: str, pivot: str) -> str:

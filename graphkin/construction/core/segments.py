@@ -9,6 +9,7 @@ from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.markup import NOTHING
 
 TINY = 0.5
 """Vectors shorter than this, in mm, are named at the foot of their field."""
@@ -41,7 +42,7 @@ def segment_of(drawing: Drawing, step: Step) -> str:
         ends = [letter_at(drawing, number) for number in step.args]
         if vector and vector.foot:
             ends[0 if vector.back else 1] = vector.foot
-    return "".join(symbol(end) for end in ends) if all(ends) else ""
+    return NOTHING.join(symbol(end) for end in ends) if all(ends) else ""
 
 
 def letter_at(drawing: Drawing, number: int) -> str:

@@ -10,15 +10,13 @@ from msgspec import Struct
 class Sentence(Struct, frozen=True):
     """A sentence of the construction with the number of the step that it ends with.
 
-    ``steps`` are all the steps that it speaks of, where it stands for several sentences;
-    ``corners`` are the names of the corners of triangles that it says.
+    ``steps`` are all the steps that it speaks of, where it stands for several sentences.
     """
 
     step: int
     name: str
     markup: str
     steps: tuple[int, ...] = ()
-    corners: tuple[str, ...] = ()
 
     @property
     def all_steps(self) -> tuple[int, ...]:
@@ -27,18 +25,16 @@ class Sentence(Struct, frozen=True):
 
 
 class Wording(Struct, frozen=True):
-    """What a component says of itself: the kind of the sentence, its markup, the corners in it."""
+    """What a component says of itself: the kind of the sentence, and its markup."""
 
     kind: str
     markup: str
-    corners: tuple[str, ...] = ()
 
 
 def in_one(some: Sequence[Sentence], name: str, markup: str) -> Sentence:
     """Several sentences said in one."""
     steps = tuple(n for said in some for n in said.all_steps)
-    corners = tuple(name for said in some for name in said.corners)
-    return Sentence(some[-1].step, name, markup, steps, corners)
+    return Sentence(some[-1].step, name, markup, steps)
 
 
 def together(found: list[Sentence], some: Sequence[Sentence], markup: str) -> list[Sentence]:

@@ -7,6 +7,7 @@ from math import isclose
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.relation import figure
+from graphkin.text.markup import saying
 
 
 def set_length(drawing: Drawing, vector: str) -> str:
@@ -20,7 +21,9 @@ def twice_set(drawing: Drawing, vector: str) -> str:
     if times == 1:
         return vector
     short = f"{times:.4g}" == f"{times:.2g}"
-    return f"{figure(drawing, times)}·{vector}" if short else set_length(drawing, f"2·{vector}")
+    if short:
+        return saying(f"{figure(drawing, times)}·{vector}", vector)
+    return set_length(drawing, saying(f"2·{vector}", vector))
 
 
 def laid_times(drawing: Drawing) -> str:
@@ -33,7 +36,8 @@ def divided(drawing: Drawing, what: str, times: float) -> str:
     """Markup of a length divided by a number, or multiplied where that is below one."""
     if times == 1:
         return what
-    return f"{what}/{figure(drawing, times)}" if times > 1 else f"{inverse(drawing, times)}·{what}"
+    larger = f"{what}/{figure(drawing, times)}", f"{inverse(drawing, times)}·{what}"
+    return saying(larger[times < 1], what)
 
 
 def inverse(drawing: Drawing, times: float) -> str:

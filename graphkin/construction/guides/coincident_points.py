@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from graphkin.construction.acceleration import turned_acceleration
 from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
-from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import (
     Pen,
     about,
     against,
     image,
     letter,
-    owned,
     second_image,
 )
 from graphkin.construction.core.program import Part, Plane
@@ -20,6 +18,7 @@ from graphkin.construction.core.vocabulary import in_proportion
 from graphkin.construction.velocity.image_of_link import image_of_link, translated_image
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
+from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME
 from graphkin.structure.pairs import is_in_scene
 
@@ -122,7 +121,7 @@ def found_under(pen: Pen, link: str, point: str, quantity: str) -> int:
     plane = Plane.VELOCITIES if is_velocity else Plane.ACCELERATIONS
     with pen.on(part, plane):
         called = image(name) if is_velocity else second_image(name)
-        whole = "" if is_velocity else owned(name)
+        whole = "" if is_velocity else lettered(name)
         return image_of_link(pen, (*ends, ratio), letters, name=called, whole=whole)
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.kind import lies_along
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import heading
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
@@ -15,6 +14,7 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, cross, line_circle_sine, line_meets_circle
+from graphkin.scene.link_points import lettered
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing

@@ -24,6 +24,7 @@ from graphkin.construction.guides.guide_line import (
     way_between,
 )
 from graphkin.construction.links.link_shapes import LinkShapes, polar
+from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, GuideOrTrack, Slide
 from graphkin.structure.pairs import Sliding
 
@@ -52,7 +53,7 @@ def axis(pen: Pen, shapes: LinkShapes, link: str) -> int:
     """The direction of a link's x axis: known from its group, or from two of its points."""
     if not pen.has("axis", link):
         base = pen.bases[link]
-        assert base.end is not None and "@" not in base.end
+        assert base.end is not None and not is_under(base.end)
         ends = [pen.the("position", point) for point in (base.start, base.end)]
         here = [shapes.local(link, point) for point in (base.start, base.end)]
         with pen.on(Part.POSITION, Plane.NUMBERS):

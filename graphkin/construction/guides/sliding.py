@@ -15,6 +15,7 @@ from graphkin.construction.core.vocabulary import part_along
 from graphkin.construction.guides.coincident_points import image_under, second_image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.scene.link_points import is_under
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint
 
@@ -29,11 +30,11 @@ def turning_component(pen: Pen, pair: Joint, link: str, name: str, point: str) -
     velocity counts, else that of the point against what it slides on.
     """
     known = partner(pair, link)
-    if "@" not in name and not pen.turns(known):
+    if not is_under(name) and not pen.turns(known):
         return None
     from graphkin.construction.coriolis import coriolis_of
 
-    if "@" in name:
+    if is_under(name):
         tail, tip = pen.the("velocity", name), pen.the("velocity", point)
         return coriolis_of(pen, link, tail, tip, point, pair.links[0])
     tail, tip = image_under(pen, known, point), pen.the("velocity", point)
@@ -51,7 +52,7 @@ def lay_off_component(
         return second_image_under(pen, partner(pair, link), point)
     from graphkin.construction.coriolis import end_of
 
-    if "@" in name:
+    if is_under(name):
         return end_of(pen, pen.the("acceleration", point), vector, back=True)
     return end_of(pen, second_image_under(pen, partner(pair, link), point), vector)
 

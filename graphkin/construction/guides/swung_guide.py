@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
@@ -17,6 +16,7 @@ from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
+from graphkin.scene.link_points import lettered
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text.errors import Problem

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphkin.construction.core.bases import bases, contact_name, under
+from graphkin.construction.core.bases import bases, contact_name
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
@@ -29,6 +29,7 @@ from graphkin.construction.rolling.rolling import (
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Real, below, pick
+from graphkin.scene.link_points import under
 from graphkin.structure.groups import CoupledTrain, Higher
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, SlippingName

@@ -29,6 +29,7 @@ from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
+from graphkin.scene.link_points import is_under
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Leading, Pin, Sliding
@@ -135,7 +136,7 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
 
         Or the one under a sliding point, through which that point's components lead.
         """
-        return "@" in self.point or self.is_crossed(found)
+        return is_under(self.point) or self.is_crossed(found)
 
     def is_crossed(self, found: Container[int]) -> bool:
         """Whether a crossing that is drawn finds it."""

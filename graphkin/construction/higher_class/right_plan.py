@@ -9,7 +9,6 @@ from graphkin.construction.core.arrows import (
     relative_arrow,
     velocity_arrows,
 )
-from graphkin.construction.core.bases import under
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane, Target
@@ -25,6 +24,7 @@ from graphkin.construction.higher_class.divided_point import (
 )
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Vector
+from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.pairs import Pin
 
@@ -106,7 +106,7 @@ def settle(
         case Tie(_, Pin(point=p), Pin(point=q)):
             closing = in_order((p, q), [*settled.values()])
     for point in settled.values():
-        if "@" not in point:
+        if not is_under(point):
             finish(pen, kind, point, closing)
         elif kind is VELOCITY:
             relative_arrows(pen, point)
@@ -146,7 +146,7 @@ def relative_arrows(pen: Pen, name: str) -> None:
 
     One is its velocity about the base of its link, the other that of the sliding point against it.
     """
-    point, _, link = name.partition("@")
+    point, link = ends_of(name)
     here, start = pen.the("velocity", name), pen.bases[link].start
     if pen.has("velocity", point):
         arrow_between(pen, here, pen.the("velocity", point), point, letter(name))

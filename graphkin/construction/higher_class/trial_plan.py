@@ -36,6 +36,7 @@ from graphkin.construction.velocity.turned_velocity import LaidOffAboutPivot, La
 from graphkin.drawing.style import OWN_LINES
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol, tag_words
 from graphkin.numbers.plane import Line as Carrier
+from graphkin.text.markup import AND
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -163,9 +164,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
             if number == named[-1]:
                 full = self.first is None
                 told = (self.told_in_full if full else self.told_again)(drawing, named)
-                markup = self.introduced(
-                    drawing, "; ".join(told), first=self.begins(drawing, named)
-                )
+                markup = self.introduced(drawing, AND.join(told), first=self.begins(drawing, named))
                 yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 
     def runs(self, drawing: Drawing) -> list[list[int]]:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
@@ -15,6 +14,7 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
+from graphkin.scene.link_points import lettered
 from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, distance, in_proportion, lay_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.numbers.arithmetic import Point, Real
+from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
 
 Placed = dict[str, int]
@@ -91,7 +92,7 @@ class LinkShapes:
     def ratio_of(self, base: Base, point: str) -> int:
         """The ratio of a point of a link on its base; from places where the base is not its own."""
         assert base.end is not None
-        if "@" not in base.end:
+        if not is_under(base.end):
             return self.ratio(base.link, base.start, base.end, point)
         key = (base.link, base.start, base.end, point)
         if key not in self.ratios:

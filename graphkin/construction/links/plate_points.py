@@ -12,7 +12,6 @@ from msgspec.structs import replace
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.sentence import Sentence, together
@@ -24,6 +23,7 @@ from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_w
 from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, crossing_sine, dot
+from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.model import FRAME
 
 if TYPE_CHECKING:
@@ -245,7 +245,7 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
             from graphkin.construction.cams.cam_centre import curvature_centre
 
             found = curvature_centre(pen, shapes, point)
-        elif base.end is None or "@" in base.end:
+        elif base.end is None or is_under(base.end):
             found = set_by_axis(pen, shapes, base, point)
         else:
             found = set_by_base(pen, shapes, base, point)

@@ -18,7 +18,7 @@ from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import Measured, PaletteAction
 from graphkin.construction.core.naming import rate_symbol
-from graphkin.construction.core.pen import Pen, letter, owned
+from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import figure
@@ -37,10 +37,12 @@ from graphkin.construction.normal_component.normal_component import (
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, smaller
 from graphkin.numbers.plane import Circle, Line, circles_sine, dot, line_meets_line
+from graphkin.scene.link_points import lettered
 from graphkin.scene.model import FRAME
 from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
+from graphkin.text.markup import AND
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -89,9 +91,6 @@ def klein_by_hand(pin: Point, foot: Point, omega: Real) -> Point:
 
 # --- what it is ----------------------------------------------------------------------------------
 
-CORNERS = ("corner", "foot", "whole")
-"""What has a letter of its own."""
-
 
 class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     """a_ν = v²/l of the slider's pin ``q`` about the crank pin ``p``, by the common chord.
@@ -120,6 +119,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         "chord": "the common chord",
     }
     laid_off: ClassVar[frozenset[str]] = frozenset()
+    lettered: ClassVar[tuple[str, ...]] = ("corner", "foot", "whole")
     palette: ClassVar[PaletteAction] = PaletteAction("klein", PICKED, SCRIPT, "triangle")
 
     o: str
@@ -138,7 +138,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         return f"Klein's construction for {self.q} about {self.p}"
 
     def symbols(self) -> Mapping[str, str]:
-        """The centre of the crank, the pins, and the letter of the corners."""
+        """The centre of the crank, and the pins."""
         return {**super().symbols(), "o": symbol(self.o)}
 
     # --- drawing it ------------------------------------------------------------------------------
@@ -185,8 +185,8 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
 
     def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
         """The construction in full, each time."""
-        markup = "; ".join(markup for _, markup in self.in_parts(drawing))
-        return Wording("ν by chord", markup, self.corner_names(drawing, *CORNERS))
+        markup = AND.join(markup for _, markup in self.in_parts(drawing))
+        return Wording("ν by chord", markup)
 
     def told_in_parts(self, drawing: Drawing) -> Iterator[tuple[int, str]]:
         """The turned velocities; both circles; what their common chord cuts off."""
@@ -199,8 +199,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         fields = {**self.symbols(), "v": symbol(self.speed), "a": self.symbol}
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
-        for role in CORNERS:
-            fields[role] = symbol(self.letter(drawing, role))
+        fields |= self.corner_symbols(drawing, *self.lettered)
         fields["more"] = in_plan(drawing)
         yield self.corner, drawing.words("step.klein", **fields)
         yield self.over, drawing.words("step.klein-circles", **fields)
@@ -265,7 +264,7 @@ def klein_component(
         own = (across, line, corner, around, over, chord, foot, whole, read)
         return dict(zip(KleinComponent.gives, own, strict=False))
 
-    kind = partial(KleinComponent, o=owned(crank.start), centre=centre, omega=omega)
+    kind = partial(KleinComponent, o=lettered(crank.start), centre=centre, omega=omega)
     return normal_component(pen, pivot, pin, kind, drawn)
 
 

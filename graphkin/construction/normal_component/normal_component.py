@@ -39,6 +39,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Scene
+from graphkin.text.markup import AND, COMMA, saying
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -103,6 +104,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"cut": "why.height", "end": "why.over"}
     lines: ClassVar[Mapping[str, str]] = {"line": "{p}{q}", "edge": "⊥ at {tip}"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    lettered: ClassVar[tuple[str, ...]] = ("tip", "cut", "end")
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
     palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT)
 
@@ -129,13 +131,16 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         return f"v_{self.v}"
 
     def symbols(self) -> Mapping[str, str]:
-        """The pivot, the pin, their bar, and the letter of the triangle's corners."""
+        """The pivot, the pin, their bar."""
         return {
             "p": symbol(self.p),
             "q": symbol(self.q),
             "bar": bar(self.p, self.q),
-            "letter": symbol(bare(self.q)),
         }
+
+    def symbols_on(self, drawing: Drawing) -> Mapping[str, str]:
+        """The same, and the corners of the triangle."""
+        return {**self.symbols(), **self.corner_symbols(drawing, *self.lettered)}
 
     @classmethod
     def cause(cls, scene: Scene) -> str:
@@ -177,7 +182,8 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def formula(self, drawing: Drawing) -> str:
         """v²/l."""
-        return f"{symbol(self.speed)}^2/{bar(self.p, self.q)}"
+        speed = symbol(self.speed)
+        return saying(f"{speed}^2/{bar(self.p, self.q)}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
         """Its right triangle in full the first time; else from what it comes, or its number."""
@@ -198,15 +204,14 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         if not first:
             return Wording("ν", drawing.words("step.normal-again", **fields))
         cut, over = self.in_full(drawing, "step.normal-over")
-        return Wording("ν1", f"{cut}; {over}", self.corner_names(drawing, "tip", "cut", "end"))
+        return Wording("ν1", AND.join((cut, over)))
 
     def in_full(self, drawing: Drawing, over: str) -> tuple[str, str]:
         """Its right triangle in full: as far as the cut; by the key ``over`` that turned over."""
-        corners = {role: symbol(self.letter(drawing, role)) for role in ("tip", "cut", "end")}
         speed = symbol(self.speed)
         fields = {
             **self.symbols(),
-            **corners,
+            **self.corner_symbols(drawing, *self.lettered),
             "a": self.symbol,
             "set": set_length(drawing, speed),
             "more": laid_times(drawing),
@@ -365,19 +370,19 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
     """
     short = [sentence for sentence in found if sentence.name == "short"]
     if short:
-        told = drawing.words("step.too-short", list=", ".join(s.markup for s in short))
+        told = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))
         before = [said for said in found if said.name in ("ν", "ν1")][-1:]
         if not before:
             found = together(found, short, told)
         else:
             found = [said for said in found if said not in short]
-            one = in_one([*before, *short], before[0].name, f"{before[0].markup}; {told}")
+            one = in_one([*before, *short], before[0].name, AND.join((before[0].markup, told)))
             found[found.index(before[0])] = one
     rest = [sentence for sentence in found if sentence.name == "ν"]
     if not rest:
         return found
     kept = [sentence for sentence in found if sentence.name != "ν"]
-    tail = drawing.words("step.normals-again", list=", ".join(s.markup for s in rest))
+    tail = drawing.words("step.normals-again", list=COMMA.join(s.markup for s in rest))
     firsts = [i for i, sentence in enumerate(kept) if sentence.name == "ν1"]
     if not firsts:
         return together(found, rest, tail)

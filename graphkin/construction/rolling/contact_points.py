@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
-from graphkin.construction.core.link_poses import lettered
 from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
@@ -20,6 +19,7 @@ from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, dot
+from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Belt, Rolling
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
 
     def symbols(self) -> Mapping[str, str]:
         """Its letter, that of the wheel's point, and both links."""
-        own = symbol(lettered(f"{self.name}@{self.wheel}"))
+        own = symbol(lettered(under(self.name, self.wheel)))
         both = {"k": escape(self.wheel), "g": escape(self.on)}
         return {"name": symbol(self.name), "t": own, **both}
 

@@ -24,6 +24,7 @@ from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, dot
+from graphkin.text.markup import AND, NOTHING
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -293,7 +294,7 @@ def with_ladder_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
             if isinstance(construction(steps[said.step]), kind)
         ]
         if len(own) > 1:
-            told = "; ".join(short(drawing, said.step) for said in own)
+            told = AND.join(short(drawing, said.step) for said in own)
             found = together(found, own, drawing.words(f"step.ladder-{role}s", list=told))
     return found
 
@@ -308,7 +309,7 @@ def short(drawing: Drawing, number: int) -> str:
         case LadderPoint(velocity=velocity) if velocity is not None:
             return f"{kind.drawn(drawing, kind.foot, number)} ({symbol(f'v_{kind.point}')})"
         case LadderRay():
-            ends = "".join(symbol(steps[end].name) for end in (kind.first, kind.last))
+            ends = NOTHING.join(symbol(steps[end].name) for end in (kind.first, kind.last))
             return f"{escape(kind.link)}: {ends}"
         case SpeedRead():
             return f"{escape(kind.link)}: {name}"

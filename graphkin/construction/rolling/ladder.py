@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from graphkin.construction.core.bases import contact_name, under
+from graphkin.construction.core.bases import contact_name
 from graphkin.construction.core.pen import Pen, image
 from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
@@ -28,6 +28,7 @@ from graphkin.construction.rolling.kutzbach import (
     tip_over,
 )
 from graphkin.numbers.plane import dot
+from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.pairs import Contact, contacts
 from graphkin.text.errors import Problem, StructureError

@@ -7,7 +7,7 @@ from functools import partial
 
 from msgspec import Struct
 
-from graphkin.construction.core.bases import contact_name, no_construction, under
+from graphkin.construction.core.bases import contact_name, no_construction
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import (
@@ -45,6 +45,7 @@ from graphkin.construction.rolling.contact_points import (
 )
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.numbers.arithmetic import Point, Real, phase, turn_by
+from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Wheel
 from graphkin.scene.quantity import exact
 from graphkin.structure.groups import Geared, Train

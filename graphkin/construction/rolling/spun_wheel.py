@@ -7,7 +7,7 @@ turned as far as the rolling says.
 from __future__ import annotations
 
 from graphkin.construction.core.arrows import velocity_arrows
-from graphkin.construction.core.bases import contact_name, under
+from graphkin.construction.core.bases import contact_name
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
@@ -20,6 +20,7 @@ from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
 from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.velocity import velocity as velocities
+from graphkin.scene.link_points import under
 from graphkin.structure.groups import Geared, Spun
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin

@@ -16,7 +16,7 @@ from graphkin.construction.core.arrows import (
     relative_arrow,
     velocity_arrows,
 )
-from graphkin.construction.core.bases import Base, bases, contact_name, leads_of, own_first, under
+from graphkin.construction.core.bases import Base, bases, contact_name, leads_of, own_first
 from graphkin.construction.core.pen import (
     Pen,
     about,
@@ -49,6 +49,7 @@ from graphkin.construction.velocity.image_of_link import (
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
+from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Geared, Group, Higher, Train
 from graphkin.structure.joints import partner

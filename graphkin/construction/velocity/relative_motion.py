@@ -13,6 +13,7 @@ from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import vector_of, way_of
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.scene.link_points import ends_of, is_under, lettered, under
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -116,7 +117,7 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         letter = drawing.vector.letter
         if drawing.trace.program.steps[self.start].name == drawing.pole:
             name = symbol(f"{letter}_{beneath if '@' in sought else point}")
-            rests = self.rests(drawing, point) if "@" in sought else ""
+            rests = self.rests(drawing, point) if is_under(sought) else ""
             return stated(VectorEquation(Term(name, 1, joined(f"∥ {guide}", rests))))
         terms = [known(drawing, beneath)]
         laid = laid_off(drawing.trace.program, self.start)
@@ -137,8 +138,8 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """The point that slides and the one beneath it on the guide, as the index of symbols."""
-        point, _, link = sought.partition("@")
+        point, link = ends_of(sought)
         block = drawing.scene.links[self.guide]
         if not link:
             link = block.paths[0].on if point in block.points else block.name
-        return point, point + ("" if link.isdigit() and point[-1].isalpha() else ",") + link
+        return point, lettered(under(point, link))

@@ -61,7 +61,7 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         length = length_of(drawing, self.p, self.q)
         square, letter = "^2" if sign == "ν" else "", "ε" if sign == "τ" else "ω"
         size = value * value * length if square else value * length
-        remark = drawing.words("calculation.square_to", bar=self.bar)
+        remark: str = drawing.words("calculation.square_to", bar=self.bar)
         driver = driver_of_rate(drawing, rate)
         if driver is not None and self.link not in ("", driver.link, driver.against):
             own = symbol(f"{letter}_{self.link}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.construction.core.arrows import arrow_between, velocity_arrows
-from graphkin.construction.core.bases import Base, crank_tip, sides_of, under
+from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.pen import Pen, image, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
@@ -20,6 +20,7 @@ from graphkin.construction.velocity.image_of_link import (
 )
 from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
 from graphkin.construction.velocity.turned_velocity import turned_image
+from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.groups import Crank, Driven, Dyad, Spun, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
@@ -106,7 +107,7 @@ def cross(
     pen.want("velocity", name, found)
     for pair, link in sides:
         velocity_arrows(pen, name, source(pair, name))
-        if isinstance(pair, Sliding) and "@" not in name:
+        if isinstance(pair, Sliding) and not is_under(name):
             slide_arrow(pen, pair, link, name)
         if not isinstance(pair, Pin):
             led_by(pair).touch(pen)
@@ -116,7 +117,7 @@ def source(pair: Joint, point: str) -> str | None:
     """The point about which a pair leaves a point free, or the pin over the point of a guide."""
     if isinstance(pair, Pin):
         return pair.point
-    return point.partition("@")[0] if "@" in point else None
+    return ends_of(point)[0] if is_under(point) else None
 
 
 def ray(pen: Pen, shapes: LinkShapes, pair: Joint, link: str, name: str, point: str) -> int:

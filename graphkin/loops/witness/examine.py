@@ -34,6 +34,7 @@ from graphkin.loops.witness.differences import (
     digits_of,
     or_one,
 )
+from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 
 NUMBERED = 12
@@ -242,7 +243,7 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
     solution, scene = without_linkages(scene, solution), by_law(scene)
     places = {name: p.position for name, p in solution.points.items() if p.position is not None}
     slides = {name: s.position for name, s in solution.slides.items() if s.position is not None}
-    named = {name: place for name, place in places.items() if "@" not in name}
+    named = {name: place for name, place in places.items() if not is_under(name)}
     with np.errstate(all="ignore"):
         start = start_values(loops, named, slides)
     return completed(scene, loops, start), untold(loops, start)
@@ -301,12 +302,12 @@ def links_named(solution: Solution) -> Iterator[str]:
     yield from (name for name, slide in solution.slides.items() if says_anything(slide))
     for pair in solution.centres:
         yield from pair.split("-")
-    yield from (link for name in solution.points if (link := name.partition("@")[2]))
+    yield from (link for name in solution.points if (link := ends_of(name)[1]))
 
 
 def points_named(solution: Solution) -> Iterator[str]:
     """Points of which anything is known; of A@3 the point A."""
-    return (name.partition("@")[0] for name, p in solution.points.items() if says_anything(p))
+    return (ends_of(name)[0] for name, p in solution.points.items() if says_anything(p))
 
 
 def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.links.wheel_symbols import edges_of
 from graphkin.motion.cycle import Cycle
+from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, Link, Scene, Slide
 from graphkin.text.errors import ClosureError
 from graphkin.writers.plot_style import FAINT, INK
@@ -62,7 +63,7 @@ def stand_of(cycle: Cycle, factor: float) -> Outline:
         drawn = False
         every = cycle.solution.points.items()
         places = {n: complex(np.ravel(np.asarray(p.position))[0]) * factor for n, p in every}
-    return Outline(cycle.scene, {n: z for n, z in places.items() if "@" not in n}, factor, drawn)
+    return Outline(cycle.scene, {n: z for n, z in places.items() if not is_under(n)}, factor, drawn)
 
 
 def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline:

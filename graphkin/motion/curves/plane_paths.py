@@ -10,6 +10,7 @@ import numpy as np
 from graphkin.motion.centrodes import Centrodes, centrodes, links_with_centrodes
 from graphkin.motion.curves.outline import Outline, draw, stand_about
 from graphkin.motion.curves.sampled import Sampled, moving_points
+from graphkin.scene.link_points import is_under
 from graphkin.writers.plot_style import COLOURS, FAINT, INK, colour, new_figure, some_of, titled
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def path_points(found: Sampled) -> list[str]:
         for point in link.points
     ]
     names = dict.fromkeys((*moving_points(scene, found.solution), *couplers))
-    own = [name for name in names if "@" not in name and name not in fixed]
+    own = [name for name in names if not is_under(name) and name not in fixed]
     return [name for name in own if name in found.solution.points]
 
 
