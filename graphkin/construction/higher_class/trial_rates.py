@@ -123,10 +123,10 @@ def followed_rates(
     """The rates at another place of the driver: trial plans keep their size beside the right one.
 
     A link at rest in a trial stays at rest where that is not too far from the right rate, measured
-    by the rate that moves all points as far as the right plan reaches, and is tried at this distance
-    elsewhere; another rate is as far from the right one as before. ``drawn`` are the
-    values where the rates were chosen, ``run`` gives those at the other place by the rates, in any
-    kind of number.
+    by the rate that moves all points as far as the right plan reaches; elsewhere it is tried at
+    this distance. Another rate is as far from the right one as before. ``drawn`` are the values
+    where the rates were chosen, ``run`` gives those at the other place by the rates, in any kind
+    of number.
     """
     rates: dict[int, Any] = dict(chosen)
     for together in levels_of(program):
