@@ -83,6 +83,7 @@ def sheet(
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files: dict[str, bytes] = {}
+    notes: list[str] = []
     if "html" in kinds:
         from graphkin.classroom.page_documents import hand_out_page
 
@@ -96,6 +97,7 @@ def sheet(
         from graphkin.documents.sheet_documents import hand_out
 
         for part in hand_out(mechanism, view=view, language=lang):
+            notes += part.unread
             files |= rendered(
                 f"{stem}-{part.kind}-{view}",
                 part.kind,
@@ -105,6 +107,8 @@ def sheet(
                 steps=view == "steps",
             )
     tell(str(path) for path in write_all(folder, files, force))
+    for note in notes:
+        complain(note)
 
 
 @click.command()

@@ -13,7 +13,7 @@ from graphkin.construction.core.naming import rate_symbol, sense, turning_with
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import of_wheel, symbol
 from graphkin.scene.model import FRAME, Belt, Driver
 
 
@@ -94,8 +94,8 @@ def of_gears(drawing: Drawing) -> Iterator[Relation]:
         rates = [rate for name in names if (rate := rate_at(drawing, name)) is not None]
         if len(rates) == 3 and names[0] != FRAME:
             for disc in (touch.disc, touch.other):
-                if drawing.kind == "velocity" and disc.wheel.teeth and disc.link not in told:
-                    told.add(disc.link)
+                if drawing.kind == "velocity" and disc.wheel.teeth and disc.sign not in told:
+                    told.add(disc.sign)
                     yield by_teeth(drawing, disc)
             yield by_radii(drawing, names, rates, (touch.disc, touch.other), touch.belt)
 
@@ -106,7 +106,7 @@ def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
     module, teeth = drawing.length(disc.module), float(disc.wheel.teeth.si(drawing.scene.values))
     figures = f"{figure(drawing, module)}·{figure(drawing, teeth)}/2"
     radius = answer(drawing, drawing.length(disc.radius))
-    count = f"*m*·{symbol(f'z_{disc.link}')}/2"
+    count = f"*m*·{of_wheel('z', disc.sign)}/2"
     return Relation(radius_of(disc), count, figures, radius, drawing.scene.units["length"])
 
 
@@ -150,4 +150,4 @@ def by_radii(
 
 def radius_of(disc: Disc) -> str:
     """Symbol of a wheel's radius."""
-    return symbol(f"r_{disc.link}")
+    return of_wheel("r", disc.sign)

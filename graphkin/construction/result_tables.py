@@ -21,6 +21,8 @@ VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
 UNSEEN = 0.1
 """Length of a vector in mm below which nobody reads it."""
+LEGIBLE = 2.0
+"""Length of a vector in mm below which it is not read off a plan: 0.5 mm are a quarter of it."""
 LEADING = 2.9
 """Distance of the lines that say what is computed, in mm."""
 
@@ -36,6 +38,35 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
             length = drawn_in(drawing, drawing.plane, size)
             found.append((vector.symbol, segment, length, size))
     return found
+
+
+def unread(drawing: Drawing) -> Iterator[str]:
+    """What is asked of a sheet and cannot be read off it: too short in the plan, or zero.
+
+    What the sheet itself says is computed counts as told.
+    """
+    words, ask = drawing.words, drawing.scene.ask
+    targets = drawing.trace.program.targets
+    images = {targets.get((drawing.kind, name)) for name in getattr(ask, drawing.kind)}
+    short, still = {}, {}
+    for _, step, value in drawing.steps(drawing.plane):
+        vector = plan_vector(step)
+        if vector is None or vector.p or vector.sign or step.args[-1] not in images:
+            continue
+        size = drawing.settled(abs(value.tip - value.tail))
+        length = drawn_in(drawing, drawing.plane, size)
+        if size == 0:
+            still[vector.symbol] = vector.symbol
+        elif length < LEGIBLE and symbol(vector.symbol) not in drawing.computed:
+            short[vector.symbol] = f"{vector.symbol} ({in_mm(words, length)} mm)"
+    for link in getattr(ask, drawing.rate.target):
+        if drawing.turning(link) == 0:
+            still[link] = f"{drawing.rate.letter}_{link}"
+    sheet, least = words(f"sheet.{drawing.kind}"), words.decimal(f"{LEGIBLE:g}")
+    for key, names in (("too_short", short), ("at_rest", still)):
+        if names:
+            listed = words("list_mark").join(names.values())
+            yield words(f"sheet.{key}", sheet=sheet, least=least, list=listed)
 
 
 def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

@@ -11,13 +11,15 @@ from graphkin.text import Words
 
 LETTER, NOTE = 2.5, 1.8
 """Heights of symbols and of what is known of them, in mm."""
-UNDER, BETWEEN, BELOW = 1.7, 0.6, 4.6
-"""The first line below a symbol, the distance of two, and the baseline of its note, in mm."""
-OVER, BEYOND, HEAD = 3.2, 0.35, 0.5
-"""Where the arrow above a vector stands, how far it reaches beyond its letter, its head, in mm."""
-APART = 1.6
-"""Least room between notes, in mm."""
-DEPTH = 3.6
+UNDER, BETWEEN, BELOW = 1.7, 0.6, 5.3
+"""The first line below a symbol, the distance of two, and the baseline of its note, in mm: a power
+in the note stays clear of both lines."""
+OVER, RAISED, BEYOND, HEAD = 3.2, 4.0, 0.35, 0.5
+"""Where the arrow above a vector stands, and above one with a superscript, of which it stays clear,
+how far it reaches beyond its letter, its head, in mm."""
+APART, SPACE = 1.6, 1.2
+"""Least room between notes, and what stands between signs besides, in mm."""
+DEPTH = 5.2
 """How much deeper a line with notes is than one without, in mm."""
 
 
@@ -42,20 +44,19 @@ def placed(
     equation: VectorEquation, x: float, *, solved: bool
 ) -> Iterator[tuple[float, float, str, Term | None]]:
     """Where each sign and each vector begins, how wide it is, and its markup."""
-    blank = extent(" x", LETTER)[0] - extent("x", LETTER)[0]
     signs: list[tuple[str, Term | None]] = [(equation.whole.symbol, equation.whole)]
     for terms in equation.sums:
         for i, term in enumerate(terms):
             signs += [("+" if i else "=", None), (term.symbol, term)]
     for markup, vector in signs:
         if not markup:
-            x += 3 * blank
+            x += 3 * SPACE
             continue
         own = extent(markup, LETTER)[0]
         said = vector.note if vector and solved else ""
         wide = max(own, extent(said, NOTE)[0] + APART if said else 0.0)
         yield x + (wide - own) / 2, own, markup, vector
-        x += wide + blank
+        x += wide + SPACE
 
 
 def equation_marks(
@@ -67,7 +68,8 @@ def equation_marks(
         marks.append(Text(left, y, markup, "caption equation", LETTER))
         if term is None:
             continue
-        marks += vector_mark(left, y - OVER, markup, words("calculation.vector_mark"))
+        over = RAISED if "^" in markup else OVER
+        marks += vector_mark(left, y - over, markup, words("calculation.vector_mark"))
         if not solved:
             continue
         for i in range(term.known):

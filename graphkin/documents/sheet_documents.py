@@ -13,6 +13,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import placed
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
+from graphkin.construction.result_tables import unread
 from graphkin.diagnosis.singularity_words import beside_dead_point
 from graphkin.documents.scaling import drawing, scales, shown, targets_of
 from graphkin.drawing.scale import Scales
@@ -30,10 +31,14 @@ CALCULATED = ("key", "task")
 
 
 class SheetDocument(Struct, frozen=True):
-    """The pages of one document: velocity, acceleration or calculation."""
+    """The pages of one document: velocity, acceleration or calculation.
+
+    ``unread`` says what is asked of it and cannot be read off it.
+    """
 
     kind: str
     pages: tuple[Page, ...]
+    unread: tuple[str, ...] = ()
 
 
 def hand_out(
@@ -52,7 +57,10 @@ def hand_out(
         )
     verdict = proved(mechanism, shown(mechanism))
     drawings = drawings_of(mechanism, verdict, spoken)
-    sheets = drawn_sheets(drawings, view)
+    sheets = [
+        replace(each, unread=tuple(unread(drawing)))
+        for each, drawing in zip(drawn_sheets(drawings, view), drawings, strict=True)
+    ]
     if view not in CALCULATED:
         return sheets
     return [*sheets, SheetDocument("calculation", calculation(drawings, view))]

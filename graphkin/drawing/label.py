@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import hypot
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -17,6 +18,8 @@ NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
 SMALL = 1.8
 """Height of the smallest lettering in mm."""
+EDGE = 0.3
+"""How far what stands in that circle stays from it, in mm; longer names have a frame."""
 GAP, LED = 0.9, 3.4
 """Clear distance of a label from its subject, and of one that always has a leader, in mm."""
 
@@ -56,7 +59,8 @@ class Label(Struct, frozen=True):
         """Width and height of the label's box."""
         width, top, bottom = extent(self.markup, self.height)
         if self.ring:
-            return max(2 * NUMBER, width + NUMBER), 2 * NUMBER
+            held = hypot(width, bottom - top) / 2 < NUMBER - EDGE
+            return 2 * NUMBER if held else width + NUMBER, 2 * NUMBER
         return width, bottom - top
 
     @property

@@ -57,6 +57,11 @@ def written(name: str) -> str:
     return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"
 
 
+def of_wheel(letter: str, sign: str) -> Markup:
+    """Markup of the radius or the number of teeth of a wheel by its sign: r₂′."""
+    return Markup(f"*{letter}*_{{{escape(sign)}}}")
+
+
 def bar(p: str, q: str) -> Markup:
     """Markup of the bar between two points: O₁A."""
     return symbol(p) + symbol(q)

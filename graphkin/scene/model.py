@@ -363,6 +363,10 @@ class Link(Struct, frozen=True):
     profiles: tuple[Profile, ...] = ()
     cam: Cam | None = None
 
+    def wheel_sign(self, wheel: Wheel) -> str:
+        """What one of its wheels is called: as the link, after the first with primes, 2, 2′, 2″."""
+        return self.name + ("′" * self.wheels.index(wheel)).replace("′′", "″")
+
     @property
     def rim(self) -> Wheel:
         """The wheel that a straight track touches: the first with its rim outside."""

@@ -184,6 +184,10 @@ class Contact(Struct, frozen=True):
         assert wheel is not None
         return wheel
 
+    def sign_of(self, scene: Scene, link: str) -> str:
+        """What the wheel of one of its links is called."""
+        return scene.link(link).wheel_sign(self.wheel_of(link))
+
     def led_point(self, scene: Scene, link: str) -> str:
         """The point of one of its links that it leads along a line: a wheel's centre."""
         return self.wheel.centre if self.links[0] == link else scene.link(link).points[0]

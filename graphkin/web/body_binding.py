@@ -47,10 +47,20 @@ def told(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
         draw_bodies(moving, replace(binder.places.moving, driven=angles), traced)
         borne = list(racks(binder))
         for mark, follows in zip(drawn.marks, moving.marks, strict=True):
-            binding = following(binder, follows, borne)
-            found |= dict.fromkeys((mark, *within([mark], binder.field.rect)), binding)
+            binding, seen = following(binder, follows, borne), [*within([mark], binder.field.rect)]
+            if binding is still and isinstance(mark, LineMark) and seen != [mark]:
+                binding = grown(binder, mark)
+            found |= dict.fromkeys((mark, *seen), binding)
         found |= gears(binder)
     return found
+
+
+def grown(binder: FieldBinder, mark: LineMark, room: Rect | None = None) -> Binding:
+    """A line that stays, cut at the edge of its field: all of it where the field grows, to the
+    edge of its ``room``."""
+    ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
+    start, end = (binder.tape.lifted(complex(*place)) for place in ends)
+    return binder.joining(start, end, room or binder.room)
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field) -> None:

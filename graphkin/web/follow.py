@@ -14,7 +14,7 @@ from graphkin.construction.core.plot import above_foot, stretched
 from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
-from graphkin.web.body_binding import StepStrokes, told
+from graphkin.web.body_binding import StepStrokes, grown, told
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
 
@@ -156,9 +156,9 @@ class MarkBindings(Struct, frozen=True, dict=True):
 
     def across(self, mark: LineMark) -> Binding:
         """A line across the field, which stays and goes on where the field grows."""
-        ends = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
-        start, end = (self.binder.tape.lifted(complex(*place)) for place in ends)
-        return self.binder.joining(start, end, above_foot(self.binder.room))
+        (x1, y1), (x2, y2) = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
+        whole = LineMark(x1, y1, x2, y2, mark.cls, mark.name)
+        return grown(self.binder, whole, above_foot(self.binder.room))
 
     # --- labels --------------------------------------------------------------------------------
 

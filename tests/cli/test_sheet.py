@@ -19,6 +19,7 @@ class Part:
 
     kind: str
     pages: tuple[Page, ...]
+    unread: tuple[str, ...] = ()
 
 
 @pytest.fixture

@@ -60,3 +60,23 @@ def test_where_they_were_chosen_they_are_as_chosen():
         lambda rates: ran(chosen, rates),
     )
     assert rates == pytest.approx(dict(chosen.trial_rates))
+
+
+@pytest.mark.parametrize("at", [152, 248, 338])
+def test_a_link_at_rest_in_a_trial_is_tried_where_that_would_be_far_from_the_right_plan(at):
+    """At 338° the lever that is at rest (ε = 0) at 35° would draw a plan 17 times the right one."""
+    chosen, there = standing(35), standing(at)
+    drawn, found = ran(chosen, chosen.trial_rates), ran(there, chosen.trial_rates)
+    rates = followed_rates(
+        there.program, drawn, chosen.trial_rates, lambda rates: ran(there, rates)
+    )
+    _, accelerations = constructions(there.program, TwoTrials)
+    first, second = accelerations.rates
+    assert chosen.trial_rates[first] == 0
+    spread = spread_of(there.program, found, accelerations)
+    assert enlarged(spread, rates[first], rates[second]) < 3
+    assert at != 338 or enlarged(spread, 0.0, rates[second]) > 17
+    right = ran(there, chosen.trial_rates)[accelerations.share]
+    assert spread.rate == pytest.approx(
+        chosen.trial_rates[first] + right * (chosen.trial_rates[second] - chosen.trial_rates[first])
+    )

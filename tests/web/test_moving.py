@@ -54,7 +54,15 @@ CENTRES = ", all its centres"
 ENDLESS = tuple(f"{name}{CENTRES}" for name in ("slider-crank", "crank-fixed-slot", "trammel"))
 WHICH = tuple(
     dict.fromkeys(
-        (*LABS, *HALVES[0], "belts-arm", "gears-planet", "oscillating-slide", *ENDLESS[1:])
+        (
+            *LABS,
+            *HALVES[0],
+            "belts-arm",
+            "gears-planet",
+            "oscillating-slide",
+            "stephenson-3-crank",
+            *ENDLESS[1:],
+        )
     )
 )
 LIMIT = 0.01

@@ -13,7 +13,7 @@ from graphkin.construction.core.quantities import written
 from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
-from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
@@ -127,33 +127,22 @@ def wheels(scene: Scene, words: Words) -> Iterator[str]:
     """The wheels: centre and radius, of gears the number of teeth and the module."""
     for link in (scene.frame, *scene.links.values()):
         for wheel in link.wheels:
+            sign = link.wheel_sign(wheel)
             yield words(
                 WHEELS[wheel.inside, wheel.teeth is not None],
-                **of_wheel(scene, words, wheel),
-                k=link_name(words, link.name),
+                **centre_and_size(scene, words, wheel, sign),
+                k=escape(sign) if len(link.wheels) > 1 else link_name(words, link.name),
             )
 
 
-def of_wheel(scene: Scene, words: Words, wheel: Wheel) -> dict[str, str]:
-    """The words for a wheel's centre and size."""
+def centre_and_size(scene: Scene, words: Words, wheel: Wheel, sign: str) -> dict[str, str]:
+    """The words for a wheel's centre and size, with its symbols."""
     assert wheel.radius is not None
-    fields = {"centre": symbol(wheel.centre)}
+    fields = {"centre": symbol(wheel.centre), "r": of_wheel("r", sign), "z": of_wheel("z", sign)}
     if wheel.teeth is None:
         return {**fields, "radius": after_parameter(scene, words, wheel.radius, "r")}
     teeth = after_parameter(scene, words, wheel.teeth, "z")
     return {**fields, "teeth": teeth, "module": module(scene, words, wheel)}
-
-
-def wheel_name(scene: Scene, words: Words, link: str, number: int) -> str:
-    """The wheel of a link by its name; of a link with several by its size, too."""
-    wheels = scene.link(link).wheels
-    if len(wheels) < 2:
-        return escape(link)
-    wheel = wheels[number]
-    size = wheel.radius if wheel.teeth is None else wheel.teeth
-    assert size is not None
-    letter = "r" if wheel.teeth is None else "z"
-    return f"{escape(link)} (*{letter}* = {written(scene, words, size)})"
 
 
 def module(scene: Scene, words: Words, wheel: Wheel) -> str:
@@ -174,20 +163,18 @@ def tracks(drawing: Drawing) -> Iterator[str]:
     letters = contact_letters(scene)
     for link in scene.every_link:
         for rolling, contact in zip(link.rolls, letters.get(link.name, ()), strict=True):
-            fields = {"k": escape(link.name), "touch": symbol(contact)}
+            own, there = wheels_of(drawing, link, rolling)
+            fields = {"k": escape(own), "touch": symbol(contact)}
             if rolling.angle is None:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
                 start = start_on_wheel(drawing, link, rolling)
-                key = ROLLS[rolling.on == FRAME, toothed]
-                other = escape(rolling.on)
+                fixed = there == FRAME and len(scene.frame.wheels) < 2
+                key = ROLLS[fixed, toothed]
                 if rolling.belt is not None:
-                    key = BELTS[rolling.on == FRAME, rolling.belt.crossed]
+                    key = BELTS[fixed, rolling.belt.crossed]
                     if scene.turn_alike(link.name, rolling):
-                        key = ALIKE[rolling.on == FRAME]
-                    own, there = rolling.belt.wheels
-                    fields["k"] = wheel_name(scene, words, link.name, own)
-                    other = wheel_name(scene, words, rolling.on, there)
-                yield words(key, other=other, start=start, **fields)
+                        key = ALIKE[fixed]
+                yield words(key, other=escape(there), start=start, **fields)
             else:
                 fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")
                 fields["start"] = start_on_track(drawing, link, rolling)
@@ -201,6 +188,18 @@ def tracks(drawing: Drawing) -> Iterator[str]:
     if any(link.rolls for link in scene.every_link):
         yield words("page.no_slip")
     yield from whole_turns(drawing)
+
+
+def wheels_of(drawing: Drawing, link: Link, rolling: Rolling) -> tuple[str, str]:
+    """What a wheel and the other that it rolls on, or runs with by a belt, are called."""
+    if rolling.belt is not None:
+        own, there = rolling.belt.wheels
+        on = drawing.scene.link(rolling.on)
+        return link.wheel_sign(link.wheels[own]), on.wheel_sign(on.wheels[there])
+    touch = next((each for each in drawing.standing.touches if each.rolling is rolling), None)
+    if touch is None:
+        return link.name, rolling.on
+    return touch.disc.sign, touch.other.sign if touch.other else rolling.on
 
 
 def whole_turns(drawing: Drawing) -> Iterator[str]:

@@ -53,9 +53,10 @@ class Guideway(Struct, frozen=True):
 
 
 class Disc(Struct, frozen=True):
-    """A wheel of a link in the plane; ``module`` is nought where it has no teeth."""
+    """A wheel of a link in the plane, with its ``sign``; ``module`` is nought without teeth."""
 
     link: str
+    sign: str
     wheel: Wheel
     centre: complex
     radius: float
@@ -237,7 +238,8 @@ class LinkPoses(Struct, frozen=True, dict=True):
         radius = self.si(wheel.radius)
         teeth = float(wheel.teeth.number(self.scene.values)) if wheel.teeth else 0.0
         module = 2 * radius / teeth if teeth else 0.0
-        return Disc(link, wheel, self.positions[wheel.centre], radius, module)
+        sign = self.scene.link(link).wheel_sign(wheel)
+        return Disc(link, sign, wheel, self.positions[wheel.centre], radius, module)
 
     @cached_property
     def touches(self) -> tuple[Touch, ...]:

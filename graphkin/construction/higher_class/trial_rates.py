@@ -18,6 +18,7 @@ from graphkin.construction.core.program import Program
 from graphkin.construction.higher_class.closure_solver import run_settled
 from graphkin.construction.higher_class.divided_point import Divided
 from graphkin.construction.higher_class.two_trials import TwoTrials
+from graphkin.numbers.arithmetic import larger, smaller
 from graphkin.scene.model import Scene
 
 ROUND = {1.0: 0.0, 1.5: 0.1, 2.0: 0.0, 3.0: 0.05, 4.0: 0.05, 5.0: 0.0, 6.0: 0.05, 8.0: 0.1}
@@ -39,7 +40,9 @@ STEPS = {1.0: 0.0, 2.0: 0.05, 5.0: 0.05}
 """First digits of the steps of which such numbers are multiples, and what each is worse."""
 MOVING = 0.8
 """What a first trial is worse in which the link moves than one in which it is at rest."""
-
+FARTHEST = 1.0
+"""How far from the right rate a link may be at rest in a trial, in parts of the rate that moves all
+points as far as the right plan reaches, where the driver has moved on."""
 
 Box = tuple[float, float, float, float]
 """Left, bottom, right and top of the upright box around some points and the pole."""
@@ -119,10 +122,11 @@ def followed_rates(
 ) -> dict[int, Any]:
     """The rates at another place of the driver: trial plans keep their size beside the right one.
 
-    A link at rest in a trial stays at rest; another rate is as far from the right one as before,
-    measured by the rate that moves all points as far as the right plan reaches. ``drawn`` are the
-    values where the rates were chosen, ``run`` gives those at the other place by the rates, in any
-    kind of number.
+    A link at rest in a trial stays at rest where that is not too far from the right rate, measured
+    by the rate that moves all points as far as the right plan reaches; elsewhere it is tried at
+    this distance. Another rate is as far from the right one as before. ``drawn`` are the values
+    where the rates were chosen, ``run`` gives those at the other place by the rates, in any kind
+    of number.
     """
     rates: dict[int, Any] = dict(chosen)
     for together in levels_of(program):
@@ -131,9 +135,11 @@ def followed_rates(
         for trials in known:
             before, now = (right_rate(program, values, trials) for values in (drawn, found))
             for number in trials.rates:
-                if chosen[number]:
-                    beside = (chosen[number] - before[0]) / before[1]
-                    rates[number] = now[0] + beside * now[1]
+                beside = (chosen[number] - before[0]) / before[1]
+                rates[number] = now[0] + beside * now[1]
+                if not chosen[number]:
+                    far = larger(abs(beside), FARTHEST) * now[1]
+                    rates[number] = larger(now[0] - far, smaller(0.0, now[0] + far))
     return rates
 
 

@@ -11,7 +11,7 @@ from graphkin.construction.guides.pivot_grounds import Segment, away_from
 from graphkin.construction.guides.rails import places_of
 from graphkin.construction.guides.slide_symbols import number_side
 from graphkin.construction.links.plates import corners_of, farthest
-from graphkin.construction.links.wheel_symbols import number_beside
+from graphkin.construction.links.wheel_symbols import number_beside, part_of_rim
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, Field
@@ -77,6 +77,10 @@ def draw_numbers(board: FieldContent, drawing: Drawing, field: Field) -> None:
         wished = wish(board, drawing, field, link, bodies[name], others)
         if wished is not None:
             board.labels.append(wished)
+    for disc in {each.sign: each for each in drawing.standing.discs}.values():
+        link = drawing.scene.link(disc.link)
+        if disc.sign != link.name or (disc.link == FRAME and len(link.wheels) > 1):
+            board.labels.append(labelled(link, part_of_rim(drawing, field, disc), sign=disc.sign))
 
 
 def wish(
@@ -101,9 +105,12 @@ def wish(
     return labelled(link, beside) if beside else None
 
 
-def labelled(link: Link, subject: XY | tuple[XY, XY], away: XY | None = None) -> Label:
-    """A link's number that wants a place at a subject."""
-    return Label(escape(link.name), "", subject, 2.5, link.name, away=away, priority=3, ring=True)
+def labelled(
+    link: Link, subject: XY | tuple[XY, XY], away: XY | None = None, sign: str = ""
+) -> Label:
+    """A link's number, or the sign of one of its wheels, that wants a place at a subject."""
+    said = escape(sign or link.name)
+    return Label(said, "", subject, 2.5, link.name, away=away, priority=3, ring=True)
 
 
 def body_of(drawing: Drawing, field: Field, link: Link) -> Body | None:

@@ -241,13 +241,18 @@ def arm_to_track(
 
 
 def number_beside(drawing: Drawing, field: Field, link: Link) -> tuple[XY, XY] | None:
-    """The part of a wheel's rim at which its link's number stands."""
+    """The part of a link's first wheel at which its number stands."""
     for disc in drawing.standing.discs:
-        if disc.link == link.name:
-            away = free_side(drawing, disc)
-            centre, radius = field(disc.centre), disc.outer * field.mm
-            return polar(centre, radius, away - 0.2), polar(centre, radius, away + 0.2)
+        if disc.sign == link.name:
+            return part_of_rim(drawing, field, disc)
     return None
+
+
+def part_of_rim(drawing: Drawing, field: Field, disc: Disc) -> tuple[XY, XY]:
+    """The part of a wheel's rim at which a number stands, away from what the wheel touches."""
+    away = free_side(drawing, disc)
+    centre, radius = field(disc.centre), disc.outer * field.mm
+    return polar(centre, radius, away - 0.2), polar(centre, radius, away + 0.2)
 
 
 def free_side(drawing: Drawing, disc: Disc) -> float:

@@ -16,11 +16,11 @@ from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.lines_through import PerpendicularThrough
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, dot
 from graphkin.scene.link_points import lettered, under
-from graphkin.scene.model import FRAME, Belt, Rolling
+from graphkin.scene.model import FRAME, Belt, Rolling, Wheel
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -108,12 +108,16 @@ class Track(Construction, frozen=True, kw_only=True):
 
 
 class CentrePath(Construction, frozen=True, kw_only=True):
-    """The ``line`` on which the centre of a ``wheel`` moves, beside its straight ``track``."""
+    """The ``line`` on which the centre of a ``wheel`` moves, beside its straight ``track``.
+
+    ``sign`` is what the wheel is called among those of its link.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "the path of the centre of {wheel}"}
 
     wheel: str
+    sign: str
     track: int
     line: int
 
@@ -128,7 +132,7 @@ class CentrePath(Construction, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Parallel to the track at the radius."""
-        return drawing.words("step.radius-along", k=escape(self.wheel))
+        return drawing.words("step.radius-along", k=escape(self.sign))
 
 
 class PointOfContact(Construction, frozen=True, kw_only=True):
@@ -147,7 +151,7 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
     found_from: tuple[int, ...]
     point: int
 
-    def symbols(self) -> Mapping[str, str]:
+    def symbols(self) -> dict[str, str]:
         """Its letter, that of the wheel's point, and both links."""
         own = symbol(lettered(under(self.name, self.wheel)))
         both = {"k": escape(self.wheel), "g": escape(self.on)}
@@ -172,20 +176,25 @@ class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
 
 
 class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):
-    """On the line of the centres, at the radius of one wheel from its centre."""
+    """On the line of the centres, at the radius of one wheel from its centre.
+
+    ``signs`` are what the wheel and the other are called, the radius is that of ``about``.
+    """
+
+    signs: tuple[str, str]
+    about: tuple[str, Wheel]
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the radius, of a gear from its module and number of teeth."""
-        centre, _, radius, _ = (drawing.trace.values[number] for number in self.found_from)
-        size = abs(float(radius))
-        discs = drawing.standing.discs
-        disc = min(discs, key=lambda each: abs(each.centre - centre) + abs(each.radius - size))
-        count = " = *m*·*z*/2" if disc.module else ""
+        size = abs(float(drawing.trace.values[self.found_from[2]]))
+        sign, wheel = self.about
+        count = f" = *m*·{of_wheel('z', sign)}/2" if wheel.teeth else ""
+        both = {"k": escape(self.signs[0]), "g": escape(self.signs[1])}
         return drawing.words(
             "step.contact-of-wheels",
-            radius=f"{symbol(f'r_{disc.link}')}{count} ({drawn_amount(drawing, size)})",
-            o=symbol(disc.wheel.centre),
-            **self.symbols(),
+            radius=f"{of_wheel('r', sign)}{count} ({drawn_amount(drawing, size)})",
+            o=symbol(wheel.centre),
+            **self.symbols() | both,
         )
 
 

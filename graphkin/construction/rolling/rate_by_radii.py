@@ -12,7 +12,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.rolling.rolling import seen_from
 from graphkin.construction.rolling.touching import by_contact
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.numbers.arithmetic import Real
 from graphkin.structure.pairs import Contact
 
@@ -26,7 +26,8 @@ def rate_by_radii(rate: Real, track: Real, wheel: Real) -> Real:
 class RateByRadii(Construction, frozen=True, kw_only=True):
     """The ``rate`` of a wheel, the ``link``, from that of ``other`` which turns it.
 
-    ``radii`` are the steps of the other's and of its own, negative for a ring or by an open belt.
+    ``radii`` are the steps of the other's and of its own, negative for a ring or by an open belt,
+    ``signs`` what both wheels are called.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("rate",)
@@ -35,6 +36,7 @@ class RateByRadii(Construction, frozen=True, kw_only=True):
     other: str
     turning: int
     radii: tuple[int, int]
+    signs: tuple[str, str]
     rate: int
 
     def source_of_rate(self, drawing: Drawing) -> str:
@@ -43,7 +45,7 @@ class RateByRadii(Construction, frozen=True, kw_only=True):
         track, wheel = (float(values[each]) for each in self.radii)
         sign = "" if track * wheel < 0 else "−"
         other = rate_symbol(drawing, self.turning, drawing.rate.letter)
-        radii = f"{symbol(f'r_{self.other}')}/{symbol(f'r_{self.link}')}"
+        radii = "/".join(of_wheel("r", sign) for sign in self.signs)
         value = drawing.words.significant(float(values[self.rate]))
         return f" = {sign}{other}·{radii} = {value} {drawing.rate.caret_unit}"
 
@@ -57,5 +59,8 @@ def turned_by_radii(pen: Pen, contact: Contact, link: str, turning: int) -> int:
     radii = side.track_radius, side.radius
     with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(None):
         rate = pen.draw(rate_by_radii, turning, *radii, name=link)
-    found = RateByRadii(link=link, other=side.other, turning=turning, radii=radii, rate=rate)
+    signs = contact.sign_of(pen.scene, side.other), contact.sign_of(pen.scene, link)
+    found = RateByRadii(
+        link=link, other=side.other, turning=turning, radii=radii, signs=signs, rate=rate
+    )
     return pen.make(found).rate

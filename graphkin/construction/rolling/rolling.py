@@ -172,7 +172,9 @@ def path_of_centre(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
     track = track_of(pen, shapes, contact)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         line = pen.draw(radius_along, track, radius_of(pen, contact))
-    pen.make(CentrePath(wheel=contact.links[0], track=track, line=line))
+    wheel = contact.links[0]
+    sign = contact.sign_of(pen.scene, wheel)
+    pen.make(CentrePath(wheel=wheel, sign=sign, track=track, line=line))
     return line
 
 
@@ -320,7 +322,10 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
     ends = tuple(pen.the("position", centre) for centre in centres)
     radii = side.track_radius, side.radius
     if contact.rolling.belt is None:
-        mark_contact(pen, contact, ContactOfWheels, contact_of_wheels, *ends, *radii)
+        wheel, on = (contact.sign_of(pen.scene, each) for each in contact.links)
+        about = contact.sign_of(pen.scene, side.other), side.track
+        wheels = partial(ContactOfWheels, signs=(wheel, on), about=about)
+        mark_contact(pen, contact, wheels, contact_of_wheels, *ends, *radii)
     else:
         kind = partial(CentreOfBelt, belt=contact.rolling.belt, ends=centres)
         mark_contact(pen, contact, kind, contact_of_wheels, *ends, *radii)
