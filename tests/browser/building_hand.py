@@ -13,6 +13,12 @@ from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from tests.browser.opening import LONG
 
+SHOWS_ANOTHER = f"""let left = {LONG // 20};
+const shown = () => document.getElementById("text").value !== before &&
+  document.body.dataset.settled === "true";
+const look = () => shown() ? done(true) : left-- ? setTimeout(look, 20) : done(false);
+look();"""
+
 
 class Hand:
     """A mouse in the field, told places in the scene's own unit."""
@@ -24,11 +30,14 @@ class Hand:
         """Do something that changes the text, and wait until the field shows it."""
         before = self.text
         work()
-        for _ in range(LONG // 20):
-            if self.text != before and self.is_settled:
-                return
-            self.wait()
-        pytest.fail(f"nothing is shown; told: {self.told}")
+        if not self.has_shown(before):
+            pytest.fail(f"nothing is shown; told: {self.told}")
+
+    def has_shown(self, before: str) -> bool:
+        """Wait until another text is there and the field shows it; whether it ever does."""
+        return bool(
+            self.page.evaluate(f"before => new Promise(done => {{ {SHOWS_ANOTHER} }})", before)
+        )
 
     def pixel(self, at: complex) -> tuple[float, float]:
         """Where a place of the scene is on the screen."""
@@ -80,15 +89,6 @@ class Hand:
         self.take("driver")
         self.write("speed", str(speed))
         self.settled(lambda: self.click("driver", at))
-
-    def wait(self) -> None:
-        """Let the page work a little."""
-        self.page.wait_for_timeout(20)
-
-    @property
-    def is_settled(self) -> bool:
-        """Whether what is shown is what is written."""
-        return self.page.get_attribute("body", "data-settled") == "true"
 
     @property
     def count(self) -> str:

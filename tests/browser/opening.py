@@ -6,6 +6,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NoReturn
 
 import pytest
@@ -181,6 +182,41 @@ def watched(
     tabs |= taken
     if wrong:
         pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
+
+
+ANEW = """async place => {
+  const part = name => document.getElementById(name), seen = name => part(name)?.checkVisibility();
+  if (seen("turn-panel")) {
+    if (seen("score")) part("turn-score").click();
+    part("turn-end").click();
+  }
+  if (seen("back")) part("back").click();
+  document.activeElement.blur();
+  if (location.hash === place) return;
+  const there = new Promise(done => addEventListener("hashchange", done, { once: true }));
+  location.hash = place;
+  await there;
+}"""
+"""Leave a turn, put the driver back, and go to a place of the same page."""
+
+
+@pytest.fixture(scope="module")
+def kept(chromium: Any, tabs: dict[str, Tab]) -> Iterator[Opened]:
+    """Open a page once for all tests of a module: kept(path, "#step=3"), where each begins anew."""
+    there: dict[Path, Any] = {}
+    with watched(chromium, tabs, ("file:", "blob:", "data:"), ("error",)) as page:
+
+        def led(path: Path, place: str = "#step=0", **options: Any) -> Any:
+            shown = there.get(path)
+            if shown is None:
+                there[path] = shown = page(path.as_uri() + place, **options)
+                return shown
+            shown.emulate_media(media="null")
+            shown.mouse.move(0, 0)
+            shown.evaluate(ANEW, place)
+            return shown
+
+        yield led
 
 
 @pytest.fixture

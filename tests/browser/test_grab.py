@@ -60,8 +60,8 @@ def dragged(page: Any, name: str, across: float, down: float) -> None:
     page.mouse.up()
 
 
-def test_a_pin_goes_along_its_way_to_where_it_is_led(opened: Opened, pump: Path):
-    page = opened(pump, "#step=9", **DESKTOP)
+def test_a_pin_goes_along_its_way_to_where_it_is_led(kept: Opened, pump: Path):
+    page = kept(pump, "#step=9", **DESKTOP)
     before = page.evaluate(DRIVER)
     dragged(page, "C", 40, 30)
     page.clock.run_for(500)
@@ -71,8 +71,8 @@ def test_a_pin_goes_along_its_way_to_where_it_is_led(opened: Opened, pump: Path)
     assert page.evaluate(DRIVER) == before
 
 
-def test_scale_and_frame_stay_while_a_pin_is_dragged(opened: Opened, pump: Path):
-    page = opened(pump, "#step=9", **DESKTOP)
+def test_scale_and_frame_stay_while_a_pin_is_dragged(kept: Opened, pump: Path):
+    page = kept(pump, "#step=9", **DESKTOP)
     dragged(page, "A", 10, 10)
     first = page.evaluate(FRAMES)
     for across, down in ((20, 30), (5, 25), (-20, 30)):
@@ -80,8 +80,8 @@ def test_scale_and_frame_stay_while_a_pin_is_dragged(opened: Opened, pump: Path)
         assert page.evaluate(FRAMES) == first
 
 
-def test_a_pin_moves_by_keys_and_the_motion_plays(opened: Opened, pump: Path):
-    page = opened(pump, "#step=9", **DESKTOP)
+def test_a_pin_moves_by_keys_and_the_motion_plays(kept: Opened, pump: Path):
+    page = kept(pump, "#step=9", **DESKTOP)
     before = page.evaluate(DRIVER)
     page.locator("#sheet-0 .grip.driven").focus()
     page.keyboard.press("ArrowRight")
@@ -138,8 +138,8 @@ def test_the_wheel_and_keys_zoom_and_a_double_click_restores(opened: Opened, pum
     assert page.evaluate(FRAMES) != drawn
 
 
-def test_marks_are_reached_by_keys(opened: Opened, pump: Path):
-    page = opened(pump, "#step=9", **DESKTOP)
+def test_marks_are_reached_by_keys(kept: Opened, pump: Path):
+    page = kept(pump, "#step=9", **DESKTOP)
     page.locator("#sheet-0 .view > svg").nth(1).focus()
     page.keyboard.press("ArrowDown")
     assert page.locator("#pointed").inner_text()

@@ -25,7 +25,8 @@ from tests.chosen import EVERY, SCENES
 from tests.documents.sheet_tools import mechanism_named
 from tests.web.test_page import NASTY
 
-DESKTOP = {"viewport": {"width": 1440, "height": 900}}
+DESKTOP = {"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce"}
+MOVING = DESKTOP | {"reduced_motion": "no-preference"}
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "device_scale_factor": 2}
 SHAPES = {"phone": PHONE, "dark": DESKTOP | {"color_scheme": "dark"}}
 STEPS = "document.querySelectorAll('#steps li').length"
@@ -74,8 +75,8 @@ def marked(page: Any, look: str) -> set[str]:
 # --- steps ---------------------------------------------------------------------------------------
 
 
-def test_what_b_is_drawn_from_is_marked_and_named(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", **DESKTOP)
+def test_what_b_is_drawn_from_is_marked_and_named(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=0", **DESKTOP)
     page.locator("#steps a[data-number='6']").click()
     assert marked(page, "old") == {"a", "o", "A", "B", "O2"}
     assert page.locator("#from").inner_text() == "O2, o, A (1), B (2), a (5)"
@@ -87,9 +88,8 @@ def test_what_b_is_drawn_from_is_marked_and_named(opened: Opened, pages: Path):
     assert step_of(page) == 2
 
 
-def test_a_reason_lights_its_own_stroke_alone(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", **DESKTOP)
-    page.goto(f"{(pages / 'pump.html').as_uri()}#step=6")
+def test_a_reason_lights_its_own_stroke_alone(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=6", **DESKTOP)
     reasons = page.locator("#reason .line")
     assert reasons.count() == 2
     lit = ".sheet:not([hidden]) .halo line.new"
@@ -111,8 +111,8 @@ ROUND = """() => [...document.querySelectorAll('#sheet-0 circle.pin')]
   .map(pin => pin.getAttribute('cx'))"""
 
 
-def test_the_page_begins_with_the_whole_mechanism_and_the_task(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", reduced_motion="reduce", **DESKTOP)
+def test_the_page_begins_with_the_whole_mechanism_and_the_task(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=0", **DESKTOP)
     assert page.locator("#count").inner_text() == "The task"
     brief = page.locator("#brief").inner_text()
     assert "the velocity of D" in brief and "O1A = O2B = 30 cm" in brief
@@ -126,7 +126,9 @@ def test_the_page_begins_with_the_whole_mechanism_and_the_task(opened: Opened, p
 
 @pytest.mark.parametrize(("motion", "moves"), [("no-preference", True), ("reduce", False)])
 def test_the_mechanism_moves_once_as_a_ghost(opened: Opened, pages: Path, motion, moves):
-    page = opened(pages / "pump.html", "#step=5", stopped=True, reduced_motion=motion, **DESKTOP)
+    page = opened(
+        pages / "pump.html", "#step=5", stopped=True, **DESKTOP | {"reduced_motion": motion}
+    )
     drawn = page.evaluate(ROUND)
     page.keyboard.press("0")
     page.clock.run_for(600)
@@ -138,8 +140,8 @@ def test_the_mechanism_moves_once_as_a_ghost(opened: Opened, pages: Path, motion
     assert page.evaluate(ROUND) == drawn
 
 
-def test_a_result_is_hidden_until_the_step_that_finds_it(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", "#step=14", **DESKTOP)
+def test_a_result_is_hidden_until_the_step_that_finds_it(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=14", **DESKTOP)
     values = page.locator("#values")
     assert "vD = 3.827 m/s" in values.inner_text() and "ω2 = 6.171" in values.inner_text()
     assert "ω3 = ?" in values.inner_text()
@@ -175,9 +177,9 @@ def test_a_rate_that_is_not_asked_for_is_told_while_the_driver_goes(opened: Open
     assert page.locator("#sentence").inner_text().count(f" = {omega} rad/s") == 2
 
 
-def test_a_tap_beside_a_line_leads_to_its_step(opened: Opened, pages: Path):
+def test_a_tap_beside_a_line_leads_to_its_step(kept: Opened, pages: Path):
     """A finger is wider than a line: some dots off it are still meant for it."""
-    page = opened(pages / "pump.html", "#step=16", **DESKTOP)
+    page = kept(pages / "pump.html", "#step=16", **DESKTOP)
     line = page.locator("#sheet-0 line[data-name='ab']:not(.halo *)").first
     middle = line.evaluate(
         """mark => { const { x, y, width, height } = mark.getBoundingClientRect();
@@ -190,8 +192,8 @@ def test_a_tap_beside_a_line_leads_to_its_step(opened: Opened, pages: Path):
 # --- both plans, and the pen ---------------------------------------------------------------------
 
 
-def test_the_velocity_plan_stands_beside_where_its_segment_is_carried_over(opened, pages: Path):
-    page = opened(pages / "pump.html", "#step=19", **DESKTOP)
+def test_the_velocity_plan_stands_beside_where_its_segment_is_carried_over(kept, pages: Path):
+    page = kept(pages / "pump.html", "#step=19", **DESKTOP)
     small = page.locator(".carried")
     assert small.is_visible()
     assert small.locator(".lit").count() == 1
@@ -211,7 +213,7 @@ def test_the_velocity_plan_stands_beside_where_its_segment_is_carried_over(opene
 
 
 def test_a_pen_draws_whole_arcs_and_leaves_their_ticks(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", "#step=1", stopped=True, **DESKTOP)
+    page = opened(pages / "pump.html", "#step=1", stopped=True, **MOVING)
     tick = page.locator("#sheet-0 .compass").first.evaluate("mark => mark.getTotalLength()")
     page.keyboard.press("ArrowRight")
     pens = page.locator(".pen")
@@ -229,8 +231,8 @@ def test_a_pen_draws_whole_arcs_and_leaves_their_ticks(opened: Opened, pages: Pa
 # --- keys and addresses --------------------------------------------------------------------------
 
 
-def test_keys_go_through_the_steps(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", **DESKTOP)
+def test_keys_go_through_the_steps(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=0", **DESKTOP)
     last = page.evaluate(STEPS)
     found = []
     for key in ("ArrowRight", "ArrowRight", "ArrowLeft", "End", "ArrowRight", "Home", "2", "7"):
@@ -243,8 +245,8 @@ def test_keys_go_through_the_steps(opened: Opened, pages: Path):
     assert page.locator(".halo .similar").count() == 0
 
 
-def test_an_address_leads_to_its_step_and_place(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", **DESKTOP)
+def test_an_address_leads_to_its_step_and_place(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=0", **DESKTOP)
     address = (pages / "pump.html").as_uri()
     for turned in ("330", "-30", "690"):
         page.goto(f"{address}#step=7&x={turned}")
@@ -276,9 +278,8 @@ def moved(drawing: Drawing, mechanism: Mechanism, degrees: float) -> Trace:
     return run(program, needed, mechanism.scene.values, FLOAT, overrides=overrides)
 
 
-def test_points_move_to_where_python_draws_them(opened: Opened, pages: Path):
-    page, mechanism = opened(pages / "pump.html", **DESKTOP), load("pump")
-    page.goto(f"{(pages / 'pump.html').as_uri()}#step=99&x=20")
+def test_points_move_to_where_python_draws_them(kept: Opened, pages: Path):
+    page, mechanism = kept(pages / "pump.html", "#step=99&x=20", **DESKTOP), load("pump")
     compared = 0
     for place, sheet in enumerate(screen_sheets(mechanism, "en")):
         values = moved(sheet.drawing, mechanism, 20.0).values
@@ -291,8 +292,8 @@ def test_points_move_to_where_python_draws_them(opened: Opened, pages: Path):
     assert compared > 10
 
 
-def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
-    page, mechanism = opened(pages / "pump.html", **DESKTOP), load("pump")
+def test_tables_margins_and_line_follow_the_driver(kept: Opened, pages: Path):
+    page, mechanism = kept(pages / "pump.html", "#step=0", **DESKTOP), load("pump")
     before = page.locator("[data-row='v_D'] td").all_inner_texts()
     page.goto(f"{(pages / 'pump.html').as_uri()}#step=7&x=80")
     sheet = screen_sheets(mechanism, "en")[0]
@@ -323,9 +324,8 @@ def test_tables_margins_and_line_follow_the_driver(opened: Opened, pages: Path):
     assert page.locator("[data-row='v_D'] td").all_inner_texts() == before
 
 
-def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", **DESKTOP)
-    page.goto(f"{(pages / 'pump.html').as_uri()}#step=16&x=9999")
+def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(kept: Opened, pages: Path):
+    page = kept(pages / "pump.html", "#step=16&x=9999", **DESKTOP)
     seen = """name => [...document.querySelectorAll(`.sheet:not([hidden]) [data-name='${name}']`)]
       .filter(mark => mark.checkVisibility({ visibilityProperty: true })).length"""
     assert page.evaluate(seen, "v_D") == 0
@@ -368,7 +368,7 @@ COLOURS = """() => ['#new-key', '#from-key', '#reason .line', '#reason .line',
 
 def test_every_size_and_look_has_room_and_letters_to_be_read(opened: Opened, pages: Path):
     """Firefox asks axe of each."""
-    page = opened(pages / "pump.html", "#step=9", **DESKTOP)
+    page = opened(pages / "pump.html", "#step=9", **MOVING)
     for size, part in SIZES.items():
         page.set_viewport_size(dict(zip(("width", "height"), size, strict=True)))
         for look in LOOKS:

@@ -48,12 +48,12 @@ def at_rest(page: Any) -> None:
 
 
 def until(page: Any, holds: str) -> None:
-    """Wait until an expression holds; asked from here, for the page evaluates no strings."""
-    for _ in range(LONG // 20):
-        if page.evaluate(holds):
-            return
-        page.wait_for_timeout(20)
-    pytest.fail(f"{holds} never holds")
+    """Wait until an expression holds; the page itself evaluates no strings."""
+    look = f"look = () => ({holds}) ? done(true) : left-- ? setTimeout(look, 20) : done(false)"
+    if not page.evaluate(
+        f"new Promise(done => {{ let left = {LONG // 20}; const {look}; look(); }})"
+    ):
+        pytest.fail(f"{holds} never holds")
 
 
 def opened_as(page: Any, name: str) -> None:
@@ -64,12 +64,9 @@ def opened_as(page: Any, name: str) -> None:
 
 def answered(page: Any, work: Callable[[], object]) -> None:
     """Do something, and wait until its answer at rest is shown."""
-    before = int(page.get_attribute("body", "data-shown"))
+    before = page.get_attribute("body", "data-shown")
     work()
-    until(
-        page,
-        f"+document.body.dataset.shown > {before} && document.body.dataset.settled === 'true'",
-    )
+    page.wait_for_selector(f"body[data-settled=true]:not([data-shown='{before}'])")
 
 
 def write(page: Any, old: str, new: str) -> None:

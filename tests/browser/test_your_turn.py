@@ -100,10 +100,12 @@ def pages(tmp_path_factory) -> Path:
     return folder
 
 
-def begun(opened: Opened, pages: Path, name: str, step: int, **options: Any) -> Any:
+def begun(opened: Opened, pages: Path, name: str, step: int | str, **options: Any) -> Any:
     """A page on which the reader draws from a step on."""
     page = opened(pages / f"{name}.html", f"#step={step}", **(options or DESKTOP))
     page.locator("#turn").click()
+    if (again := page.locator("#turn-again")).is_visible():
+        again.click()
     return page
 
 
@@ -154,8 +156,8 @@ def by_mouse(page: Any, action: str, *inputs: tuple[str, ...]) -> str:
 # --- the pump's velocity plan ---------------------------------------------------------------------
 
 
-def test_the_velocity_plan_of_the_pump_by_right_choices(opened: Opened, pages: Path):
-    page = begun(opened, pages, "pump", 5)
+def test_the_velocity_plan_of_the_pump_by_right_choices(kept: Opened, pages: Path):
+    page = begun(kept, pages, "pump", 5)
     assert page.evaluate(SEEN, "a") == 0
     by_lists(page, "lay_off", "o", "vA")
     assert said(page) == EN("turn.say.which")
@@ -193,8 +195,8 @@ def test_the_velocity_plan_of_the_pump_by_right_choices(opened: Opened, pages: P
     assert "Alone: 15; with a hint: 0; drawn by the page: 0. Wrong turns: 0." in told
 
 
-def test_a_wrong_choice_is_told_why_in_one_line(opened: Opened, pages: Path):
-    page = begun(opened, pages, "pump", 6)
+def test_a_wrong_choice_is_told_why_in_one_line(kept: Opened, pages: Path):
+    page = begun(kept, pages, "pump", 6)
     page.locator("#turn-score").click()
     counts = page.locator("#score p")  # it stays open, and counts at once
     assert "Alone: 0;" in counts.inner_text() and "Wrong turns: 0." in counts.inner_text()
@@ -215,8 +217,8 @@ def test_a_wrong_choice_is_told_why_in_one_line(opened: Opened, pages: Path):
     assert "wrong turns: 3" in page.locator("#score li").inner_text()
 
 
-def test_another_order_and_another_way_are_right(opened: Opened, pages: Path):
-    page = begun(opened, pages, "pump", 6)
+def test_another_order_and_another_way_are_right(kept: Opened, pages: Path):
+    page = begun(kept, pages, "pump", 6)
     assert by_lists(page, "parallel", "o", "guide 5") == "∥ guide 5 (o): right."
     by_lists(page, "perpendicular", "o", "O2B")
     by_lists(page, "perpendicular", "a", "AB")
@@ -229,8 +231,8 @@ def test_another_order_and_another_way_are_right(opened: Opened, pages: Path):
     assert by_lists(page, "cut", "⊥ vA (A)", "⊥ vC (C)") == "I3: right. Centres: all drawn."
 
 
-def test_a_hint_lights_where_a_step_starts(opened: Opened, pages: Path):
-    page = begun(opened, pages, "pump", 6)
+def test_a_hint_lights_where_a_step_starts(kept: Opened, pages: Path):
+    page = begun(kept, pages, "pump", 6)
     page.locator("#hint").click()
     assert said(page) == "Perpendicular: through a, to AB"
     assert page.locator(".sheet:not([hidden]) .halo .new").count() == 2
@@ -266,9 +268,9 @@ def test_keys_alone_draw(opened: Opened, pages: Path):
     assert page.evaluate(SEEN, "b") == 0
 
 
-def test_pointing_at_marks_tells_nothing_of_the_next_step(opened: Opened, pages: Path):
+def test_pointing_at_marks_tells_nothing_of_the_next_step(kept: Opened, pages: Path):
     """What is lit is the turn's own, whatever has been pointed at; at the end it is nothing."""
-    page = begun(opened, pages, "pump", 5)
+    page = begun(kept, pages, "pump", 5)
     assert page.evaluate(LIT) == ""
     for _ in range(13):
         before = page.evaluate(LIT)
@@ -282,8 +284,8 @@ def test_pointing_at_marks_tells_nothing_of_the_next_step(opened: Opened, pages:
     assert page.evaluate(LIT) == ""
 
 
-def test_both_candidates_stay_until_one_is_chosen(opened: Opened, pages: Path):
-    page = begun(opened, pages, "pump", 5)
+def test_both_candidates_stay_until_one_is_chosen(kept: Opened, pages: Path):
+    page = begun(kept, pages, "pump", 5)
     by_lists(page, "lay_off", "o", "vA")
     asked = page.evaluate(LIT)
     assert page.locator(".sheet:not([hidden]) text.ghost").all_text_contents() == ["1", "2"]
@@ -328,9 +330,9 @@ def test_a_turn_that_was_left_goes_on(opened: Opened, pages: Path):
     assert by_lists(page, "lay_off", "o", "vA") == EN("turn.say.which")
 
 
-def test_what_a_move_finds_is_told(opened: Opened, pages: Path):
+def test_what_a_move_finds_is_told(kept: Opened, pages: Path):
     """Its size and its length, and in the tables; nothing that is still sought."""
-    page = begun(opened, pages, "pump", 10)
+    page = begun(kept, pages, "pump", 10)
     known = ["v_A", "v_B", "v_BA", "v_C", "v_CA", "v_CB", "ω1", "ω2", "ω3"]
     assert page.evaluate(KNOWN) == known
     by_lists(page, "perpendicular", "c", "CD")
@@ -404,9 +406,8 @@ def test_a_plan_that_the_page_draws_is_said_to_be_given(opened: Opened, tmp_path
     assert EN("turn.say.kutzbach") in page.locator("#turn-say").inner_text()
 
 
-def test_it_begins_at_the_drawn_position(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", "#step=6&x=80", **DESKTOP)
-    page.locator("#turn").click()
+def test_it_begins_at_the_drawn_position(kept: Opened, pages: Path):
+    page = begun(kept, pages, "pump", "6&x=80")
     assert by_mouse(page, "perpendicular", ("a",), ("A", "B")) == "⊥ AB (a): right."
 
 
@@ -428,9 +429,9 @@ def test_the_velocity_plan_of_the_pump_by_one_hand(opened: Opened, pages: Path, 
     assert page.evaluate(SEEN, point_) > 0
 
 
-def test_a_guide_that_is_still_to_be_used_is_drawn(opened: Opened, pages: Path):
+def test_a_guide_that_is_still_to_be_used_is_drawn(kept: Opened, pages: Path):
     """The ray at the crank's angle: a length is laid off on it by a click."""
-    page = begun(opened, pages, "pump", 1)
+    page = begun(kept, pages, "pump", 1)
     rays = page.locator("#sheet-0 line.open")
     assert rays.count() == 1
     sheets = screen_sheets(load("pump"), "en")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from math import cos, hypot, radians, sin
+from math import hypot
 
 import numpy as np
 import shapely
@@ -255,23 +255,21 @@ def labels_of(marks: Sequence[Mark]) -> list[Labelled]:
 def outline(mark: Mark) -> BaseGeometry:
     """The middle line of a mark's stroke, to a thousandth of a millimetre."""
     if isinstance(mark, LineMark):
-        return shapely.LineString([(mark.x1, mark.y1), (mark.x2, mark.y2)])
+        return shapely.linestrings([(mark.x1, mark.y1), (mark.x2, mark.y2)])
     if isinstance(mark, Polyline):
         closing = mark.points[:1] if mark.closed else ()
-        return shapely.LineString([*mark.points, *closing])
+        return shapely.linestrings([*mark.points, *closing])
     if isinstance(mark, CircleMark):
-        return shapely.LineString(around(mark.cx, mark.cy, mark.r, 0, 360))
+        return shapely.linestrings(around(mark.cx, mark.cy, mark.r, 0, 360))
     if isinstance(mark, Arc):
-        return shapely.LineString(around(mark.cx, mark.cy, mark.r, mark.start, mark.end))
+        return shapely.linestrings(around(mark.cx, mark.cy, mark.r, mark.start, mark.end))
     raise TypeError(mark)
 
 
-def around(x: float, y: float, r: float, start: float, end: float) -> Iterator[tuple[float, float]]:
+def around(x: float, y: float, r: float, start: float, end: float) -> np.ndarray:
     """Points along an arc, a degree apart."""
-    count = max(2, int(abs(end - start)) + 1)
-    for i in range(count + 1):
-        turn = radians(start + (end - start) * i / count)
-        yield x + r * cos(turn), y - r * sin(turn)
+    turns = np.radians(np.linspace(start, end, max(2, int(abs(end - start)) + 1) + 1))
+    return np.column_stack([x + r * np.cos(turns), y - r * np.sin(turns)])
 
 
 def within(mark: Mark, rect: tuple[float, float, float, float], slack: float = 1e-6) -> bool:
@@ -315,7 +313,7 @@ def collisions(marks: Sequence[Mark]) -> list[str]:
         if inked[j] not in (labels[i].leader, labels[i].ring)
     ]
     others = [mark for mark in marks if isinstance(mark, Text)]
-    areas = np.array([shapely.box(*reach(mark)) for mark in others])
+    areas = shapely.box(*np.array([reach(mark) for mark in others]).T)
     which, what = shapely.STRtree(areas).query(boxes, predicate="intersects")
     faults += [
         f"{told(labels[i].text)} on {told(others[j])}"

@@ -87,12 +87,9 @@ def crossed(page: Page) -> list[str]:
     lines = [m for m in page.marks if m.cls.split()[0] in ("frame", "panel", "title")]
     edges = [outline(m) for m in lines if not isinstance(m, Text)]
     words_ = [m for m in page.marks if isinstance(m, Text) and m.cls in ("caption", "table")]
-    return [told(text) for text in words_ for edge in edges if edge.intersects(box_of(text))]
-
-
-def box_of(text: Text) -> shapely.Polygon:
-    """The box around the letters of a text."""
-    return shapely.box(*reach(text))
+    boxes = [shapely.box(*reach(text)) for text in words_]
+    which, _ = shapely.STRtree(edges).query(boxes, predicate="intersects")
+    return [told(words_[i]) for i in which]
 
 
 @pytest.mark.parametrize("which", VIEWED, ids=named)
