@@ -1074,7 +1074,8 @@ def test_a_coloured_pencil_is_read_like_a_grey_one(
     drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
     taken = (blank - drawing.image)[..., None] * np.array(PENCILS[colour])
     image = np.clip(blank[..., None] - taken, 0, 255).astype(np.uint8)
-    Image.fromarray(image).resize((3150, 2228), Image.Resampling.BOX).save(tmp_path / "one.png")
+    picture = Image.fromarray(image).resize((3150, 2228), Image.Resampling.BOX)
+    picture.save(tmp_path / "one.png", compress_level=1)
     found = call(
         "read", a_class, tmp_path / "one.png", "-o", tmp_path / "read", "--json", "--jobs", "1"
     )
