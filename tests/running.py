@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -38,3 +39,23 @@ def python(*args: str, **env: str) -> subprocess.CompletedProcess[bytes]:
     return subprocess.run(
         [sys.executable, *args], env=surroundings, capture_output=True, check=False
     )
+
+
+DIES = """
+import os, pathlib, signal, sys
+rename, left = pathlib.Path.replace, [int(sys.argv[1])]
+def dying(path, target):
+    left[0] -= 1
+    if not left[0]:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return rename(path, target)
+pathlib.Path.replace = dying
+from graphkin.cli.main import app
+app(sys.argv[2:])
+"""
+
+
+def killed_at(rename: int, *args: object) -> None:
+    """Run the command line in a process that is killed as it puts a file in its place."""
+    found = python("-c", DIES, str(rename), *map(str, args))
+    assert found.returncode == -signal.SIGKILL

@@ -177,6 +177,7 @@ def grade(  # noqa: PLR0915
     refuse_strangers(context, "--hold", held, ids)
     if both := ", ".join(who for who in released if who in held):
         raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
+    full = scale_of(scale, context)
     out = report or folder / "report"
     free = releases(out, tuple(ids), released, held)
     deciding = Deciding(opened.takers, opened.book.form, opened.book.lab.rubric, opened.signs)
@@ -199,7 +200,6 @@ def grade(  # noqa: PLR0915
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
     files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
-    full = scale_of(scale, context)
     books = filled_books(gradebooks, column, found, spoken, full, opened.signs, match or "")
     written = write_all(out, {**files, **books}, force)
     for line in result_lines(found.result, spoken):

@@ -14,7 +14,7 @@ import numpy as np
 from graphkin.loops.closing_groups import Group, Joint, Mask, moved_by
 from graphkin.loops.equations import Equations, part_of
 from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
-from graphkin.loops.newton import CLOSED, largest, linear_solve, newton, scaled
+from graphkin.loops.newton import CLOSED, largest, moving_step, newton, scaled
 from graphkin.loops.newton_start import as_meant, counted_freely, settle
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import PositionBounds
@@ -158,7 +158,7 @@ def settled_of(part: Equations, found: Reals, moving: Mask) -> Reals:
     for _ in range(LAST):
         residual, jacobian = scaled(part, found)
         step = np.zeros_like(found)
-        step[:, moving] = linear_solve(jacobian[:, :, moving], residual[:, :, None])[:, :, 0]
+        step[:, moving] = moving_step(residual, jacobian, moving)
         moves = EITHER * largest(step) > slack
         if not moves.any():
             break

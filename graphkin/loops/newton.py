@@ -152,7 +152,7 @@ def newton(
             some = np.flatnonzero(~done)
         residual, jacobian = scaled(loops, unknowns[some])
         step = np.zeros_like(unknowns[some])
-        step[:, columns] = -linear_solve(jacobian[:, :, columns], residual[:, :, None])[:, :, 0]
+        step[:, columns] = -moving_step(residual, jacobian, columns)
         length = largest(step)
         end = done[some] | ~np.isfinite(length)
         end |= (length > 0.9 * before[some]) & (before[some] < NEAR)
@@ -163,6 +163,13 @@ def newton(
         done[some] = end | (length < settled)
         before[some], iterations = length, iterations + 1
     return unknowns, iterations
+
+
+def moving_step(residual: Reals, jacobian: Reals, moving: Mask) -> Reals:
+    """How far the unknowns that move are off (N, moving), by the equations in which they stand."""
+    part = jacobian[:, :, moving]
+    rows = np.flatnonzero((part != 0).any(axis=(0, 2)))
+    return linear_solve(part[:, rows], residual[:, rows, None])[:, :, 0]
 
 
 def scaled(loops: Equations, unknowns: Reals) -> tuple[Reals, Reals]:

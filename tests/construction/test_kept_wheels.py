@@ -132,35 +132,20 @@ def test_an_arm_and_its_wheel_are_no_dyad_at_an_instant():
     assert not group.at_instant
 
 
+IN_RING = WHEEL.format(
+    radius=0.05, track=0.15, reach=0.02, turn=0.6, speed=2, rate=0, ring=", inside = true", round=""
+)
+
+
 def test_the_line_of_centres_may_be_named_and_driven():
-    text = WHEEL.format(
-        radius=0.05,
-        track=0.15,
-        reach=0.02,
-        turn=0.6,
-        speed=2,
-        rate=0,
-        ring=", inside = true",
-        round="",
-    )
-    named = text.replace("rolls = { on = 0 }", 'rolls = { on = 0, link = "arm" }')
+    named = IN_RING.replace("rolls = { on = 0 }", 'rolls = { on = 0, link = "arm" }')
     one = made(named.replace("turn = 1", 'turn = "arm"'))
     assert one.solve().links["1"].omega == pytest.approx(-2 * 0.1 / 0.05)
     assert "arm" in one.scene.bare.links
 
 
 def test_a_name_is_asked_for_only_where_there_is_something_to_name():
-    text = WHEEL.format(
-        radius=0.05,
-        track=0.15,
-        reach=0.02,
-        turn=0.6,
-        speed=2,
-        rate=0,
-        ring=", inside = true",
-        round="",
-    )
-    kept = text.replace("rolls = { on = 0 }", 'rolls = { on = 0, link = "k" }')
+    kept = IN_RING.replace("rolls = { on = 0 }", 'rolls = { on = 0, link = "k" }')
     with pytest.raises(SceneError, match="this wheel is kept where it rolls"):
         read_text(kept + "[links.2]\nO-P = 0.1\n", "kept")
     with pytest.raises(SceneError, match="link 1 is there already"):

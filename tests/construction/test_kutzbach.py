@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from itertools import combinations
 from pathlib import Path
 from random import Random
@@ -35,6 +36,7 @@ def train(text: str) -> Mechanism:
     return Mechanism(read_text(HEAD + text + PLAN, "train"))
 
 
+@cache
 def example(name: str) -> Mechanism:
     """A shipped train, with the plan."""
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
@@ -73,8 +75,7 @@ def test_every_link_cuts_off_its_angular_velocity(name):
 @pytest.mark.parametrize("name", TRAINS)
 def test_the_tips_of_all_points_of_a_link_lie_on_its_ray(name):
     """Also those through which it was not drawn: pitch points, and centres on axes and arms."""
-    mechanism = example(name)
-    found = mechanism.trace(by_hand=True)
+    found = example(name).trace(by_hand=True)
     tips = {p.point: p.tip for p in constructions(found.program, LadderPoint) if p.tip is not None}
     rays = list(constructions(found.program, LadderRay))
     assert rays
@@ -190,7 +191,7 @@ def test_a_wrong_speed_is_seen(monkeypatch):
         "tip_over",
         action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1])),
     )
-    mechanism = example("gears-ring")
+    mechanism = example.__wrapped__("gears-ring")
     omega = mechanism.solve().links["2"].omega
     assert not within(speeds(mechanism)["2"], omega, 1e-3)
 

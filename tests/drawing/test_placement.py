@@ -255,10 +255,10 @@ def crowd(count: int) -> list[Wish]:
 
 
 def test_places_compared_a_few_at_a_time_rule_out_the_same(monkeypatch):
-    at_one_go = place(crowd(60), [[10, 31, 60, 31]], NONE, FIELD)
+    at_one_go = place(crowd(30), [[10, 31, 60, 31]], NONE, FIELD)
     monkeypatch.setattr(clashes, "AT_ONCE", 7)
     monkeypatch.setattr(assignment, "AT_ONCE", 3)
-    assert place(crowd(60), [[10, 31, 60, 31]], NONE, FIELD) == at_one_go
+    assert place(crowd(30), [[10, 31, 60, 31]], NONE, FIELD) == at_one_go
 
 
 def test_no_more_places_are_offered_than_a_page_may_have(monkeypatch):

@@ -821,14 +821,19 @@ def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: 
         assert abs(complex(*told.at) - (apart[1] if rival else places[b])) < 3
 
 
+def reader_of_b(folder: Path, code: str) -> tuple[int, PointReader]:
+    """What reads an empty sheet of velocities, and the step of its point b."""
+    sheet = velocity_of(folder, code)
+    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
+    return number, PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+
+
 @pytest.mark.parametrize(("back", "another"), [(0.9, False), (8.0, True)])
 def test_a_rival_of_a_place_is_another_place(
     a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, back: float, *, another: bool
 ) -> None:
     """What is found some way off may be settled by its lines where the point itself lies."""
-    sheet = velocity_of(a_class, code)
-    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
-    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    number, reader = reader_of_b(a_class, code)
     reader.next = reader.drawings = reader.ahead({})
     here = 320 + 120j
     settled = LinesCrossing(here + back, np.eye(2) * 0.01, 2, 1.0)
@@ -845,9 +850,7 @@ def test_what_follows_from_a_point_is_known_no_better_than_the_point(
     a_class: Path, code: str, off: float
 ) -> None:
     """Where it fits, as lines and expectation together tell; where it does not, as its lines."""
-    sheet = velocity_of(a_class, code)
-    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
-    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    number, reader = reader_of_b(a_class, code)
     rng = np.random.default_rng(4)
     cloud = 320 + 120j + 0.5 * (rng.standard_normal(DRAWINGS) + 1j * rng.standard_normal(DRAWINGS))
     own = expected(cloud)
@@ -865,9 +868,7 @@ def test_a_place_to_which_all_ways_are_drawn_needs_no_more_than_one_to_which_the
     a_class: Path, code: str, monkeypatch: pytest.MonkeyPatch, drawn_there: float, *, taken: bool
 ) -> None:
     """What is expected has else something in advance of what is a little likelier."""
-    sheet = velocity_of(a_class, code)
-    (number,) = (n for n in sheet.points if sheet.exact.program.steps[n].name == "b")
-    reader = PointReader(sheet, ink_of(), Pencil(0.4, 0.4))
+    number, reader = reader_of_b(a_class, code)
     reader.next = reader.drawings = reader.ahead({})
     here, there = 300 + 100j, 312 + 100j
     found = {each: LinesCrossing(each, np.eye(2) * 0.01, 2, 1.0) for each in (here, there)}
@@ -1073,7 +1074,8 @@ def test_a_coloured_pencil_is_read_like_a_grey_one(
     drawing = drawn_sheet(a_class, code, "velocity", Habits(point=0.3, line=0.3), 3)
     taken = (blank - drawing.image)[..., None] * np.array(PENCILS[colour])
     image = np.clip(blank[..., None] - taken, 0, 255).astype(np.uint8)
-    Image.fromarray(image).resize((3150, 2228), Image.Resampling.BOX).save(tmp_path / "one.png")
+    picture = Image.fromarray(image).resize((3150, 2228), Image.Resampling.BOX)
+    picture.save(tmp_path / "one.png", compress_level=1)
     found = call(
         "read", a_class, tmp_path / "one.png", "-o", tmp_path / "read", "--json", "--jobs", "1"
     )

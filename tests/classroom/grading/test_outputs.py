@@ -5,11 +5,8 @@ from __future__ import annotations
 import csv
 import errno
 import io
-import os
 import re
 import shutil
-import signal
-import subprocess
 import sys
 from fractions import Fraction
 from functools import cache
@@ -35,6 +32,7 @@ from graphkin.cli.main import app
 from graphkin.text import words
 from tests.chosen import SPOKEN
 from tests.classroom.grading.students import book_of, given, key_answers, lab_of, marker_of
+from tests.running import killed_at
 
 HOSTILE = '<script>alert("1")</script> O\'Neil, Jr. Ștefan _*^{} \u202eabc'
 MARKS = {"0001": Fraction(17, 2), "0002": Fraction(12), "X9": Fraction(1)}
@@ -419,28 +417,11 @@ def test_a_full_disk_leaves_the_earlier_report_and_nothing_half_written(folder, 
     assert {path: path.read_bytes() for path in out.rglob("*") if path.is_file()} == before
 
 
-DIES = """
-import os, pathlib, signal, sys
-rename, left = pathlib.Path.replace, [4]
-def dying(path, target):
-    left[0] -= 1
-    if not left[0]:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return rename(path, target)
-pathlib.Path.replace = dying
-from graphkin.cli.main import app
-app(sys.argv[1:])
-"""
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
 def test_kill_9_in_the_middle_leaves_whole_files_and_the_next_run_ends_it(folder, monkeypatch):
     monkeypatch.setattr(class_report, "pictures", pictures)  # as another process draws them
     args = ["grade", str(folder / "class"), str(folder / "answers.csv"), "-o", str(folder / "cut")]
-    surroundings = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[3])}
-    command = [sys.executable, "-c", DIES, *args]
-    killed = subprocess.run(command, env=surroundings, capture_output=True, check=False)
-    assert killed.returncode == -signal.SIGKILL
+    killed_at(4, *args)
     assert run(folder).exit_code == 0
     whole = tree(folder / "out")
     cut = tree(folder / "cut")

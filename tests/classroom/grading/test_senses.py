@@ -114,39 +114,22 @@ forward
 NO_SLIDING = "left\nstânga\norar\ncw\nclockwise\ntrigonometric\nînainte înapoi\nforward (−)"
 
 
-def each(text: str) -> list[str]:
-    """The lines of a text."""
-    return text.splitlines()
+WRITTEN = (
+    (LEFT_ABOUT, True, 1),
+    (RIGHT_ABOUT, True, -1),
+    (ALONG, False, 1),
+    (AGAINST, False, -1),
+    (NO_TURNING, True, None),
+    (NO_SLIDING, False, None),
+)
+"""Texts, whether they tell a turning, and its sign: counter-clockwise, along the guide is +."""
 
 
-@pytest.mark.parametrize("text", each(LEFT_ABOUT))
-def test_counter_clockwise_is_positive(text):
-    assert sense_of(text, turning=True) == 1
-
-
-@pytest.mark.parametrize("text", each(RIGHT_ABOUT))
-def test_clockwise_is_negative(text):
-    assert sense_of(text, turning=True) == -1
-
-
-@pytest.mark.parametrize("text", each(ALONG))
-def test_along_the_guide_is_positive(text):
-    assert sense_of(text, turning=False) == 1
-
-
-@pytest.mark.parametrize("text", each(AGAINST))
-def test_against_the_guide_is_negative(text):
-    assert sense_of(text, turning=False) == -1
-
-
-@pytest.mark.parametrize("text", each(NO_TURNING))
-def test_what_says_no_turning_is_none(text):
-    assert sense_of(text, turning=True) is None
-
-
-@pytest.mark.parametrize("text", each(NO_SLIDING))
-def test_what_says_no_sliding_is_none(text):
-    assert sense_of(text, turning=False) is None
+@pytest.mark.parametrize(("texts", "turning", "sign"), WRITTEN)
+def test_a_sense_has_its_sign_in_whatever_words(texts, turning, sign):
+    assert {text: sense_of(text, turning=turning) for text in texts.splitlines()} == dict.fromkeys(
+        texts.splitlines(), sign
+    )
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -38,13 +38,15 @@ def test_sheets_forms_and_pages_are_those_of_a_whole_class_in_that_language(make
     folder = listed(make, "a")
     printed(folder, "it")
     found = tree(folder / "print")
-    for number, (id_, language) in enumerate(zip(IDS, SPOKEN, strict=True)):
-        plain = make(f"plain-{number}", IDS)
-        printed(plain, language or "it")
-        stem = f"{id_[-1]}-"
-        wanted = own(tree(plain / "print"), stem)
-        assert len(wanted) == 5
-        assert own(found, stem) == wanted
+    for language in ("it", "ro"):
+        plain = make(f"plain-{language}", IDS)
+        printed(plain, language)
+        files = tree(plain / "print")
+        for id_, spoken in zip(IDS, SPOKEN, strict=True):
+            if (spoken or "it") == language:
+                wanted = own(files, stem := f"{id_[-1]}-")
+                assert len(wanted) == 5
+                assert own(found, stem) == wanted
 
 
 def test_a_table_that_cannot_be_read_is_told_before_anything_is_printed(make):

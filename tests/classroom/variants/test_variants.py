@@ -6,13 +6,9 @@ import csv
 import hashlib
 import io
 import json
-import os
 import shutil
-import signal
-import subprocess
 import sys
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -33,6 +29,7 @@ from graphkin.classroom.variants.class_words import class_lines
 from graphkin.classroom.variants.manifest import read_rule, rederived
 from graphkin.cli.main import app
 from graphkin.text.errors import PageError
+from tests.running import killed_at
 
 NUMBERS = Range(Fraction(1), Fraction(30), Fraction(1))
 STUDENTS = [Student(n + 1, f"{n:04d}", n, f"Student {n}", "A") for n in range(1, 31)]
@@ -201,20 +198,6 @@ def test_a_class_that_is_written_again_keeps_its_codes_and_its_bytes(written, ro
     assert {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()} == before
 
 
-DIES = """
-import os, pathlib, signal, sys
-rename, left = pathlib.Path.replace, [2]
-def dying(path, target):
-    left[0] -= 1
-    if not left[0]:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return rename(path, target)
-pathlib.Path.replace = dying
-from graphkin.cli.main import app
-app(sys.argv[1:])
-"""
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
 def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp_path, roster):
     """The table is new and the manifest old; print and grade take neither for the other."""
@@ -222,10 +205,7 @@ def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp
     other.write_text("number;id;limba\n3;0003;it\n", encoding="utf-8")
     assert run("variants", "pump", roster, "-o", folder).exit_code == 1
     args = ["variants", "pump", other, "-o", folder, "--force"]
-    command = [sys.executable, "-c", DIES, *map(str, args)]
-    around = {**os.environ, "PYTHONPATH": str(Path(__file__).resolve().parents[3])}
-    killed = subprocess.run(command, env=around, capture_output=True, check=False)
-    assert killed.returncode == -signal.SIGKILL
+    killed_at(2, *args)
     assert list(folder.rglob("*.part"))
     for command in (("print", folder), ("grade", folder, other)):
         refused = run(*command)
