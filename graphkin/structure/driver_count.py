@@ -26,7 +26,14 @@ from graphkin.structure.groups import (
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.pairs import Pin, all_pairs, sharers
 from graphkin.structure.touching_wheels import keeper_hint
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import (
+    Change,
+    DriverAdded,
+    DriverTaken,
+    PointRenamed,
+    Problem,
+    StructureError,
+)
 
 
 class Count(Struct, frozen=True):
@@ -138,23 +145,36 @@ def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Pro
     else:
         leaves += " freedom" if freedoms == 1 else " freedoms"
     if freedoms > drivers:
-        hint = too_few_hint(scene)
+        hint, changes = too_few_hint(scene)
     else:
         hint = too_many_hint(scene, freedoms, certain=true is not None)
+        changes = too_many_changes(scene, freedoms)
     found = f"{drivers} given, but {leaves}"
-    return Problem("drivers", found, "as many drivers as freedoms", hint)
+    return Problem("drivers", found, "as many drivers as freedoms", hint, changes)
 
 
-def too_few_hint(scene: Scene) -> str:
-    """A driver to add, or what seems to be missing."""
+def too_few_hint(scene: Scene) -> tuple[str, tuple[Change, ...]]:
+    """A driver to add, or what seems to be missing, and the change that it names."""
     loose, alike = lone_points(scene), alike_points(scene)
-    if loose:
-        lone = f"only one link has the points {', '.join(loose)}"
-        return f"add a driver, or a pin is missing: {'; '.join(filter(None, (lone, alike)))}"
-    if alike:
-        return f"add a driver, or a pin is missing: {alike}"
+    changes: tuple[Change, ...] = () if alike is None else (alike,)
+    if loose or changes:
+        told = [f"only one link has the points {', '.join(loose)}"] if loose else []
+        if alike is not None:
+            told.append(f"did you mean {alike.new} where link {alike.link} has {alike.old}?")
+        return f"add a driver, or a pin is missing: {'; '.join(told)}", changes
     free = drivable(scene)
-    return f"add a driver, such as turn = {quoted(free[0])}" if free else "add a driver"
+    if not free:
+        return "add a driver", ()
+    line = f"turn = {quoted(free[0])}"
+    return f"add a driver, such as {line}", (DriverAdded(line),)
+
+
+def too_many_changes(scene: Scene, freedoms: int) -> tuple[Change, ...]:
+    """The driver to take away, where it is clear which one."""
+    drivers = spare_drivers(scene) or scene.drivers
+    if freedoms <= 0 or not len(scene.drivers) - freedoms == len(drivers) == 1:
+        return ()
+    return (DriverTaken(drivers[0].kind, quoted(drivers[0].link)),)
 
 
 def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
@@ -299,8 +319,8 @@ def lone_points(scene: Scene) -> list[str]:
     ]
 
 
-def alike_points(scene: Scene) -> str:
-    """A question about a point of one moving link whose name seems to be another's, misspelt.
+def alike_points(scene: Scene) -> PointRenamed | None:
+    """A point of one moving link whose name seems to be another's, misspelt, under that.
 
     One is the other with a letter or a digit more, which that link does not have.
     """
@@ -311,8 +331,8 @@ def alike_points(scene: Scene) -> str:
         others = [p for p in (*lone, *owners) if p not in scene.link(own).points]
         near = [p for p in others if begins(p, point) or begins(point, p)]
         if own != FRAME and near:
-            return f"did you mean {near[0]} where link {own} has {point}?"
-    return ""
+            return PointRenamed(own, point, near[0])
+    return None
 
 
 def begins(short: str, long: str) -> bool:
