@@ -23,9 +23,10 @@ class Findings:
         expected: str = "",
         hint: Hint = "",
         changes: tuple[Change, ...] = (),
+        about: tuple[tuple[str, ...], ...] = (),
     ) -> None:
         """Note one problem."""
-        self.extend([Problem(place, found, expected, hint, changes)])
+        self.extend([Problem(place, found, expected, hint, changes, about)])
 
     def extend(self, problems: Iterable[Problem]) -> None:
         """Note problems that were not noted before; with more than an error carries, stop."""

@@ -120,8 +120,8 @@ def check_version(top: Table, findings: Findings) -> None:
     version = top.take("graphkin")
     if version is None:
         found = "the version of the format is missing"
-        line = f"graphkin = {FORMAT}"
-        findings.add("", found, f"the first line {line}", changes=(FirstLine(line),))
+        line = FirstLine(f"graphkin = {FORMAT}")
+        findings.add("", found, f"the first line graphkin = {FORMAT}", changes=(line,))
     elif isinstance(version, bool) or not isinstance(version, int) or version < 1:
         findings.add("", f"graphkin = {shown(version)}", f"graphkin = {FORMAT}")
     elif version > FORMAT:

@@ -69,13 +69,17 @@ Change = Written | TakenOut | FirstLine | DriverAdded | DriverTaken | PointRenam
 
 
 class Problem(Struct, frozen=True):
-    """One thing wrong at one place, in words that help to mend it, and the changes that would."""
+    """One thing wrong at one place, in words that help to mend it, and the changes that would.
+
+    ``about`` are the keys, with their tables, that it is about if that is not its place.
+    """
 
     place: str
     found: str
     expected: str = ""
     hint: Hint = ""
     changes: tuple[Change, ...] = ()
+    about: tuple[tuple[str, ...], ...] = ()
 
     def __str__(self) -> str:
         """Read as one sentence: place: found; expected …; hint."""
@@ -124,3 +128,7 @@ class PageError(GraphkinError):
 
 class FileError(PageError):
     """A file cannot be written where it was to be."""
+
+
+class RosterError(GraphkinError):
+    """A class list or a table of answers cannot be read; every problem has its row and column."""
