@@ -25,7 +25,7 @@ from graphkin.classroom.grading.answer_numbers import (
 from graphkin.classroom.lab.items import items as fields_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import advice, why
-from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS
+from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS, VECTORS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import part
@@ -127,10 +127,10 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
 
 
 def sheet_of(item: Item) -> str:
-    """The sheet off which an item is read; for an arrow the one that its letter names."""
-    if item.quantity in BY_TARGET:
+    """The sheet off which an item is read; for an arrow that of its plan."""
+    if item.vector is None:
         return BY_TARGET[item.quantity].kind
-    return "velocity" if item.of.startswith("v") else "acceleration"
+    return next(each.kind for each in VECTORS if each.letter == item.vector.letter)
 
 
 def kind_of(item: Item) -> tuple[str, str]:

@@ -83,5 +83,5 @@ def set_on_mechanism(pen: Pen, kind: AskedQuantity, point: str) -> None:
     """The absolute velocity or acceleration of a point, set on the mechanism."""
     ends = pen.the("position", point), pen.pole(kind.plane), pen.the(kind.quantity, point)
     with pen.on(kind.part, Plane.MECHANISM):
-        symbol = f"{kind.sign}_{letter(point)}"
-        pen.vector(kind.action, *ends, pen.seconds(), of=PlanVector(symbol))
+        vector = PlanVector(kind.sign, letter(point))
+        pen.vector(kind.action, *ends, pen.seconds(), of=vector)

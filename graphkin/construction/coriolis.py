@@ -499,6 +499,6 @@ def end_of(pen: Pen, start: int, vector: int, *, back: bool = False) -> int:
     name, ends = component.name, (corner, start) if back else (start, corner)
     if name not in pen.arrows:
         sign, foot = component.sign, foot_of(component.sign, component.index)
-        arrow = PlanVector(name, component.point, sign=sign, foot=foot, back=back)
+        arrow = PlanVector("a", component.index, component.point, sign=sign, foot=foot, back=back)
         pen.vector(join, *ends, of=arrow)
     return corner

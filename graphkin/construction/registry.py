@@ -17,10 +17,9 @@ from graphkin.construction.normal_component.normal_component import (
     NormalComponent,
     with_normals_together,
 )
-from graphkin.construction.rolling.contact_points import of_contacts
+from graphkin.construction.rolling.contact_points import TOUCHING, TouchingEffect, of_contacts
 from graphkin.construction.rolling.kutzbach import BEGINNING, PLAN, with_ladder_together
 from graphkin.construction.rolling.rolling_normal import RollingNormal
-from graphkin.construction.rolling.touching import TOUCHING, TouchingEffect
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
 """The components of accelerations that follow from velocities."""

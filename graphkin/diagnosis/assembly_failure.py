@@ -22,7 +22,7 @@ from graphkin.diagnosis.singularity_words import closed_by, in_line
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS, shortest
-from graphkin.text.errors import ClosureError, Problem
+from graphkin.text.errors import ClosureError, Problem, Written
 
 TOUCH = 1e-9
 """Share of its loci by which a crossing is missed beside a dead point."""
@@ -133,6 +133,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
         f"links {links} close in {ways} here, closure {error.asked} is asked",
         '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
         "graphkin check lists them" + elsewhere,
+        tuple(Written(f'"closure {n}"') for n in range(1, error.ways + 1)),
     )
 
 

@@ -65,6 +65,16 @@ def sources(board: FieldContent) -> Iterator[Source]:
     yield from (Source(at, CROWDED) for at in board.crowds)
 
 
+class FieldMarks(NamedTuple):
+    """The marks of a finished field, apart from these its details, and how many times each of them
+    enlarges.
+    """
+
+    marks: list[Mark]
+    details: list[Mark]
+    times: list[int]
+
+
 class Detail(NamedTuple):
     """What a detail shows: the board that it belongs to, its source, and a board with the part
     enlarged, aside of the page.
@@ -77,10 +87,10 @@ class Detail(NamedTuple):
 
 def with_detail(*boards: FieldContent) -> list[Mark]:
     """Finished fields, with detail circles for very short vectors where there is room for them."""
-    return [mark for marks, detail in parted(*boards) for mark in (*marks, *detail)]
+    return [mark for each in parted(*boards) for mark in (*each.marks, *each.details)]
 
 
-def parted(*boards: FieldContent) -> list[tuple[list[Mark], list[Mark]]]:
+def parted(*boards: FieldContent) -> list[FieldMarks]:
     """Finished fields, and apart from each its detail circles; no marks where there is none."""
     found = [(board, source) for board in boards for source in sources(board)]
     details = [
@@ -90,12 +100,14 @@ def parted(*boards: FieldContent) -> list[tuple[list[Mark], list[Mark]]]:
     for board, source in found:
         board.marks.append(source.circle())
     every, places = finished(boards, [detail.board for detail in details])
-    fields = [(marks, list[Mark]()) for marks in every]
+    fields = [FieldMarks(marks, [], []) for marks in every]
     for detail, spots in zip(details, places, strict=True):
-        marks, shown = fields[[board is detail.of for board in boards].index(True)]
+        marks, shown, times = fields[[board is detail.of for board in boards].index(True)]
         more = put_in_disc([*marks, *shown], detail, spots)
         shown += more
-        if not more:
+        if more:
+            times.append(detail.source.times)
+        else:
             marks.remove(detail.source.circle())
     return fields
 
@@ -127,7 +139,12 @@ def pointing(disc: FreeDisc, source: Source) -> Iterator[Mark]:
         end = disc.at[0] - RADIUS * u, disc.at[1] - RADIUS * v
         yield LineMark(x + small * u, y + small * v, *end, "detail")
     beneath = disc.at[1] + RADIUS + 3.6 if v > 0 else disc.at[1] - RADIUS - 1.1
-    yield Text(disc.at[0], beneath, f"{source.times}:1", "caption", 2.5, "middle")
+    yield Text(disc.at[0], beneath, scale_words(source.times), "caption", 2.5, "middle")
+
+
+def scale_words(times: int) -> str:
+    """How many times a detail enlarges, as its scale."""
+    return f"{times}:1"
 
 
 def enlarged_part(board: FieldContent, source: Source, at: XY) -> FieldContent:

@@ -40,7 +40,7 @@ from graphkin.drawing.areas import A3_AREA, AREA, BELOW, SCHEME, TABLES
 from graphkin.drawing.bare_stretches import at_bare_stretches
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.labels import FieldContent, FootNote
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach
 from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
@@ -99,7 +99,7 @@ def sheet(
     """One A3 page of a sheet: the key with everything, or the task with nothing given away."""
     written = written or writing(drawing, view)
     layout = lowered(layout or lay_out(drawing), written.more)
-    (left, detail), (right, other) = parted(*boards(drawing, layout, view))
+    (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, view))
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
         detail += mechanism_signs(drawing, layout.mechanism, [*left, *detail])
@@ -289,7 +289,7 @@ def boards(
         both[0].labels = [x for x in both[0].labels if x not in both[0].dispensable]
     if view == "key" and not said and has_many_auxiliary(drawing):
         both[1].labels = [*without_auxiliary(drawing, both[1].labels)]
-        both[1].notes.append(drawing.words("page.trials_moved"))
+        both[1].notes.append(FootNote(drawing.words("page.trials_moved")))
     return both
 
 

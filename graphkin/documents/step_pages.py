@@ -47,7 +47,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     layout = lowered(lay_out(drawing), more)
     said = sentences(drawing)
     staged = stages(drawing, said)
-    (left, detail), (right, other) = parted(*boards(drawing, layout, "key", said))
+    (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, "key", said))
     telling = when_told(drawing, staged)
     given = 0 if drawing.again else BEFORE
     field = layout.mechanism

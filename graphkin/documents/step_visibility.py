@@ -13,13 +13,11 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.step_numbers import stage_of
 from graphkin.drawing.field import Field
+from graphkin.drawing.labels import BETWEEN, NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.style import NOW
 from graphkin.drawing.symbol_markup import symbol
-
-AMONG = "; "
-"""What stands between the notes at the foot of a field."""
 
 
 def appearing(
@@ -72,12 +70,14 @@ def grown(
     """
     subjects = {mark.step: mark.cx for _, mark in timed if isinstance(mark, CircleMark)}
     subjects |= {m.step: m.x1 for _, m in timed if isinstance(m, LineMark) and is_leader(m)}
-    keys = {m.markup: at for at, m in timed if isinstance(m, Text) and m.markup.endswith(")")}
+    texts = [(at, mark) for at, mark in timed if isinstance(mark, Text)]
+    explained = {part.name for _, mark in texts if mark.name == NOTE for part in mark.letters}
+    keys = {mark.markup: at for at, mark in texts if mark.markup in explained - {""}}
     for appears, mark in timed:
         if isinstance(mark, Text) and len(mark.letters) > 1 and mark.step is not None:
             stages = [telling[letter.name] for letter in mark.letters]
             yield from shared(mark, stage, stages, subjects[mark.step])
-        elif isinstance(mark, Text) and mark.name == "note" and stage < appears:
+        elif isinstance(mark, Text) and mark.name == NOTE and stage < appears:
             yield from noted(mark, stage, {**telling, **keys})
         elif appears <= stage:
             yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
@@ -106,15 +106,11 @@ def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Ite
 
 def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
     """Of the notes in a line at the foot those of vectors and key numbers that stand already."""
-    parts = mark.markup.removesuffix(";").split(AMONG)
-    stands = [telling.get(of_note(part), stage + 1) <= stage for part in parts]
+    parts = mark.letters
+    stands = [telling.get(part.name, stage + 1) <= stage for part in parts]
     for i, part in enumerate(parts):
         if stands[i]:
-            before = extent(AMONG.join(parts[: i + 1]), mark.height)[0]
-            ended = part + AMONG.rstrip() if any(stands[i + 1 :]) else part
-            yield replace(mark, x=mark.x + before - extent(part, mark.height)[0], markup=ended)
-
-
-def of_note(part: str) -> str:
-    """The symbol of a vector, or the key number, that a note begins with."""
-    return part.partition(" ")[0].removesuffix(":")
+            before = extent("".join(each.joined for each in parts[: i + 1]), mark.height)[0]
+            ended = part.markup + BETWEEN.rstrip() if any(stands[i + 1 :]) else part.markup
+            aside = before - extent(part.markup, mark.height)[0]
+            yield replace(mark, x=mark.x + aside, markup=ended)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import groupby
+from typing import NamedTuple
 
 import numpy as np
 from msgspec import Struct, field
@@ -15,9 +17,9 @@ from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import LED, SMALL, Label
 from graphkin.drawing.leaders import strong_lines, with_leaders
-from graphkin.drawing.marks import Mark, Text, reach
+from graphkin.drawing.marks import Mark, SharedLetter, Text, reach
 from graphkin.drawing.placement import HOPELESS, Spot, place
-from graphkin.drawing.richtext import extent, flowed, plain, words_of
+from graphkin.drawing.richtext import extent, flowed_pieces, plain, words_of
 from graphkin.drawing.shapes import Array, Box
 from graphkin.drawing.style import OWN_LINES
 from graphkin.text.errors import PageError, Problem
@@ -42,8 +44,19 @@ HELPERS = ("construction", OWN_LINES)
 """Classes of letters that a drawing can do without where there is no room for them."""
 
 
+NOTE = "note"
+"""The name of the lines at the foot of a field."""
+BETWEEN = "; "
+"""What stands between the notes at the foot of a field."""
 EDGE = 0.3
 """How far labels stay inside their field, in mm."""
+
+
+class FootNote(Struct, frozen=True):
+    """What is said at the foot of a field, ``of`` a symbol, or of a key number, in its markup."""
+
+    markup: str
+    of: str = ""
 
 
 class FieldContent(Struct):
@@ -59,7 +72,7 @@ class FieldContent(Struct):
     marks: list[Mark] = field(default_factory=list)
     labels: list[Label] = field(default_factory=list)
     taken: list[Rect] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    notes: list[FootNote] = field(default_factory=list)
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
     crowds: list[XY] = field(default_factory=list)
@@ -85,7 +98,7 @@ class FieldContent(Struct):
         of vectors, and a note says which. Raises PageError when another label finds no place even
         so. Where more than HOPELESS find none, key numbers would not help either.
         """
-        meanings: list[str] = []
+        meanings: list[FootNote] = []
         wished = list(self.labels)
         foot = made[0] if made else self.footed(self.notes)
         spots = made[1] if made else self.spots(foot)
@@ -144,7 +157,7 @@ class FieldContent(Struct):
             self.labels[i] = replace(self.labels[i], led=False)
         return bool(blocked)
 
-    def shorten(self, free: Sequence[bool], meanings: list[str]) -> None:
+    def shorten(self, free: Sequence[bool], meanings: list[FootNote]) -> None:
         """Make crowded triangles' letters smaller, all at one pin, and give others key numbers.
 
         What key numbers mean is for the foot of the field.
@@ -155,8 +168,8 @@ class FieldContent(Struct):
             if label.shrinks and label.name[:1] in letters:
                 self.labels[i] = replace(label, height=SMALL)
             elif i in crowded and label.priority < KEY:
-                meanings.append(f"{len(meanings) + 1}) {label.markup}")
-                key = f"{len(meanings)})"
+                key = f"{len(meanings) + 1})"
+                meanings.append(FootNote(f"{key} {label.markup}", key))
                 self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY, letters=())
 
     def spots_of_new(
@@ -180,7 +193,7 @@ class FieldContent(Struct):
             return []
         return [spot for _, spot in sorted((kept | found).items())]
 
-    def footed(self, notes: Sequence[str]) -> list[Mark]:
+    def footed(self, notes: Sequence[FootNote]) -> list[Mark]:
         """Notes at the foot of the field, where they cross the fewest lines.
 
         Where whole lines would stand on something drawn, shorter ones beside it are tried.
@@ -194,7 +207,7 @@ class FieldContent(Struct):
             if (most := self.most_notes) < len(lines):
                 if found:
                     break
-                lines = [*lines[: most - 1], LEFT_OUT]
+                lines = [*lines[: most - 1], NoteLine(LEFT_OUT)]
             places = [*self.foot_places(lines)]
             found += zip(self.lines_crossed(places), places, strict=True)
             if not (fewest := min(crossed for crossed, _ in found)):
@@ -207,14 +220,18 @@ class FieldContent(Struct):
         crossed = shapes.met(boxes, shapes.segments(pieces_of(self.marks)))
         return [int(of_one) for of_one in crossed.reshape(len(places), -1).sum(axis=1)]
 
-    def foot_places(self, lines: Sequence[str]) -> Iterator[list[Text]]:
+    def foot_places(self, lines: Sequence[NoteLine]) -> Iterator[list[Text]]:
         """The places, from left to right, in which lines may stand at the foot of the field."""
         y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
-        widest = max(extent(line, 2.5)[0] for line in lines)
+        widest = max(extent(line.markup, 2.5)[0] for line in lines)
         room = self.rect[2] - self.rect[0] - 6 - widest
         for away in range(0, max(1, int(room)), ASIDE):
             yield [
-                Text(self.rect[0] + 3 + away, y + LEADING * i, line, "caption", 2.5, name="note")
+                Text(
+                    *(self.rect[0] + 3 + away, y + LEADING * i, line.markup, "caption", 2.5),
+                    name=NOTE,
+                    letters=line.parts,
+                )
                 for i, line in enumerate(lines)
             ]
 
@@ -232,17 +249,38 @@ class FieldContent(Struct):
         return pieces_of(marks), boxes
 
 
-def foot_overflows(board: FieldContent, notes: Sequence[str]) -> bool:
+def foot_overflows(board: FieldContent, notes: Sequence[FootNote]) -> bool:
     """Whether notes take up more of a board than its foot may."""
     return len(note_lines(notes, board.rect[2] - board.rect[0] - 6)) > board.most_notes
 
 
-def note_lines(notes: Sequence[str], width: float) -> list[str]:
+class NoteLine(NamedTuple):
+    """A line at the foot of a field, and what of each of its notes stands in it."""
+
+    markup: str
+    parts: tuple[SharedLetter, ...] = ()
+
+
+def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
     """Notes in lines of a width in mm, cut between notes if that will do, else between words."""
-    lines = flowed(notes, "; ", width, 2.5)
-    if max((extent(line, 2.5)[0] for line in lines), default=0.0) > width:
-        lines = flowed(words_of("; ".join(notes)), " ", width, 2.5)
-    return lines
+    lines = flowed_pieces([note.markup for note in notes], BETWEEN, width, 2.5)
+    if max((extent(line, 2.5)[0] for line, _ in lines), default=0.0) <= width:
+        owners, pieces = [*range(len(notes))], [note.markup for note in notes]
+    else:
+        ended = [f"{note.markup}{BETWEEN.rstrip()}" for note in notes[:-1]] + [notes[-1].markup]
+        told = [(i, word) for i, said in enumerate(ended) for word in words_of(said)]
+        owners, pieces = [i for i, _ in told], [word for _, word in told]
+        lines = flowed_pieces(pieces, " ", width, 2.5)
+    return [NoteLine(line, tuple(parts(notes, owners, pieces, held))) for line, held in lines]
+
+
+def parts(
+    notes: Sequence[FootNote], owners: Sequence[int], pieces: Sequence[str], held: Sequence[int]
+) -> Iterator[SharedLetter]:
+    """What of each note stands in a line that holds some pieces, by what the note is of."""
+    for nth, (owner, run) in enumerate(groupby(held, lambda k: owners[k])):
+        said = " ".join(pieces[k] for k in run).removesuffix(BETWEEN.rstrip())
+        yield SharedLetter(notes[owner].of, said, BETWEEN if nth else "")
 
 
 def free_ones(board: FieldContent, spots: Sequence[Spot]) -> list[Mark]:
@@ -283,7 +321,7 @@ def near(box: Rect, x: float, y: float) -> bool:
 
 
 def by_need(
-    board: FieldContent, wished: Sequence[Label], meanings: Sequence[str]
+    board: FieldContent, wished: Sequence[Label], meanings: Sequence[FootNote]
 ) -> tuple[list[Mark], list[Spot]]:
     """Place letters of points and numbers first, then names of vectors, helping letters last.
 
@@ -312,7 +350,7 @@ def must_be_named(label: Label) -> bool:
 
 
 def in_turn(
-    board: FieldContent, notes: Sequence[str], noted: Sequence[Label] = ()
+    board: FieldContent, notes: Sequence[FootNote], noted: Sequence[Label] = ()
 ) -> tuple[list[Mark], list[Spot]]:
     """Place what must be named before what may be left out.
 
@@ -327,9 +365,9 @@ def in_turn(
     left_out: list[int] = []
     while True:
         names = ", ".join(dict.fromkeys((noted or labels)[i].markup for i in left_out))
-        unused = tuple(f"{labels[i].markup} " for i in left_out)
-        said = [note for note in notes if not noted or not note.startswith(unused)]
-        foot = board.footed([*said, *([f"{board.unnamed} {names}"] if names else [])])
+        unused = {labels[i].markup for i in left_out} if noted else set[str]()
+        said = [note for note in notes if note.of not in unused]
+        foot = board.footed([*said, *([FootNote(f"{board.unnamed} {names}")] if names else [])])
         found: dict[int, Spot] = {}
         wanted = [[i for i in which if i not in left_out] for which in (first, vectors)]
         for which in (*wanted, helpers):

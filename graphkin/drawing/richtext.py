@@ -220,22 +220,30 @@ def narrow_words(markup: str, width: float, height: float) -> list[str]:
 
 def flowed(pieces: Sequence[str], mark: str, width: float, height: float) -> list[str]:
     """Pieces of markup joined by a mark into lines no wider than a width in mm."""
-    lines: list[str] = []
+    return [line for line, _ in flowed_pieces(pieces, mark, width, height)]
+
+
+def flowed_pieces(
+    pieces: Sequence[str], mark: str, width: float, height: float
+) -> list[tuple[str, list[int]]]:
+    """The same lines, each with the numbers of its pieces."""
+    lines: list[tuple[str, list[int]]] = []
     blank = laid(" ", height)[1]
     reached: float | None = None  # how far the last line goes, where that is known
     for i, piece in enumerate(pieces):
         text = piece + (mark.rstrip() if i < len(pieces) - 1 else "")
         alone = width_alone(text, height)
         if lines:
-            longer = f"{lines[-1]} {text}"
+            before, held = lines[-1]
+            longer = f"{before} {text}"
             if reached is None or alone is None:
                 end = extent(longer, height)[0]
             else:
                 end = reached + blank + alone
             if end <= width:
-                lines[-1], reached = longer, end
+                lines[-1], reached = (longer, [*held, i]), end
                 continue
-        lines.append(text)
+        lines.append((text, [i]))
         reached = alone
     return lines
 

@@ -112,5 +112,5 @@ def cell(probe: Probe, places: Mapping[int, tuple[str, complex | None]]) -> str:
         return ""
     way = last - first
     if probe.item.what == "place":
-        return f"{-way.imag if probe.item.field.endswith('_y_mm') else way.real:.2f}"
+        return f"{-way.imag if probe.item.axis == 'y' else way.real:.2f}"
     return f"{abs(way):.2f}"

@@ -20,8 +20,9 @@ from graphkin.scene.link_names import check_names
 from graphkin.scene.model import FRAME, LEADING, At, Branch, Driver, Link, Scene, Side, Way
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import check_profiles
+from graphkin.scene.requests import ANY_LINK
 from graphkin.scene.wheels import check_centres, check_driven, check_tracks
-from graphkin.text.errors import SceneError
+from graphkin.text.errors import SceneError, Written
 
 
 def check_scene(scene: Scene, findings: Findings) -> None:
@@ -124,10 +125,9 @@ def check_branches(scene: Scene, findings: Findings) -> None:
             findings.add(place, f"{name} is no point or link", listed(known), nearest(name, known))
         elif isinstance(branch, Side):
             if name not in points:
-                expected = '"forward", "backward", "closure 1"'
-                findings.add(
-                    place, f"a side for link {name}", expected, side_hint(scene, name, branch)
-                )
+                expected = ", ".join(each.value for each in ANY_LINK)
+                hint = side_hint(scene, name, branch)
+                findings.add(place, f"a side for link {name}", expected, hint, ANY_LINK)
             for point in (branch.first, branch.second):
                 known_point(point, points, "the mechanism", place, findings)
             if name in (branch.first, branch.second):
@@ -215,18 +215,20 @@ def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
                 f"{shared[0]}: it cannot move against it"
             )
             where = f"{numbered(place, index, len(link.slides))}.on"
-            findings.add(where, found, f"a link that does not have {shared[0]}", meant(scene, link))
+            expected, on = f"a link that does not have {shared[0]}", meant(scene, link)
+            hint = f"did you mean on = {on}?" if on else ""
+            findings.add(where, found, expected, hint, (Written(on),) if on else ())
 
 
 def meant(scene: Scene, block: Link) -> str:
-    """A hint with the one link that hangs by a single pin, and so may lack this guide."""
+    """The one link that hangs by a single pin, and so may lack this guide, as a text writes it."""
     shut = {slide.on for slide in block.slides}
     loose = [
         name
         for name, link in scene.links.items()
         if link is not block and name not in shut and hangs(scene, link)
     ]
-    return f"did you mean on = {quoted(loose[0])}?" if len(loose) == 1 else ""
+    return quoted(loose[0]) if len(loose) == 1 else ""
 
 
 def hangs(scene: Scene, link: Link) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.text.errors import MOST, Hint, Mend, Problem, SceneError
+from graphkin.text.errors import MOST, Change, Hint, Mend, Problem, SceneError
 
 LISTED = 12
 
@@ -16,9 +16,17 @@ class Findings:
         self.problems: list[Problem] = []
         self.known: dict[str, list[str]] = {}
 
-    def add(self, place: str, found: str, expected: str = "", hint: Hint = "") -> None:
+    def add(
+        self,
+        place: str,
+        found: str,
+        expected: str = "",
+        hint: Hint = "",
+        changes: tuple[Change, ...] = (),
+        about: tuple[tuple[str, ...], ...] = (),
+    ) -> None:
         """Note one problem."""
-        self.extend([Problem(place, found, expected, hint)])
+        self.extend([Problem(place, found, expected, hint, changes, about)])
 
     def extend(self, problems: Iterable[Problem]) -> None:
         """Note problems that were not noted before; with more than an error carries, stop."""

@@ -13,7 +13,7 @@ def ends_of(name: str) -> tuple[str, str]:
 
 
 def under(point: str, link: str) -> str:
-    """The name of the point of a link under another point, of contact where that is."""
+    """The name, of the same kind, of the point of a link under another point."""
     return type(point)(f"{point}{SIGN}{link}")
 
 

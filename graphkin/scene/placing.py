@@ -279,7 +279,8 @@ class TriangleLayout:
         beyond = {f"{a}-{c}": f"beyond {b} on", f"{b}-{c}": f"beyond {a} on"}.get(name, "on")
         hint = f'if {c} lies on the line, write {c} = "{beyond} {a}-{b}" with one of its lengths'
         key = placing.from_second.place.rpartition(".")[0]
-        self.findings.add(f"{key}.{c}", found, expected, hint)
+        longest_key = (*key.split("."), name)
+        self.findings.add(f"{key}.{c}", found, expected, hint, about=(longest_key,))
 
     def along(self, placing: OnLine, between: Between) -> complex:
         """A point on a line, within its two points or beyond one of them."""

@@ -24,7 +24,7 @@ from graphkin.scene.read_joints import read_profiles, read_slides
 from graphkin.scene.requests import read_ask, read_branches, read_languages, read_sheet
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
 from graphkin.text import paths
-from graphkin.text.errors import GraphkinError, Mend, Problem, SceneError
+from graphkin.text.errors import FirstLine, GraphkinError, Mend, Problem, SceneError
 from graphkin.text.hooks import service
 
 FORMAT = 1
@@ -120,7 +120,8 @@ def check_version(top: Table, findings: Findings) -> None:
     version = top.take("graphkin")
     if version is None:
         found = "the version of the format is missing"
-        findings.add("", found, f"the first line graphkin = {FORMAT}")
+        line = FirstLine(f"graphkin = {FORMAT}")
+        findings.add("", found, f"the first line graphkin = {FORMAT}", changes=(line,))
     elif isinstance(version, bool) or not isinstance(version, int) or version < 1:
         findings.add("", f"graphkin = {shown(version)}", f"graphkin = {FORMAT}")
     elif version > FORMAT:

@@ -14,6 +14,7 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
 from graphkin.scene.phrases import asked_point, branch_hint, branch_words, link_name, point_name
 from graphkin.scene.quantity import Quantity, exact
+from graphkin.text.errors import Written
 
 LANGUAGES = ("en", "it", "ro")
 POINTS_ASKED = ("velocity", "acceleration")
@@ -27,6 +28,8 @@ LINKS_ASKED = tuple(
 ALL = "all"
 """Asks for the relative centres of all links."""
 BRANCH_WORDS = '"left of P-Q", "right of P-Q", "forward", "backward" or "closure 1"'
+ANY_LINK = tuple(map(Written, ('"forward"', '"backward"', '"closure 1"')))
+"""The branches that need no names."""
 KLEIN = "klein"
 METHODS = ("triangles", KLEIN)
 """What gives the components of accelerations."""
@@ -43,7 +46,7 @@ def read_branches(table: Table, findings: Findings) -> dict[str, Branch]:
         branch = branch_words(raw) if isinstance(raw, str) else None
         name = link_name(table.at(key), key, findings)
         if branch is None:
-            findings.add(table.at(key), shown(raw), BRANCH_WORDS, branch_hint(raw))
+            findings.add(table.at(key), shown(raw), BRANCH_WORDS, branch_hint(raw), ANY_LINK)
         elif name == FRAME:
             findings.add(
                 table.at(key), "a branch of the frame, which is at rest", "a pin or a link"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
+from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -26,7 +27,14 @@ from graphkin.structure.groups import (
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.pairs import Pin, all_pairs, sharers
 from graphkin.structure.touching_wheels import keeper_hint
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import (
+    Change,
+    DriverAdded,
+    DriverTaken,
+    PointRenamed,
+    Problem,
+    StructureError,
+)
 
 
 class Count(Struct, frozen=True):
@@ -137,24 +145,39 @@ def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Pro
         leaves = f"{by} leaves {freedoms} ({leaves})"
     else:
         leaves += " freedom" if freedoms == 1 else " freedoms"
+    about: tuple[tuple[str, ...], ...] = ()
     if freedoms > drivers:
-        hint = too_few_hint(scene)
+        hint, changes = too_few_hint(scene)
+        about = tuple(each.path for each in lone_points(scene)[:1])
     else:
         hint = too_many_hint(scene, freedoms, certain=true is not None)
+        changes = too_many_changes(scene, freedoms)
     found = f"{drivers} given, but {leaves}"
-    return Problem("drivers", found, "as many drivers as freedoms", hint)
+    return Problem("drivers", found, "as many drivers as freedoms", hint, changes, about)
 
 
-def too_few_hint(scene: Scene) -> str:
-    """A driver to add, or what seems to be missing."""
-    loose, alike = lone_points(scene), alike_points(scene)
-    if loose:
-        lone = f"only one link has the points {', '.join(loose)}"
-        return f"add a driver, or a pin is missing: {'; '.join(filter(None, (lone, alike)))}"
-    if alike:
-        return f"add a driver, or a pin is missing: {alike}"
+def too_few_hint(scene: Scene) -> tuple[str, tuple[Change, ...]]:
+    """A driver to add, or what seems to be missing, and the change that it names."""
+    loose, alike = [each.words for each in lone_points(scene)], alike_points(scene)
+    changes: tuple[Change, ...] = () if alike is None else (alike,)
+    if loose or changes:
+        told = [f"only one link has the points {', '.join(loose)}"] if loose else []
+        if alike is not None:
+            told.append(f"did you mean {alike.new} where link {alike.link} has {alike.old}?")
+        return f"add a driver, or a pin is missing: {'; '.join(told)}", changes
     free = drivable(scene)
-    return f"add a driver, such as turn = {quoted(free[0])}" if free else "add a driver"
+    if not free:
+        return "add a driver", ()
+    line = f"turn = {quoted(free[0])}"
+    return f"add a driver, such as {line}", (DriverAdded(line),)
+
+
+def too_many_changes(scene: Scene, freedoms: int) -> tuple[Change, ...]:
+    """The driver to take away, where it is clear which one."""
+    drivers = spare_drivers(scene) or scene.drivers
+    if freedoms <= 0 or not len(scene.drivers) - freedoms == len(drivers) == 1:
+        return ()
+    return (DriverTaken(drivers[0].kind, quoted(drivers[0].link)),)
 
 
 def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
@@ -218,7 +241,8 @@ def follows(scene: Scene) -> bool:
 
 def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Problem:
     """A link closes what is driven already, and others are free."""
-    drivers, lone = len(scene.drivers), ", ".join(lone_points(scene))
+    drivers, points = len(scene.drivers), lone_points(scene)
+    lone = ", ".join(each.words for each in points)
     tie = f"link {ties[0]}" if len(ties) == 1 else f"links {', '.join(ties)}"
     return Problem(
         "drivers",
@@ -229,6 +253,7 @@ def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Proble
         + (f"; or a pin is missing: only one link has the points {lone}" if lone else "")
         + guide_hint(scene, ties, loose)
         + keeper_hint(scene, loose),
+        about=tuple(each.path for each in points[:1]),
     )
 
 
@@ -277,7 +302,24 @@ def drivable(scene: Scene) -> list[str]:
     return list(dict.fromkeys(pinned))
 
 
-def lone_points(scene: Scene) -> list[str]:
+class LonePoint(NamedTuple):
+    """A point that one link alone has."""
+
+    point: str
+    link: str
+
+    @property
+    def words(self) -> str:
+        """It with its link."""
+        return f"{self.point} ({'the frame' if self.link == FRAME else self.link})"
+
+    @property
+    def path(self) -> tuple[str, ...]:
+        """Its key in a scene's text, after the table of its link."""
+        return ("frame", self.point) if self.link == FRAME else ("links", self.link, self.point)
+
+
+def lone_points(scene: Scene) -> list[LonePoint]:
     """The points at which a pin may be missing, each with its link.
 
     They are points of one link alone, of a link that has a single joint and no driver; then also
@@ -293,14 +335,14 @@ def lone_points(scene: Scene) -> list[str]:
     if ends:
         ends.add(FRAME)
     return [
-        f"{point} ({'the frame' if links[0] == FRAME else links[0]})"
+        LonePoint(point, links[0])
         for point, links in owners.items()
         if len(links) == 1 and links[0] in ends and point not in used
     ]
 
 
-def alike_points(scene: Scene) -> str:
-    """A question about a point of one moving link whose name seems to be another's, misspelt.
+def alike_points(scene: Scene) -> PointRenamed | None:
+    """A point of one moving link whose name seems to be another's, misspelt, under that.
 
     One is the other with a letter or a digit more, which that link does not have.
     """
@@ -311,8 +353,8 @@ def alike_points(scene: Scene) -> str:
         others = [p for p in (*lone, *owners) if p not in scene.link(own).points]
         near = [p for p in others if begins(p, point) or begins(point, p)]
         if own != FRAME and near:
-            return f"did you mean {near[0]} where link {own} has {point}?"
-    return ""
+            return PointRenamed(own, point, near[0])
+    return None
 
 
 def begins(short: str, long: str) -> bool:

@@ -8,24 +8,24 @@ from collections.abc import Iterator, Mapping
 from msgspec import Struct
 
 from graphkin.studio.toml_spans import Path, Span, parts, walked
-from graphkin.text.errors import Mend, Problem
+from graphkin.text.errors import (
+    Change,
+    DriverAdded,
+    DriverTaken,
+    FirstLine,
+    Mend,
+    PointRenamed,
+    Problem,
+    TakenOut,
+    Written,
+)
 
 MOST = 4
 """Mends that are offered for one mistake."""
 END_OF_LINE, END_OF_TABLE = re.compile(r"\n"), re.compile(r"\n\s*\[")
 LINE = r"[\w-]+ = (?:\"[^\"{]*\"|-?[\d.]+|true)"
 """A key with its value, as messages write it."""
-BRANCH = re.compile(rf"branches\.({r'[^.]+'})")
-CHOICE = re.compile(r'"(?:left of|right of) (?!P-Q)\S+"|"(?:forward|backward|closure \d+)"')
-CLOSURES = re.compile(r'"closure 1" to "closure (\d+)"')
-INSTEAD = re.compile(rf"(.+) in place of ({LINE})")
-AWAY = re.compile(r"take (\w+ = \S+) away")
-ADDED = re.compile(r"add a driver, such as (\w+ = \S+)")
-MEANT = re.compile(rf"did you mean ({LINE})\?")
-RENAMED = re.compile(r"did you mean (\w+) where link (\w+) has (\w+)\?")
 INTO = re.compile(rf"write ({LINE})")
-FIRST = re.compile(rf"the first line ({LINE})")
-OUT = "take it out"
 
 
 class Edit(Struct, frozen=True):
@@ -53,8 +53,8 @@ def mends_of(problem: Problem, text: str, span: Span | None) -> list[Edit]:
         return [] if own is None else [own]
     walk = walked(text)
     lines = Lines(text, walk.found, walk.values)
-    found = [*lines.branches(problem), *lines.keys(problem), *lines.drivers(problem)]
-    return list(dict.fromkeys(found))[:MOST]
+    made = (edit for change in problem.changes for edit in lines.changed_by(change, problem))
+    return list(dict.fromkeys([*made, *lines.keys(problem)]))[:MOST]
 
 
 def corrected(hint: Mend, text: str, span: Span) -> Edit | None:
@@ -74,80 +74,80 @@ def corrected(hint: Mend, text: str, span: Span) -> Edit | None:
     return Edit(start, stopped, hint.new, before=hint.old)
 
 
+def parted(place: str) -> Path:
+    """The table and the key that a place names; the key alone is taken as it is written."""
+    *table, last = place.split(".") if place else [""]
+    return (*parts(".".join(table)), last)
+
+
 class Lines:
     """A text by its keys, whose lines are written anew, taken out or added."""
 
     def __init__(self, text: str, found: Mapping[Path, Span], values: Mapping[Path, Span]) -> None:
         self.text, self.found, self.values = text, found, values
 
-    def branches(self, problem: Problem) -> Iterator[Edit]:
-        """The branch that is missing or wrong written as each of those that it may be."""
-        place = BRANCH.fullmatch(problem.place)
-        if place is None:
-            return
-        key = place[1]
-        path: Path = ("branches", key)
-        if str(problem.hint).startswith(OUT) and path in self.found:
-            yield self.without(self.found[path])
-            return
-        instead = INSTEAD.fullmatch(problem.expected)
-        most = CLOSURES.fullmatch(problem.expected)
-        said = instead[1] if instead else problem.expected
-        choices = CHOICE.findall(said)
-        if most:
-            choices = [f'"closure {n}"' for n in range(1, int(most[1]) + 1)]
-        for choice in choices:
-            line = f"{key} = {choice}"
-            other = ("branches", instead[2].partition(" = ")[0]) if instead else path
-            if other in self.found:
-                yield self.changed(self.found[other], line)
-            else:
-                yield self.added(("branches",), "branches", line)
+    def changed_by(self, change: Change, problem: Problem) -> Iterator[Edit]:
+        """The edit that makes a change, if what it changes stands in the text."""
+        path = parted(problem.place)
+        match change:
+            case Written():
+                yield from self.written(change, path)
+            case TakenOut() if path in self.found:
+                yield self.without(self.found[path])
+            case FirstLine(line=line):
+                yield self.edit(Span(0, 0), f"{line}\n")
+            case DriverAdded(line=line):
+                end, rest = len(self.text), "angle = 0\nspeed = 0"
+                yield self.edit(Span(end, end), f"\n[[drivers]]\n{line}\n{rest}\n")
+            case DriverTaken():
+                yield from self.without_driver(change)
+            case PointRenamed():
+                yield from self.renamed(change)
+
+    def written(self, change: Written, path: Path) -> Iterator[Edit]:
+        """A key with another value: in its line, in that of another, or in a line of its own."""
+        table, key = path[:-1], change.key or str(path[-1])
+        line, other = f"{key} = {change.value}", (*table, change.instead or key)
+        if other in self.found:
+            yield self.changed(self.found[other], line)
+        elif len(table) == 1:
+            yield self.added(table, str(table[0]), line)
+
+    def without_driver(self, change: DriverTaken) -> Iterator[Edit]:
+        """The table of a driver taken out whole."""
+        for path, span in self.values.items():
+            own = path[0] == "drivers" and path[-1] == change.key
+            if own and self.of(span) == change.value:
+                heading = self.found[path[:2]]
+                stop = END_OF_TABLE.search(self.text, heading.end)
+                end = stop.start() + 1 if stop else len(self.text)
+                yield self.edit(Span(heading.start, end), "")
+
+    def renamed(self, change: PointRenamed) -> Iterator[Edit]:
+        """The first key of a link that names a point, with its other name."""
+        for path in self.found:
+            names = str(path[-1]).split("-")
+            if path[:2] != ("links", change.link) or len(path) != 3 or change.old not in names:
+                continue
+            start = self.found[path].start
+            whole = "-".join(change.new if name == change.old else name for name in names)
+            if self.text.startswith(str(path[2]), start):
+                yield self.changed(Span(start, start + len(str(path[2]))), whole)
+                return
 
     def keys(self, problem: Problem) -> Iterator[Edit]:
-        """A line that is said to be expected, or meant, in place of the one that is wrong."""
-        *table, last = problem.place.split(".") if problem.place else [""]
-        path = (*parts(".".join(table)), last)
-        expected, meant = re.fullmatch(LINE, problem.expected), MEANT.search(str(problem.hint))
-        first, renamed = FIRST.fullmatch(problem.expected), RENAMED.search(str(problem.hint))
+        """A line that is said to be expected in place of the one that is wrong, or to be written
+        into its table.
+        """
+        path = parted(problem.place)
+        expected = re.fullmatch(LINE, problem.expected)
         into = INTO.fullmatch(str(problem.hint))
-        if first:
-            yield self.edit(Span(0, 0), f"{first[1]}\n")
-        elif meant and meant[1].partition(" = ")[0] == last and path in self.values:
-            yield self.changed(self.values[path], meant[1].partition(" = ")[2])
-        elif expected and path in self.found and "[" not in last:
+        if expected and path in self.found and "[" not in str(path[-1]):
             yield self.changed(self.found[path], expected[0])
         elif into and self.text[: self.end(tuple(parts(problem.place)))].endswith("}"):
             at = self.end(tuple(parts(problem.place))) - 1
             at = len(self.text[:at].rstrip())
             yield self.edit(Span(at, at), f", {into[1]}")
-        elif renamed:
-            new, link, old = renamed.groups()
-            keys = [p for p in self.found if p[:2] == ("links", link) and len(p) == 3]
-            for key in keys:
-                names = str(key[2]).split("-")
-                if old in names:
-                    start = self.found[key].start
-                    whole = "-".join(new if name == old else name for name in names)
-                    if self.text.startswith(str(key[2]), start):
-                        yield self.changed(Span(start, start + len(str(key[2]))), whole)
-                        return
-
-    def drivers(self, problem: Problem) -> Iterator[Edit]:
-        """A driver taken away, or one added, at rest."""
-        away, added = AWAY.search(str(problem.hint)), ADDED.search(str(problem.hint))
-        if added:
-            line = f"{added[1]}\nangle = 0\nspeed = 0"
-            yield self.edit(Span(len(self.text), len(self.text)), f"\n[[drivers]]\n{line}\n")
-        if not away:
-            return
-        key, _, value = away[1].partition(" = ")
-        for path, span in self.values.items():
-            if path[0] == "drivers" and path[-1] == key and self.of(span) == value:
-                heading = self.found[path[:2]]
-                stop = END_OF_TABLE.search(self.text, heading.end)
-                end = stop.start() + 1 if stop else len(self.text)
-                yield self.edit(Span(heading.start, end), "")
 
     # --- edits ---------------------------------------------------------------------------------
 

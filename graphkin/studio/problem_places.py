@@ -16,10 +16,6 @@ from graphkin.text.errors import Problem
 LINE = re.compile(r"line (\d+)")
 SETTING = re.compile(r"(?:setting|parameter) (\S+)")
 ABOUT = re.compile(r"[A-Za-z ]+ of (?:links? )?(.+)")
-LONE = re.compile(r"only one link has the points (\w+) \((the frame|[^)]+)\)")
-"""A pin that is missing, as the hint of too few drivers names it: a point and its link."""
-SHORTER = re.compile(r"(\S+-\S+) shorter than")
-"""The side of a triangle that is too long, as it is expected."""
 POSITION = "position"
 """The place of what is wrong with the position as a whole."""
 SOLID = ("frame", "links")
@@ -91,9 +87,7 @@ def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
     """
     place = problem.place
     setting, about = SETTING.fullmatch(place), ABOUT.fullmatch(place)
-    lone, longest = LONE.search(str(problem.hint)), SHORTER.match(problem.expected)
-    if lone:
-        yield (("frame",) if lone[2] == "the frame" else ("links", lone[2])) + (lone[1],)
+    yield from (path for path in problem.about if path in found or pinned(path, found))
     if setting:
         yield "parameters", setting[1]
     elif about:
@@ -106,8 +100,6 @@ def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
         yield DRIVERS
     else:
         path = tuple(parts(place.partition(", ")[0]))
-        if longest and (*path[:-1], longest[1]) in found:
-            yield (*path[:-1], longest[1])
         yield path
         if path[0] == "branches":
             yield from holding(str(path[-1]), found)

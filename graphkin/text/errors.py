@@ -23,13 +23,63 @@ Hint = str | Mend
 """What helps: in words, or as the change that mends it; the empty text is none."""
 
 
+class Written(Struct, frozen=True):
+    """The key at a problem's place, or another of its table, with a value as a text writes it;
+    ``instead`` of a key of the table where that is named.
+    """
+
+    value: str
+    key: str = ""
+    instead: str = ""
+
+
+class TakenOut(Struct, frozen=True):
+    """The key at a problem's place taken out."""
+
+
+class FirstLine(Struct, frozen=True):
+    """A line put before all others."""
+
+    line: str
+
+
+class DriverAdded(Struct, frozen=True):
+    """A driver added, at rest, by the line that says what it drives."""
+
+    line: str
+
+
+class DriverTaken(Struct, frozen=True):
+    """The driver taken away whose key has a value."""
+
+    key: str
+    value: str
+
+
+class PointRenamed(Struct, frozen=True):
+    """A point of one link under another name."""
+
+    link: str
+    old: str
+    new: str
+
+
+Change = Written | TakenOut | FirstLine | DriverAdded | DriverTaken | PointRenamed
+"""What would mend a problem, each alone."""
+
+
 class Problem(Struct, frozen=True):
-    """One thing wrong at one place, in words that help to mend it."""
+    """One thing wrong at one place, in words that help to mend it, and the changes that would.
+
+    ``about`` are the keys, with their tables, that it is about if that is not its place.
+    """
 
     place: str
     found: str
     expected: str = ""
     hint: Hint = ""
+    changes: tuple[Change, ...] = ()
+    about: tuple[tuple[str, ...], ...] = ()
 
     def __str__(self) -> str:
         """Read as one sentence: place: found; expected …; hint."""
@@ -78,3 +128,7 @@ class PageError(GraphkinError):
 
 class FileError(PageError):
     """A file cannot be written where it was to be."""
+
+
+class RosterError(GraphkinError):
+    """A class list or a table of answers cannot be read; every problem has its row and column."""

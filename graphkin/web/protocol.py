@@ -16,6 +16,7 @@ from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.core.sentence import Sentence
+from graphkin.documents.detail import scale_words
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
@@ -44,9 +45,6 @@ GUIDE = "guide "
 """The beginning of the name of a mark that shows where a guide lies; its block follows."""
 SAME = 1e-6
 """Millimetres between places that are one."""
-"""The classes of what one draws by a stroke: lines, arcs and vectors of the construction."""
-DETAIL = "detail"
-"""The name of the small circle about what is enlarged beside it."""
 
 
 class ProtocolSentence(Struct, frozen=True):
@@ -260,14 +258,8 @@ def strokes(marks: Iterable[Timed], count: int) -> list[int]:
 
 def words_of_details(sheet: ScreenSheet) -> str:
     """What is told beside the last sentence of details drawn enlarged; nothing without any."""
-    scales = [
-        next(m.markup for m in more if isinstance(m, Text) and m.markup.endswith(":1"))
-        for marks, more in ((sheet.left, sheet.more_left), (sheet.right, sheet.more_right))
-        if any(mark.name == DETAIL for mark in marks)
-    ]
-    return "; ".join(
-        sheet.drawing.words("screen.detail", scale=scale) for scale in dict.fromkeys(scales)
-    )
+    words = sheet.drawing.words
+    return AND.join(words("screen.detail", scale=scale_words(times)) for times in sheet.enlarged)
 
 
 def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:

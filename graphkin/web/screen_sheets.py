@@ -25,7 +25,8 @@ class ScreenSheet(Struct, frozen=True):
 
     ``left`` is the field of the mechanism, ``right`` that of the plan; k counts through the left
     ones first. ``more_left`` and ``more_right`` are pictures within the picture (an enlarged
-    detail, insets), which hold for the position drawn alone.
+    detail, insets), which hold for the position drawn alone; ``enlarged`` is how many times the
+    first detail of each field enlarges, once where it is as much in both.
     """
 
     drawing: Drawing
@@ -34,6 +35,7 @@ class ScreenSheet(Struct, frozen=True):
     right: tuple[Mark, ...]
     more_left: tuple[Mark, ...] = ()
     more_right: tuple[Mark, ...] = ()
+    enlarged: tuple[int, ...] = ()
 
 
 def screen_sheets(
@@ -57,7 +59,9 @@ def screened(drawings: Sequence[Drawing], view: str = "key") -> list[ScreenSheet
 def screen_sheet(drawing: Drawing, layout: Layout, view: str = "key") -> ScreenSheet:
     """The fields of one drawing."""
     boards = left_board(drawing, layout, view), right_board(drawing, layout, view)
-    (left, detail), (right, other) = parted(*boards)
+    (left, detail, times), (right, other, others) = parted(*boards)
     if view == "key":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
-    return ScreenSheet(drawing, layout, tuple(left), tuple(right), tuple(detail), tuple(other))
+    enlarged = tuple(dict.fromkeys((*times[:1], *others[:1])))
+    more = tuple(detail), tuple(other), enlarged
+    return ScreenSheet(drawing, layout, tuple(left), tuple(right), *more)

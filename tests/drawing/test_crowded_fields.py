@@ -14,7 +14,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import boards, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.labels import FieldContent, in_turn
+from graphkin.drawing.labels import FieldContent, FootNote, NoteLine, in_turn
 from graphkin.drawing.marks import LineMark, Page, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.text import words
@@ -97,10 +97,10 @@ def test_points_of_a_plan_that_nearly_fall_together_are_not_told_to_be_one():
 def test_notes_never_leave_their_field_and_say_that_more_are_left_out():
     """At most about a fifth of a field is for notes; key numbers are not given beyond it."""
     field = FieldContent((0.0, 0.0, 100.0, 100.0))
-    foot = field.footed([f"{i}) *O*_{i}" for i in range(500)])
+    foot = field.footed([FootNote(f"{i}) *O*_{i}") for i in range(500)])
     assert foot[-1].markup == "…" and foot[0].markup.startswith("0) ")
     assert min(mark.y for mark in foot) > 75
-    few = field.footed([f"{i}) *O*_{i}" for i in range(20)])
+    few = field.footed([FootNote(f"{i}) *O*_{i}") for i in range(20)])
     assert "…" not in [mark.markup for mark in few]
 
 
@@ -109,7 +109,7 @@ def test_a_note_that_would_cross_lines_is_tried_further_to_the_right_every_15_mm
     """Its lines stand one above the other, the last 2.5 mm above the edge, all within the field."""
     board = FieldContent((10.0, 20.0, 10.0 + width, 90.0))
     lines = ["a note", "in two lines"]
-    places = [*board.foot_places(lines)]
+    places = [*board.foot_places([*map(NoteLine, lines)])]
     lefts = [texts[0].x for texts in places]
     assert lefts == [13.0 + 15 * k for k in range(len(places))]
     for texts in places:

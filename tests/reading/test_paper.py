@@ -35,10 +35,10 @@ from graphkin.reading.paper_map import (
 )
 from graphkin.reading.paper_ripple import CROSSED, LEAST, Offsets, ripple_of
 from graphkin.reading.point_search import AREA, BREAK, in_fields, is_parted, unbroken
+from graphkin.reading.printed_crosses import crosses_off
 from graphkin.reading.registration import (
     MeasuredLines,
     PrintedLines,
-    crosses_off,
     least_stretch,
     peaks,
     printed_lines,

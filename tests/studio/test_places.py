@@ -12,7 +12,7 @@ import pytest
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.problem_places import LINE, LONE, MarkedProblem, marked
+from graphkin.studio.problem_places import LINE, MarkedProblem, marked
 from graphkin.studio.toml_spans import Path as Keys
 from graphkin.studio.toml_spans import spans
 from graphkin.text.errors import GraphkinError, Problem, SceneError
@@ -166,8 +166,9 @@ def holds_its_key(text: str, problem: Problem) -> None:
     if not problem.place:
         assert mark.line == 1
         return
-    if LONE.search(str(problem.hint)):
-        assert LONE.search(str(problem.hint))[1] in words
+    lone = [path[-1] for path in problem.about if "-" not in path[-1]]
+    if lone:
+        assert lone[0] in words
         return
     for name in names_in(problem.place):
         pieces = re.findall(r"[\w@]+", name)

@@ -18,7 +18,6 @@ from graphkin.classroom.grading.submissions import HandedIn, Sender, submissions
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.read_roster import NAMES
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.sheet_rows import SheetRow
 from graphkin.classroom.roster.spreadsheets import (
     Spreadsheet,
@@ -29,7 +28,7 @@ from graphkin.classroom.roster.spreadsheets import (
 )
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.scene.findings import nearest, visible
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, RosterError
 
 ABSENT = (
     "leave that row out; or put the student into the class list, run graphkin variants with"

@@ -29,12 +29,11 @@ from graphkin.classroom.grading.gradebook import (
     mark_text,
     places,
 )
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.sheet_rows import MOST_CELLS, too_large
 from graphkin.classroom.roster.spreadsheets import bytes_of, separator_of
 from graphkin.classroom.roster.student_signs import Match, Signs
 from graphkin.classroom.roster.xlsx import cell_text, full_rows, open_sheet, opened, unreadable
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, RosterError
 
 BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}
 

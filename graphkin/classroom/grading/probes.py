@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper
-from graphkin.classroom.lab.items import ARROW, UNITS
+from graphkin.classroom.lab.items import UNITS
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_pole import PlanPole
@@ -100,8 +100,8 @@ def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
 
 def plane_of(item: Item) -> Plane | None:
     """The plan in which a field's vector lies; None where it is no vector."""
-    if item.quantity == ARROW:
-        return Plane.VELOCITIES if item.field.startswith("v") else Plane.ACCELERATIONS
+    if item.vector is not None:
+        return next(each.plane for each in VECTORS if each.letter == item.vector.letter)
     quantity = BY_TARGET[item.quantity]
     return quantity.plane if quantity in VECTORS else None
 
@@ -109,7 +109,7 @@ def plane_of(item: Item) -> Plane | None:
 def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
     """Tail and tip of a vector: of a point's own from the pole, else of the arrow of its symbol."""
     program = mechanism.program
-    if item.quantity == ARROW:
+    if item.vector is not None:
         return arrow_ends(program, item.of)
     target = (item.quantity, point_of(mechanism.scene, item.of))
     if target not in program.targets:

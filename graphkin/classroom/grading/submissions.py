@@ -16,10 +16,9 @@ from pathlib import Path, PurePosixPath
 
 from msgspec import Struct
 
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.spreadsheets import LARGEST, bytes_of
 from graphkin.scene.file_limits import file_bytes
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, RosterError
 
 KINDS = (".csv", ".txt", ".tsv", ".xlsx")
 """Files that are read."""

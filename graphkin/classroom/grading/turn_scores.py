@@ -18,9 +18,8 @@ import msgspec
 from msgspec import Meta, Struct
 
 from graphkin.classroom.grading.marks_tables import written
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.scene.findings import visible
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, RosterError
 
 TURNS = "turns.csv"
 """The table of a report that lists them."""

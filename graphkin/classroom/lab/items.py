@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Item, Lab
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.plan_vector import PlanVector, plan_vector
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.quantities import (
     CENTRES,
@@ -33,8 +33,6 @@ GREEK = {"ν": "nu", "τ": "tau", "c": "cor"}
 ARROW = "arrow"
 """The quantity of a field that is an arrow of a plan, known by its symbol (Item.of)."""
 UNITS = {each.plane: each.unit for each in VECTORS}
-ARROW_SYMBOL = re.compile(r"([av])_([^¹²]+?)(?:\^([^¹²]))?")
-"""The symbols that vectors of the plans bear: v_BA, a_BA^ν."""
 
 
 def items(mechanism: Mechanism, lab: Lab) -> tuple[Item, ...]:
@@ -115,14 +113,17 @@ def arrows(program: Program) -> Iterator[Item]:
     """The vectors of the plans, components too, by their symbols."""
     for step in program.steps:
         vector = plan_vector(step)
-        sign = vector.symbol if vector else ""
-        found = ARROW_SYMBOL.fullmatch(sign)
-        if step.plane in UNITS and found:
-            letter, index, kind = found.groups()
-            tail = f"_{GREEK.get(kind, plain(kind))}" if kind else ""
-            name = f"{letter}_{plain(index)}{tail}"
-            yield Item(f"{name}_mm", "segment", symbol(sign), "mm", ARROW, sign)
-            yield Item(name, "value", symbol(sign), UNITS[step.plane], ARROW, sign)
+        if vector is not None and step.plane in UNITS:
+            yield from arrow_items(vector, UNITS[step.plane])
+
+
+def arrow_items(vector: PlanVector, unit: str) -> Iterator[Item]:
+    """The segment of an arrow in its plan, and its true size."""
+    tail = f"_{GREEK.get(vector.sign, plain(vector.sign))}" if vector.sign else ""
+    name, sign = f"{vector.letter}_{plain(vector.index)}{tail}", symbol(vector.symbol)
+    own = ARROW, vector.symbol, vector
+    yield Item(f"{name}_mm", "segment", sign, "mm", *own)
+    yield Item(name, "value", sign, unit, *own)
 
 
 def arrow_steps(program: Program) -> Mapping[str, int]:
@@ -169,7 +170,7 @@ def place_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
     for axis in ("x", "y"):
         name = f"{letter}_{plain(link)}_{axis}_mm"
         sign = f"*{axis}*({symbol(f'{letter}_{link}')})"
-        yield Item(name, "place", sign, "mm", quantity.target, link)
+        yield Item(name, "place", sign, "mm", quantity.target, link, axis=axis)
 
 
 def plain(name: str) -> str:

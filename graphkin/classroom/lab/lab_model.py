@@ -9,6 +9,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.scene.quantity import Quantity
 
 NUMBER = "number"
@@ -145,6 +146,7 @@ class Item(Struct, frozen=True):
     ``field`` is its name in files (v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm); ``symbol`` its
     markup; ``unit`` in which it is asked (empty for a sense). ``of`` is the point or link, and
     ``quantity`` the program's name of the quantity (velocity, acceleration, omega, epsilon, …).
+    What is of an arrow of a plan has its ``vector``, a coordinate its ``axis``: x or y.
     """
 
     field: str
@@ -153,3 +155,5 @@ class Item(Struct, frozen=True):
     unit: str
     quantity: str
     of: str
+    vector: PlanVector | None = None
+    axis: str = ""

@@ -9,10 +9,9 @@ from pathlib import Path
 from graphkin.classroom.lab.fair_ranges import space_of
 from graphkin.classroom.lab.fair_ranges_words import variants_lines
 from graphkin.classroom.lab.items import (
-    ARROW,
-    ARROW_SYMBOL,
     GREEK,
     all_fields,
+    arrow_items,
     asked_fields,
     place_items,
     plain,
@@ -23,6 +22,7 @@ from graphkin.classroom.lab.items import (
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.lab.proposed_ranges import COURSE
 from graphkin.classroom.lab.slip_names import NAMES
+from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.quantities import CENTRES, RATES, SHEETS, TURNING, VECTORS
 from graphkin.drawing.richtext import plain as text_of
 from graphkin.drawing.style import COMPONENTS
@@ -72,13 +72,9 @@ def examples() -> Iterator[Item]:
     yield from slide_items("2", "0")
     for centre in CENTRES:
         yield from place_items(centre, "3")
-    for sheet in SHEETS:
-        letter = sheet[0]
-        for kind in (None, *COMPONENT) if letter == "a" else (None,):
-            sign = f"{letter}_BA" + (f"^{kind}" if kind else "")
-            name = f"{letter}_BA" + (f"_{GREEK[kind]}" if kind else "")
-            yield Item(f"{name}_mm", "segment", sign, "mm", ARROW, sign)
-            yield Item(name, "value", sign, "m/s" if letter == "v" else "m/s²", ARROW, sign)
+    for quantity in VECTORS:
+        for sign in ("", *COMPONENT) if quantity.kind == "acceleration" else ("",):
+            yield from arrow_items(PlanVector(quantity.letter, "BA", sign=sign), quantity.unit)
 
 
 def meaning(item: Item) -> str:
@@ -91,21 +87,19 @@ def meaning(item: Item) -> str:
     if item.what == "segment":
         return f"{of}: its length in the plan, {item.unit}"
     if item.what == "place":
-        axis = item.field.removesuffix("_mm")[-1]
-        way = "to the right" if axis == "x" else "up"
-        return f"{of}: {axis} on paper from the first fixed pivot, {way}, {item.unit}"
+        way = "to the right" if item.axis == "x" else "up"
+        return f"{of}: {item.axis} on paper from the first fixed pivot, {way}, {item.unit}"
     return f"{of}, {item.unit}"
 
 
 def thing(item: Item) -> str:
     """What a field is of: a quantity, or an arrow of a plan by its letters."""
-    found = ARROW_SYMBOL.fullmatch(item.of) if item.quantity == ARROW else None
-    if found is None:
+    vector = item.vector
+    if vector is None:
         return QUANTITY[item.quantity].format(of=item.of)
-    letter, index, kind = found.groups()
-    name = f"{letter}_{plain(index)}"
-    whole = f"vector {name} of the {SHEET[letter]} plan"
-    return f"{COMPONENT[kind]} of {name}" if kind in COMPONENT else whole
+    name = f"{vector.letter}_{plain(vector.index)}"
+    whole = f"vector {name} of the {SHEET[vector.letter]} plan"
+    return f"{COMPONENT[vector.sign]} of {name}" if vector.sign in COMPONENT else whole
 
 
 def slips() -> Mapping[str, str]:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from msgspec import Struct
 
-from graphkin.classroom.roster.roster_errors import RosterError
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, RosterError
 
 MOST_ROWS, MOST_COLUMNS, LONGEST = 200_000, 1000, 4000
 """Rows that are not empty, columns, and characters of one cell."""

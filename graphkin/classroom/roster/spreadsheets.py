@@ -15,7 +15,6 @@ from pathlib import Path
 
 from msgspec import Struct
 
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.sheet_rows import (
     LAST_ROW,
     LONGEST,
@@ -27,7 +26,7 @@ from graphkin.classroom.roster.sheet_rows import (
 )
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import Findings, visible
-from graphkin.text.errors import MOST, Problem
+from graphkin.text.errors import MOST, Problem, RosterError
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""

@@ -11,9 +11,8 @@ from datetime import date, datetime
 from typing import IO, Any
 from warnings import catch_warnings, simplefilter
 
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.sheet_rows import LAST_ROW, MOST_CELLS, SheetRow, too_large
-from graphkin.text.errors import GraphkinError, Problem
+from graphkin.text.errors import GraphkinError, Problem, RosterError
 
 LARGEST, MOST_ELEMENTS = 64 * 1024 * 1024, 1_000_000
 """Bytes and XML elements of an XLSX unpacked; more is a bomb. A cell with a number has two."""

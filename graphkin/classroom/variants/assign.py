@@ -20,11 +20,10 @@ from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.read_roster import Check
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student import Student
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
-from graphkin.text.errors import Problem, SceneError
+from graphkin.text.errors import Problem, RosterError, SceneError
 
 VAIN = 300
 """Draws on end that find room for nobody, after which nobody is drawn again."""

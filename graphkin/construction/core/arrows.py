@@ -33,8 +33,8 @@ def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
     name = named(pen, tail) + named(pen, tip)
     if name not in pen.arrows:
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-            symbol = f"v_{letter(pin)}{about}"
-            pen.vector(join, tail, tip, of=PlanVector(symbol, letter(pin), about), name=name)
+            vector = PlanVector("v", letter(pin) + about, letter(pin), about)
+            pen.vector(join, tail, tip, of=vector, name=name)
 
 
 def acceleration_arrow(pen: Pen, pin: str) -> None:
@@ -43,15 +43,15 @@ def acceleration_arrow(pen: Pen, pin: str) -> None:
     name = f"o{PRIME}{second_image(pin)}"
     if name not in pen.arrows:
         with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            symbol = f"a_{lettered(pin)}"
-            pen.vector(join, o, tip, of=PlanVector(symbol, lettered(pin)), name=name)
+            vector = PlanVector("a", lettered(pin), lettered(pin))
+            pen.vector(join, o, tip, of=vector, name=name)
 
 
 def component_arrow(pen: Pen, tail: int, tip: int, kind: str, pin: str, pivot: str) -> None:
     """The arrow of a normal (ν) or tangential (τ) component."""
     index = about(pen, pin, pivot)
     foot = "" if pen.steps[tip].name else foot_of(kind, index)
-    vector = PlanVector(f"a_{index}^{kind}", lettered(pin), lettered(pivot), kind, foot=foot)
+    vector = PlanVector("a", index, lettered(pin), lettered(pivot), kind, foot=foot)
     pen.vector(join, tail, tip, of=vector)
 
 
@@ -62,6 +62,7 @@ def slide_arrow(pen: Pen, tail: int, tip: int, link: str, point: str, *, index: 
     """
     if link == FRAME:
         return
-    symbol = f"a_{index or letter(point) + letter(under(point, link))}^r"
-    if symbol not in pen.arrows:
-        pen.vector(join, tail, tip, of=PlanVector(symbol, point, sign="r"))
+    index = index or letter(point) + letter(under(point, link))
+    vector = PlanVector("a", index, point, sign="r")
+    if vector.symbol not in pen.arrows:
+        pen.vector(join, tail, tip, of=vector)

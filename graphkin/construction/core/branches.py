@@ -19,8 +19,10 @@ from graphkin.structure.groups import (
     Stretched,
 )
 from graphkin.structure.pairs import Pin
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 
+WAYS = '"forward"', '"backward"'
+"""The branches of what slides or rolls, as a scene writes them."""
 MISSING = "is missing"
 """What is found of a branch that is not written."""
 
@@ -68,6 +70,7 @@ def unused_branches(
             why_no_choice(scene, groups, name),
             f"branches of {', '.join(sorted(allowed))}" if allowed else "no branches",
             f"take it out{only_way(scene, groups, name)}",
+            (TakenOut(),),
         )
         for name in scene.branches
         if name not in allowed and name not in told
@@ -130,6 +133,9 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
         problem,
         found=f"{MISSING}, while {lines} {verb} nothing",
         expected=f"{expected} in place of {lines}",
+        changes=tuple(replace(each, instead=names[0]) for each in problem.changes)
+        if len(names) == 1
+        else problem.changes,
     )
 
 
@@ -144,12 +150,14 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
     if isinstance(branch, Side) and (branch.second, branch.first) == ends:
         return -branch.side
     line = "-".join(ends)
+    sides = f'"left of {line}"', f'"right of {line}"'
     raise StructureError(
         Problem(
             f"branches.{dyad.inner.point}",
             MISSING if branch is None else "does not name the two known pins of its dyad",
-            f'"left of {line}" or "right of {line}"',
+            " or ".join(sides),
             f"{dyad.inner.point} can lie on either side of the line {line}; the scene says which",
+            tuple(map(Written, sides)),
         )
     )
 
@@ -173,8 +181,9 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
         Problem(
             f"branches.{block}",
             MISSING if branch is None else f"{written(branch)} for a link that {LEADING}",
-            '"forward" or "backward"',
+            " or ".join(WAYS),
             hint,
+            tuple(map(Written, WAYS)),
         )
     )
 
@@ -213,6 +222,7 @@ def closure_of(scene: Scene, group: Higher) -> int:
             found,
             f'{link} = "closure 1", or another number, for the links {", ".join(group.links)}',
             hint,
+            (Written('"closure 1"'),),
         )
     )
 

@@ -21,6 +21,7 @@ from graphkin.construction.core.program import Step
 from graphkin.construction.core.segments import NEAR, TINY
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FootNote
 from graphkin.drawing.marks import Arc, CircleMark, LineMark
 from graphkin.drawing.style import CHAIN_LINES, OWN_LINES
 from graphkin.drawing.symbol_markup import symbol
@@ -377,4 +378,4 @@ class PaperCanvas(Struct, frozen=True):
 
     def note(self, text: str) -> None:
         """Words at the foot of the field."""
-        self.plot.board.notes.append(text)
+        self.plot.board.notes.append(FootNote(text))

@@ -8,7 +8,8 @@ from graphkin.construction.core.program import Plane, Roles, Step
 
 
 class PlanVector(Roles, frozen=True):
-    """A vector under its ``symbol``, of point ``q``, about ``p`` if that is named.
+    """A velocity or an acceleration, by its ``letter``, under an ``index``: of point ``q``, about
+    ``p`` if that is named.
 
     ``sign`` tells the components of an acceleration: ν, τ, c, r; nothing for a whole vector.
     ``foot`` is the letter of the point where a component that is laid off ends, or where it begins
@@ -17,7 +18,8 @@ class PlanVector(Roles, frozen=True):
 
     gives: ClassVar[tuple[str, ...]] = ("arrow",)
 
-    symbol: str
+    letter: str
+    index: str
     q: str = ""
     p: str = ""
     sign: str = ""
@@ -25,6 +27,11 @@ class PlanVector(Roles, frozen=True):
     back: bool = False
     ends: tuple[str, str] = ("", "")
     arrow: int | None = None
+
+    @property
+    def symbol(self) -> str:
+        """The name of its symbol: v_BA, a_BA^ν."""
+        return f"{self.letter}_{self.index}" + (f"^{self.sign}" if self.sign else "")
 
 
 FEET = {"ν": "n", "c": "k"}

@@ -12,7 +12,7 @@ from graphkin.construction.core.naming import scale_of
 from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field, clipped
-from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.labels import FieldContent, FootNote
 from graphkin.drawing.marks import LineMark
 
 EDGE = 3.0
@@ -57,7 +57,7 @@ def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
     words, drawing = plot.drawing.words, plot.drawing
     factor = scale_of(drawing, drawing.plane)
     key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.nought"
-    note = words(key, name=name, length=in_mm(words, length))
+    note = FootNote(words(key, name=name, length=in_mm(words, length)), name)
     if note not in plot.board.notes:
         plot.board.notes.append(note)
 

@@ -19,6 +19,7 @@ from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import Misclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point, plate_points
+from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,
     rolled_to,
@@ -26,7 +27,6 @@ from graphkin.construction.rolling.rolling import (
     settle_turn,
     touch_wheels,
 )
-from graphkin.construction.rolling.touching import by_contact
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.scene.link_points import under

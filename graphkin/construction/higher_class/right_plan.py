@@ -226,11 +226,10 @@ def legs(
     foot = next(filter(None, (foot_of(sign, index) for sign in kinds)))
     start, end = (pen.steps[number].name for number in args[:2])
     for leg, sign, ends in zip((first, last), kinds, ((start, foot), (foot, end)), strict=True):
-        symbol = f"a_{index}^{sign}"
-        if symbol not in pen.arrows:
-            own = foot_of(sign, index)
-            back = bool(own) and leg is last
-            vector = PlanVector(symbol, of, about_which, sign, own, back, ends)
+        own = foot_of(sign, index)
+        back = bool(own) and leg is last
+        vector = PlanVector("a", index, of, about_which, sign, own, back, ends)
+        if vector.symbol not in pen.arrows:
             pen.vector(leg, *args, of=vector)
 
 

@@ -38,12 +38,12 @@ from graphkin.construction.rolling.contact_points import (
     RollerCentre,
     Track,
     between_tracks,
+    by_contact,
     contact_of_wheels,
     contact_on_track,
     rack_at,
     radius_along,
 )
-from graphkin.construction.rolling.touching import by_contact
 from graphkin.numbers.arithmetic import Point, Real, phase, turn_by
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Wheel

@@ -227,7 +227,7 @@ def rolled_image(
         vector = pen.draw(law, head, foot, *hub, *rates, name=name)
     with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
         image = pen.draw(lay_off, start, vector, name=second_image(rolls))
-        pen.vector(join, start, image, of=PlanVector(name, q, p, "ν"))
+        pen.vector(join, start, image, of=PlanVector("a", index, q, p, "ν"))
     omega, omega_track = rates
     own: dict[str, Any] = {
         "index": index,

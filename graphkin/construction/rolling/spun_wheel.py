@@ -17,8 +17,8 @@ from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point
 from graphkin.construction.rolling import rolling, wheel_images
+from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
-from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.velocity import velocity as velocities
 from graphkin.scene.link_points import under
 from graphkin.structure.groups import Geared, Spun

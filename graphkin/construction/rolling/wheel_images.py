@@ -1,8 +1,10 @@
-"""The images of the points of wheels: a wheel moves with its track where they touch."""
+"""The images of the points of wheels, and their rates: a wheel moves with its track where they
+touch."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import ClassVar
 
 from msgspec import Struct
 
@@ -17,6 +19,9 @@ from graphkin.construction.core.arrows import (
     velocity_arrows,
 )
 from graphkin.construction.core.bases import Base, bases, contact_name, leads_of, own_first
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import (
     Pen,
     about,
@@ -27,7 +32,7 @@ from graphkin.construction.core.pen import (
 )
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
-from graphkin.construction.core.vocabulary import in_proportion, speed_at_rim
+from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
 from graphkin.construction.guides.coincident_points import (
     carried,
     found_by_turning,
@@ -37,10 +42,9 @@ from graphkin.construction.guides.coincident_points import (
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.rolling import rolling
-from graphkin.construction.rolling.rate_by_radii import turned_by_radii
-from graphkin.construction.rolling.rolling import radius_of
+from graphkin.construction.rolling.contact_points import by_contact
+from graphkin.construction.rolling.rolling import radius_of, seen_from
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
-from graphkin.construction.rolling.touching import by_contact
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     image_of_link,
@@ -49,11 +53,67 @@ from graphkin.construction.velocity.image_of_link import (
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
+from graphkin.drawing.symbol_markup import of_wheel
+from graphkin.numbers.arithmetic import Real
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Geared, Group, Higher, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
+
+# --- rates of wheels on fixed pins, by their radii ------------------------------------------------
+
+
+@action("rate-by-radii")
+def rate_by_radii(rate: Real, track: Real, wheel: Real) -> Real:
+    """The rate of a wheel whose rim moves as that of another about a fixed pin, too."""
+    return -rate * (track / wheel)
+
+
+class RateByRadii(Construction, frozen=True, kw_only=True):
+    """The ``rate`` of a wheel, the ``link``, from that of ``other`` which turns it.
+
+    ``radii`` are the steps of the other's and of its own, negative for a ring or by an open belt,
+    ``signs`` what both wheels are called.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("rate",)
+
+    link: str
+    other: str
+    turning: int
+    radii: tuple[int, int]
+    signs: tuple[str, str]
+    rate: int
+
+    def source_of_rate(self, drawing: Drawing) -> str:
+        """The other's rate by the radii, with its value."""
+        values = drawing.trace.values
+        track, wheel = (float(values[each]) for each in self.radii)
+        sign = "" if track * wheel < 0 else "−"
+        other = rate_symbol(drawing, self.turning, drawing.rate.letter)
+        radii = "/".join(of_wheel("r", sign) for sign in self.signs)
+        value = drawing.words.significant(float(values[self.rate]))
+        return f" = {sign}{other}·{radii} = {value} {drawing.rate.caret_unit}"
+
+
+@by_contact
+def turned_by_radii(pen: Pen, contact: Contact, link: str, turning: int) -> int:
+    """The rate of a wheel on a fixed pin; where the other's is nought whatever happens, that."""
+    if pen.is_nought(turning):
+        return turning
+    side = seen_from(pen, contact, link)
+    radii = side.track_radius, side.radius
+    with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for(None):
+        rate = pen.draw(rate_by_radii, turning, *radii, name=link)
+    signs = contact.sign_of(pen.scene, side.other), contact.sign_of(pen.scene, link)
+    found = RateByRadii(
+        link=link, other=side.other, turning=turning, radii=radii, signs=signs, rate=rate
+    )
+    return pen.make(found).rate
+
+
+# --- images -------------------------------------------------------------------------------------
 
 
 @by_contact

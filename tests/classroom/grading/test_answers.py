@@ -10,9 +10,9 @@ from graphkin.classroom.grading.answers import Unread, read_answers
 from graphkin.classroom.grading.feedback_rows import unread
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
+from graphkin.text.errors import RosterError
 
 LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
 SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")

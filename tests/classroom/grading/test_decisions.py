@@ -17,9 +17,9 @@ from graphkin.classroom.grading.graded import Answer, Decision, Status
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import read_marks
 from graphkin.classroom.grading.releases import Releases
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
+from graphkin.text.errors import RosterError
 from tests.chosen import SPOKEN
 from tests.classroom.grading.students import book_of, key_answers, lab_of, marker_of, taker
 

@@ -16,9 +16,9 @@ from graphkin.classroom.grading.gradebook import GradebookError, filled
 from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
 from graphkin.classroom.grading.marks_tables import read_marks
 from graphkin.classroom.grading.submissions import sender, submissions
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.cli.main import app
+from graphkin.text.errors import RosterError
 from tests.classroom.grading.students import book_of, marker_of
 
 ROSTER = (

@@ -10,7 +10,7 @@ from hashlib import sha256
 import pytest
 
 from graphkin.classroom.grading.turn_scores import MOST, read_turns, turns_table
-from graphkin.classroom.roster.roster_errors import RosterError
+from graphkin.text.errors import RosterError
 
 CODES = {"0002": "TZHG6MXPZY", "0001": "AAAA", "ă3": "BBBB", "0004": "CCCC"}
 STEPS = [["v_A", "alone", 0], ["v_B", "hint", 3], ["a_A", "alone", 1], ["ă\n", "help", 2]]

@@ -7,8 +7,8 @@ from click.testing import CliRunner
 
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.cli.main import app
+from graphkin.text.errors import RosterError
 from tests.classroom.printing.conftest import tree
 
 IDS = ["1", "2", "3", "=5"]

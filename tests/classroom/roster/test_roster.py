@@ -17,13 +17,12 @@ from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster import spreadsheets, xlsx
 from graphkin.classroom.roster.csv_text import NUMBER, csv_text, safe
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.sheet_rows import MOST_CELLS
 from graphkin.classroom.roster.spreadsheets import SEPARATORS, folded
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.xlsx import xlsx_rows
 from graphkin.classroom.variants.assign import check_of
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, RosterError
 
 PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
 READ = [

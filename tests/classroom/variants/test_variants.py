@@ -21,14 +21,13 @@ from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.roster.read_roster import read_roster
-from graphkin.classroom.roster.roster_errors import RosterError
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.classroom.variants.class_words import class_lines
 from graphkin.classroom.variants.manifest import read_rule, rederived
 from graphkin.cli.main import app
-from graphkin.text.errors import PageError
+from graphkin.text.errors import PageError, RosterError
 from tests.running import killed_at
 
 NUMBERS = Range(Fraction(1), Fraction(30), Fraction(1))

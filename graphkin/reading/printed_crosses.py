@@ -1,0 +1,67 @@
+"""The crosses of a printed sheet in its picture: how far each lies off where the map puts it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import cv2
+import numpy as np
+
+from graphkin.classroom.printing.register_crosses import ARM
+from graphkin.reading.paper_map import PaperMap
+from graphkin.reading.paper_ripple import CROSSED, Offsets
+
+STEP = 0.1
+"""Distance of the points of what is looked at, in mm."""
+CROSS_REACH, CROSS_SIDE, CROSS_BLUR = 1.5, 1.6, 0.16
+"""How far off a cross is looked for, half the side of what is looked at, its blur, in mm."""
+CROSS_ALIKE, LEAST_CROSSES = 0.7, 0.3
+"""How alike a cross must be to be one, and which share of them a sheet has that is printed with
+them: a drawing covers some.
+"""
+
+
+def crosses_off(smooth: Any, over: PaperMap, places: Any) -> tuple[Offsets, float]:
+    """How far crosses lie off their places, right and down, where they are clearly seen; which
+    share of those that the picture holds is.
+    """
+    near = np.arange(-CROSS_REACH - CROSS_SIDE, CROSS_REACH + CROSS_SIDE + STEP / 2, STEP)
+    window = np.stack(np.meshgrid(near, near), axis=-1)
+    right, down = (way[:, None, None] for way in over.ways(places))
+    pixels = over(places)[:, None, None] + window[..., :1] * right + window[..., 1:] * down
+    height, width = smooth.shape
+    inside = (pixels > 1).all((1, 2, 3)) & (pixels < [width - 2, height - 2]).all((1, 2, 3))
+    looked = np.flatnonzero(inside)
+    model = cross_model()
+    found, off = np.zeros(len(places), bool), np.zeros((len(places), 2))
+    for i in looked:
+        x, y = np.moveaxis(pixels[i].astype(np.float32), -1, 0)
+        light = cv2.remap(smooth, x, y, cv2.INTER_LINEAR).astype(np.float32)
+        alike = cv2.matchTemplate(light, model, cv2.TM_CCOEFF_NORMED)
+        row, column = np.unravel_index(int(alike.argmax()), alike.shape)
+        if alike[row, column] < CROSS_ALIKE or not 0 < row < len(alike) - 1 > column > 0:
+            continue
+        found[i] = True
+        off[i] = (
+            STEP * (column + vertex(alike[row, column - 1 : column + 2])) - CROSS_REACH,
+            STEP * (row + vertex(alike[row - 1 : row + 2, column])) - CROSS_REACH,
+        )
+    both = np.repeat(places[found], 2, axis=0)
+    ways = np.tile(np.eye(2), (int(found.sum()), 1))
+    offsets = Offsets(both, ways, off[found].ravel(), np.full(len(both), CROSSED))
+    return offsets, float(found.sum() / max(len(looked), 1))
+
+
+def cross_model() -> Any:
+    """How light a blurred cross is about its middle."""
+    near = np.arange(-CROSS_SIDE, CROSS_SIDE + STEP / 2, STEP)
+    along = np.clip((ARM + CROSS_BLUR / 2 - abs(near)) / CROSS_BLUR, 0, 1)
+    across = np.exp(-((near / CROSS_BLUR) ** 2) / 2)
+    dark = np.maximum(np.outer(across, along), np.outer(along, across))
+    return (255 * (1 - dark)).astype(np.float32)
+
+
+def vertex(three: Any) -> float:
+    """Where a parabola through three values, one step apart, is highest, from the middle one."""
+    first, middle, last = (float(each) for each in three)
+    return (first - last) / 2 / min(first - 2 * middle + last, -1e-9)
