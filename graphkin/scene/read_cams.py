@@ -9,6 +9,7 @@ pin of it: the frame, or an arm that turns about a cam at rest.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import chain, count
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -115,7 +116,7 @@ def read_cam(
     counted = measures.length if slides else measures.angle
     start = counted(table.at("start"), 0 if turned is None else turned)
     sense = -1 if table.flag("backward" if slides else "clockwise") else 1
-    centre = table.text("centre", letter)
+    centre = table.text("centre", free_name(letter, links))
     name = table.text("link", next_name([each for each in links if each != FRAME]))
     found = lever_of(follower, tip, seat, table, links, measures) if swings else None
     first = found[0] if found else next(iter(links[follower].points), "")
@@ -137,6 +138,13 @@ def read_cam(
         return None
     parts = on, seat.pivot, tip, base, roller, law, start, sense, centre, name, point, lever
     return Cam(*parts, conjugate, seat.carrier, seat.slides)
+
+
+def free_name(letter: str, links: Mapping[str, Link]) -> str:
+    """A letter for the centre of curvature; K with a number where a point or a link has it."""
+    taken = {*links, *(point for link in links.values() for point in link.points)}
+    names = chain([letter], (f"K{number}" for number in count(1)))
+    return next(name for name in names if name not in taken)
 
 
 def conjugate_of(

@@ -10,6 +10,7 @@ import pytest
 import graphkin.documents.sheet_documents
 from graphkin.drawing.marks import Page
 from graphkin.text.errors import PageError, Problem, WitnessError
+from tests.chosen import FOLDER
 from tests.running import Run
 
 
@@ -122,3 +123,41 @@ def test_an_unknown_format_is_refused(run: Run, tmp_path: Path, formats: str) ->
     result = run("sheet", "pump", "-o", tmp_path, "--format", formats)
     assert result.exit_code == 2
     assert "svg,pdf" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        ("en", "Velocity plan: zero, nothing to be read off: v_S, ω_2"),
+        ("ro", "Planul vitezelor: zero, nimic de citit: v_S, ω_2"),
+        ("it", "Poligono delle velocità: zero, nulla da leggere: v_S, ω_2"),
+    ],
+)
+def test_what_is_asked_and_stands_still_is_told_aside(
+    run: Run, tmp_path: Path, language: str, told: str
+) -> None:
+    scene = FOLDER / "geneva-dwell.toml"
+    result = run("sheet", scene, "-o", tmp_path, "--lang", language, "--format", "svg")
+    assert result.exit_code == 0
+    assert f"graphkin: {told}\n" in result.stderr
+    assert told not in result.stdout
+
+
+def test_a_vector_that_is_asked_and_drawn_shorter_than_two_millimetres_is_told(
+    run: Run, tmp_path: Path
+) -> None:
+    """A piston on the line of its crank has its dead point at 0°."""
+    scene = tmp_path / "near.toml"
+    text = (FOLDER / "slider-crank.toml").read_text(encoding="utf-8")
+    text = text.replace('angle = "angle"', "angle = 0.2").replace(", offset = 30", "")
+    scene.write_text(text, encoding="utf-8")
+    result = run("sheet", scene, "-o", tmp_path, "--lang", "en", "--format", "svg")
+    assert result.exit_code == 0, result.stderr
+    assert "Velocity plan: too short to be read off (less than 2 mm): v_B (" in result.stderr
+
+
+def test_a_sheet_on_which_all_that_is_asked_can_be_read_off_says_nothing(
+    run: Run, tmp_path: Path
+) -> None:
+    result = run("sheet", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg")
+    assert (result.exit_code, result.stderr) == (0, "")
