@@ -50,6 +50,10 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
         """From which point it is laid off, and itself."""
         return self.start, self.name
 
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """From that point."""
+        return self.points
+
     def turned(self, drawing: Drawing) -> float | None:
         """By how many degrees the link has turned since the start; None where it is not said."""
         targets, values = drawing.trace.program.targets, drawing.trace.values
@@ -253,26 +257,38 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
 
 
 def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
-    """A point of a link that is turned to its axis already; on its own guide it is laid off."""
+    """A point of a link that is turned to its axis already; on its own guide it is laid off.
+
+    Once a point stands on the guide that turned the link, the others follow from it and the pivot.
+    """
     line = pen.shared.get(("swing", base.link))
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        if line is not None and runs_along(pen, base, name):
+    on_guide = guide_point(pen, base, line) if line is not None else None
+    if line is not None and name == on_guide:
+        with pen.on(Part.POSITION, Plane.MECHANISM):
             length = shapes.length(base.link, base.start, name)
             point = pen.draw(mark_off, line, length, name=name)
-            pen.make(PointOnLever(start=base.start, name=name, point=point))
-            return point
+        pen.make(PointOnLever(start=base.start, name=name, point=point))
+        return point
+    if on_guide is not None:
+        if not pen.has("position", on_guide):
+            pen.want("position", on_guide, set_by_axis(pen, shapes, base, on_guide))
+        return set_by_base(pen, shapes, Base(base.link, base.start, on_guide, ()), name)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
         here = (pen.the("position", base.start), axis(pen, shapes, base.link))
         ends = shapes.local(base.link, base.start), shapes.local(base.link, name)
         return place_point(pen, base.link, (base.start, name), *here, *ends)
 
 
-def runs_along(pen: Pen, base: Base, point: str) -> bool:
-    """Whether a guide is written along the way from a link's pivot to one of its points."""
-    for link in pen.scene.links.values():
-        for slide in link.slides:
-            if slide.on == base.link and slide.along == (base.start, point):
-                return True
-    return False
+def guide_point(pen: Pen, base: Base, line: int) -> str | None:
+    """The point of a link to which the guide that turned it is written, away from its pivot."""
+    from graphkin.construction.guides.swung_guide import SwungGuide
+
+    guide = pen.steps[line].of
+    assert isinstance(guide, SwungGuide)
+    for slide in pen.scene.links[guide.block].slides:
+        if slide.on == base.link and slide.along is not None and slide.along[0] == base.start:
+            return slide.along[1]
+    return None
 
 
 def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
