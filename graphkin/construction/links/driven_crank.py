@@ -118,6 +118,10 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
         """The pivot and the tip."""
         return self.pivot, self.name
 
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """From the pivot."""
+        return self.points
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its angle; by that of the bar in the plane where it was found with a group."""
         words, spot = drawing.words, drawing.standing.spot
