@@ -1,4 +1,4 @@
-"""Levers that a block turns about a pivot: what else stands on them, beside the slot or in it."""
+"""Points of levers and plates: on a slot or beside it, on the line of two others."""
 
 from __future__ import annotations
 
@@ -102,3 +102,42 @@ def test_the_other_points_of_a_lever_follow_from_the_one_on_its_slot(shape, expe
     assert any("on the line of the link lay off QB: B" in each for each in said)
     assert any(expected in each for each in said)
     assert not any("°" in each for each in said)
+
+
+COUPLER = """
+[frame]
+O1 = [0, 0]
+O2 = [0.12, 0]
+[links.1]
+O1-A = 0.04
+[links.2]
+A-B = 0.11
+A-P = 0.07
+B-A-P = 12
+A-M = 0.05
+M = "on A-P"
+P-N = 0.02
+N = "beyond P on A-P"
+[links.3]
+O2-B = 0.08
+[[drivers]]
+turn = 1
+angle = 50
+speed = 3
+[branches]
+B = "left of A-O2"
+"""
+
+
+def test_a_point_between_others_is_laid_off_on_their_line_and_not_by_flat_arcs():
+    """A and P stand: M and N need neither an arc about B nor its crossing with one about A."""
+    mechanism = mechanism_of(COUPLER)
+    solution = mechanism.solve()
+    a, p, m, n = (solution.points[name].position for name in "APMN")
+    assert m == pytest.approx(a + (p - a) * 5 / 7, rel=1e-14)
+    assert n == pytest.approx(a + (p - a) * 9 / 7, rel=1e-14)
+    drawing = drawings_of(mechanism, solution, words("en"))[0]
+    said = " / ".join(plain(each.markup) for each in sentences(drawing))
+    assert "on AP lay off AM: M" in said
+    assert "on PA produced beyond P lay off PN: N" in said
+    assert mechanism.witness(solution).agrees

@@ -24,7 +24,7 @@ from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_w
 from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, crossing_sine, dot
-from graphkin.scene.model import FRAME
+from graphkin.scene.model import FRAME, OnLine
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -293,6 +293,7 @@ def guide_point(pen: Pen, base: Base, line: int) -> str | None:
 
 def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
     """A point of a link on its base: by hand an arc about each end, on its line the distance."""
+    base = own_line(pen, base, name)
     assert base.end is not None
     ends = pen.the("position", base.start), pen.the("position", base.end)
     ratio = shapes.ratio(base.link, base.start, base.end, name)
@@ -314,6 +315,21 @@ def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
         corner = pen.draw(arcs_meet, near, far, extra=(1 if value.imag > 0 else -1,))
     by_arcs = PlatePointByArcs(**own, point=0, corner=corner, near=near, far=far)
     return similar_on(pen, by_arcs, *ends, ratio)
+
+
+def own_line(pen: Pen, base: Base, name: str) -> Base:
+    """The two points between or beyond which a point is written, once they stand; else the base.
+
+    About the ends of the base two arcs may meet flat there, where the line needs none.
+    """
+    for placing in pen.scene.link(base.link).placings:
+        if placing.point == name and isinstance(placing, OnLine):
+            ends = {placing.first, placing.second}
+            if base.start not in ends or base.end not in ends:
+                if all(pen.has("position", end) for end in ends):
+                    (other,) = ends - {placing.start}
+                    return Base(base.link, placing.start, other, ())
+    return base
 
 
 def similar_on(pen: Pen, kind: PlatePoint, start: int, end: int, ratio: int) -> int:
