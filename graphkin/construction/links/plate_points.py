@@ -325,10 +325,9 @@ def own_line(pen: Pen, base: Base, name: str) -> Base:
     for placing in pen.scene.link(base.link).placings:
         if placing.point == name and isinstance(placing, OnLine):
             ends = {placing.first, placing.second}
-            if base.start not in ends or base.end not in ends:
-                if all(pen.has("position", end) for end in ends):
-                    (other,) = ends - {placing.start}
-                    return Base(base.link, placing.start, other, ())
+            if ends != {base.start, base.end} and all(pen.has("position", end) for end in ends):
+                (other,) = ends - {placing.start}
+                return Base(base.link, placing.start, other, ())
     return base
 
 
