@@ -111,6 +111,20 @@ def test_a_third_crank_that_does_not_fit_is_named(run: Run, cranks: Callable[...
     assert "links.4: S and M stand 10 mm apart without it" in result.stderr
 
 
+def test_a_group_that_closes_nowhere_has_no_closure_that_the_scene_says(
+    run: Run, tmp_path: Path
+) -> None:
+    path = tmp_path / "torn.toml"
+    scene = ROOT / "examples" / "scenes" / "stephenson-3-crank.toml"
+    text = scene.read_text(encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
+    assert part(run("check", path).stdout, "closures")[-1] == "(* as the scene says)"
+    path.write_text(text.replace("C-D = 220", "C-D = 20"), encoding="utf-8")
+    result = run("check", path)
+    assert result.exit_code == 2
+    assert part(result.stdout, "closures")[1:] == ["  none in this position"]
+
+
 INVERSOR = """graphkin = 1
 title = "Peaucellier's inversor, its block on the line"
 units = { length = "mm", angle = "deg", speed = "rad/s" }
