@@ -89,10 +89,15 @@ def test_a_second_slot_of_a_lever_stands_at_its_own_angle():
     ],
     ids=["bell-crank", "bell-crank, other order", "two arms", "on the slot"],
 )
-def test_the_other_points_of_a_lever_follow_from_the_one_on_its_slot(shape, expected):
+@pytest.mark.parametrize(("along", "way"), [("Q-B", "forward"), ("B-Q", "backward")])
+def test_the_other_points_of_a_lever_follow_from_the_one_on_its_slot(shape, expected, along, way):
     """By compass from the pivot and that point: no hand knows at what angle the lever stands."""
-    mechanism = lever_of(shape)
-    drawing = drawings_of(mechanism, mechanism.solve(), words("en"))[0]
+    text = LEVER.replace("SHAPE", shape).replace('Q-B" }', f'{along}" }}')
+    mechanism = mechanism_of(text.replace("forward", way))
+    solution = mechanism.solve()
+    assert solution.points["B"].position == pytest.approx(PIVOT + 0.07 * lever_turn(0), rel=1e-14)
+    assert mechanism.witness(solution).agrees
+    drawing = drawings_of(mechanism, solution, words("en"))[0]
     steps = drawing.trace.program.steps
     said = [
         plain(each.markup)

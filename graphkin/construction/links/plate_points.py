@@ -262,11 +262,11 @@ def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
     Once a point stands on the guide that turned the link, the others follow from it and the pivot.
     """
     line = pen.shared.get(("swing", base.link))
-    on_guide = guide_point(pen, base, line) if line is not None else None
+    on_guide, sense = guide_point(pen, base, line) if line is not None else (None, 1)
     if line is not None and name == on_guide:
         with pen.on(Part.POSITION, Plane.MECHANISM):
-            length = shapes.length(base.link, base.start, name)
-            point = pen.draw(mark_off, line, length, name=name)
+            length, back = shapes.length(base.link, base.start, name), (sense,) if sense < 0 else ()
+            point = pen.draw(mark_off, line, length, extra=back, name=name)
         pen.make(PointOnLever(start=base.start, name=name, point=point))
         return point
     if on_guide is not None:
@@ -279,16 +279,18 @@ def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
         return place_point(pen, base.link, (base.start, name), *here, *ends)
 
 
-def guide_point(pen: Pen, base: Base, line: int) -> str | None:
-    """The point of a link to which the guide that turned it is written, away from its pivot."""
+def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:
+    """The point of a link to which the guide that turned it is written from its pivot (sense 1),
+    or from which it is written to the pivot (-1)."""
     from graphkin.construction.guides.swung_guide import SwungGuide
 
     guide = pen.steps[line].of
     assert isinstance(guide, SwungGuide)
     for slide in pen.scene.links[guide.block].slides:
-        if slide.on == base.link and slide.along is not None and slide.along[0] == base.start:
-            return slide.along[1]
-    return None
+        if slide.on == base.link and slide.along is not None and base.start in slide.along:
+            first, second = slide.along
+            return (second, 1) if first == base.start else (first, -1)
+    return None, 1
 
 
 def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
