@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from errno import EINVAL
 from stat import S_ISDIR, S_ISREG
 
@@ -49,6 +50,8 @@ def decoded(data: bytes) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+            raise SceneError(Problem("", "the file is UTF-16", "a text saved as UTF-8")) from None
         line = data.count(b"\n", 0, error.start) + 1
         found = f"the byte 0x{data[error.start]:02x} is not UTF-8"
         raise SceneError(Problem(f"line {line}", found, "a text saved as UTF-8")) from None
@@ -169,6 +172,9 @@ ADVICE = (
     ("invalid statement", PARTS),
 )
 """How what the reader of TOML says begins, and what helps."""
+NAMED = "these are A to Z and a to z without accents"
+OF_KEYS = ("invalid statement", "invalid initial character", "expected '='", "expected ']'")
+"""How what the reader says of a name begins that has a letter of another alphabet."""
 LAST = "'\\n'"
 """The sign that stands where a text is not closed on its line."""
 
@@ -187,6 +193,8 @@ def certain(found: str, line: str, rest: str) -> Hint:
     """What helps against a fault that can be nothing else; ``rest`` stands from the fault on."""
     if line.lstrip().startswith("[") and found.startswith("expected ']"):
         return HEADING
+    if rest and rest[0].isalpha() and not rest[0].isascii() and found.startswith(OF_KEYS):
+        return f"“{rest[0]}” (U+{ord(rest[0]):04X}) is no letter of a name: {NAMED}"
     comment = re.match(r"//|;", rest)
     if comment:
         return Mend(comment[0], "#", COMMENT)

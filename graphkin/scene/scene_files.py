@@ -83,12 +83,13 @@ def find(name: str) -> str:
         return within(shipped(), name, SCENE)
     if paths.is_folder(path):
         expected = "a folder with scene.toml, a .toml file or the name of a lab"
-        raise SceneError(Problem(name, "is a folder without scene.toml", expected))
+        raise SceneError(Problem(path, "is a folder without scene.toml", expected))
     around = path[: len(path) - len(paths.name_of(path))]
     beside = [around + other for other in paths.in_folder(around or ".") if other.endswith(ENDING)]
     from difflib import get_close_matches
 
-    near = get_close_matches(name, [*beside, *names()], n=1)
+    others = [other for other in (*beside, *names()) if other != name]
+    near = get_close_matches(name, others, n=1)
     hint = f"did you mean {near[0]}? " if near else ""
     raise SceneError(
         Problem(

@@ -111,6 +111,74 @@ def test_a_third_crank_that_does_not_fit_is_named(run: Run, cranks: Callable[...
     assert "links.4: S and M stand 10 mm apart without it" in result.stderr
 
 
+def test_a_group_that_closes_nowhere_has_no_closure_that_the_scene_says(
+    run: Run, tmp_path: Path
+) -> None:
+    path = tmp_path / "torn.toml"
+    scene = ROOT / "examples" / "scenes" / "stephenson-3-crank.toml"
+    text = scene.read_text(encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
+    assert part(run("check", path).stdout, "closures")[-1] == "(* as the scene says)"
+    path.write_text(text.replace("C-D = 220", "C-D = 20"), encoding="utf-8")
+    result = run("check", path)
+    assert result.exit_code == 2
+    assert part(result.stdout, "closures")[1:] == ["  none in this position"]
+
+
+INVERSOR = """graphkin = 1
+title = "Peaucellier's inversor, its block on the line"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+Q = [60, 0]
+[links.1]
+Q-A = 60
+[links.2]
+O-B = 140
+[links.3]
+O-C = 140
+[links.4]
+A-B = 60
+[links.5]
+A-C = 60
+[links.6]
+B-P = 60
+[links.7]
+C-P = 60
+[links.8]
+P = [0, 0]
+slides = { on = 0, through = ["16000/120", 0], angle = 90 }
+[[drivers]]
+turn = 1
+angle = 25
+speed = 3
+[branches]
+B = "left of O-A"
+C = "right of O-A"
+P = "SIDE of B-C"
+"""
+
+
+@pytest.mark.parametrize(
+    ("side", "told"),
+    [("left", ""), ("right", "links.8: P stands 18.9549 mm beside its guide without it")],
+)
+def test_an_idle_block_fits_in_one_closure_and_in_the_other_it_is_named(
+    side: str, told: str, run: Run, tmp_path: Path
+) -> None:
+    """OA·OP = OB² - AB² = 16000 mm²: on the far side P keeps to x = 16000/120; on the other A is P.
+
+    A stands at x = 60 (1 + cos 25°) there.
+    """
+    assert 16000 / 120 - 60 * (1 + math.cos(math.radians(25))) == pytest.approx(18.9549, abs=5e-5)
+    path = tmp_path / "inversor.toml"
+    path.write_text(INVERSOR.replace("SIDE", side), encoding="utf-8")
+    result = run("check", path)
+    assert result.exit_code == (2 if told else 0)
+    assert told in result.stderr
+    assert "drivers:" not in result.stderr
+
+
 def test_a_singular_position_is_told_apart_from_an_idle_link(
     run: Run, cranks: Callable[..., Path]
 ) -> None:

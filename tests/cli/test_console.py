@@ -34,6 +34,7 @@ from tests.running import ROOT, Run, command
         (["solve", "missing.toml"], "neither a file nor a shipped lab"),
         (["solve", "a\0b"], "neither a file nor a shipped lab"),
         (["solve", "x" * 5000], ""),
+        (["solve", ""], "graphkin: .: is a folder without scene.toml"),
         (["sheet", "pump", "-o", ""], "the name of the folder is empty"),
         (["check", "pump", "--set", "n=31"], "graphkin: pump: setting n: n = 31 is out of range"),
     ],
@@ -58,6 +59,17 @@ def test_unreadable_scenes_are_told_in_lines(run: Run, tmp_path: Path, data: byt
         assert result.exit_code == 2
         assert result.stderr
         assert all(line.startswith("graphkin: ") for line in result.stderr.splitlines())
+
+
+def test_a_link_that_leads_nowhere_is_not_proposed_in_its_own_place(
+    run: Run, tmp_path: Path
+) -> None:
+    loop = tmp_path / "scene.toml"
+    loop.symlink_to(loop)
+    result = run("solve", loop)
+    assert result.exit_code == 2
+    assert "is neither a file nor a shipped lab" in result.stderr
+    assert "did you mean" not in result.stderr
 
 
 def test_a_fault_of_our_own_is_one_line(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

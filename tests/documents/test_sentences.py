@@ -12,6 +12,8 @@ from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import angle_symbol
+from graphkin.construction.core.program import Plane
+from graphkin.construction.drivers.driver_relations import drawn_bars
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.drawing.richtext import plain
@@ -29,6 +31,7 @@ HIGHER = (
     "stephenson-2-ternary",
     "stephenson-3-crank",
 )
+BARS = r"(?:\*[A-Z]\*(?:_\{[^}]*\})?){2}"
 BAR = re.compile(r"[/·]((?:\*[A-Z]\*(?:_\{[^}]*\})?){2})$")
 ARTICLES = re.compile(r"\b(?:a|da|di|su|in) (?:la|il|lo|le|gli|i) |\b(?:a|da|di|su) l['’]")
 CLASHING = re.compile(r"(?<!\S)(?:a A|a a|e E|e e)")
@@ -58,6 +61,17 @@ def test_every_length_of_the_calculation_is_given_or_measured_before(both):
                 turned = "".join(reversed(re.findall(r"\*[A-Z]\*(?:_\{[^}]*\})?", bar[1])))
                 assert {bar[1], turned} & told, relation
     assert drawn_before
+
+
+def test_every_bar_that_is_laid_off_is_told_as_long_as_it_is_drawn(both):
+    """A hand lays off a length on paper: the calculation divides it by the scale."""
+    drawing = both[0]
+    drawn = {name for names, _ in drawn_bars(drawing) for name in re.findall(BARS, names)}
+    for each in sentences(drawing):
+        if drawing.trace.program.steps[each.step].plane is not Plane.MECHANISM:
+            continue
+        for laid in re.finditer(rf"lay off ({BARS})(?=:|;|,| at |$)", each.markup):
+            assert laid[1] in drawn, each.markup
 
 
 def test_every_point_that_a_sentence_speaks_of_has_a_letter(both):

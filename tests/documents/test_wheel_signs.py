@@ -10,7 +10,7 @@ from graphkin.construction.core.given_pairs import wheels
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.rolling.contact_points import ContactOfWheels
-from graphkin.construction.rolling.rate_by_radii import RateByRadii
+from graphkin.construction.rolling.wheel_images import RateByRadii
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet import left_board
 from graphkin.text import LANGUAGES, words

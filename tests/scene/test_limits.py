@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.scene.file_limits import NUMBER, PARTS, PLAIN, VALUE
+from graphkin.scene.file_limits import NAMED, NUMBER, PARTS, PLAIN, VALUE
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import MORE, Problem, SceneError
 
@@ -86,6 +86,11 @@ def test_syntax_errors_name_their_line() -> None:
         ("O2-B = long", NUMBER),
         ("n = { value = seven }", PLAIN),
         ("2 = arm", 'put the text in quotes: "arm"'),
+        ("Ă-B = 1", f"“Ă” (U+0102) is no letter of a name: {NAMED}"),
+        ("A-\N{CYRILLIC CAPITAL LETTER VE} = 1", f"“В” (U+0412) is no letter of a name: {NAMED}"),
+        ("[links.ă]", f"“ă” (U+0103) is no letter of a name: {NAMED}"),
+        ("slides = { ön = 0 }", f"“ö” (U+00F6) is no letter of a name: {NAMED}"),
+        ("title = Ștanță", 'put the text in quotes: "Ștanță"'),
         ("[[drivers]", "a heading ends as it begins: [links.2], [[drivers]]"),
         ("length = { a = 1", "the table { } is not closed: } or a comma is missing"),
         ("length = 3*n # a student’s", 'put the expression in quotes: "3*n"'),
@@ -161,7 +166,8 @@ def test_a_byte_order_mark_is_passed_over(written: Callable[[bytes], Path], data
     ("data", "found"),
     [
         (b'graphkin = 1\ntitle = "\xff"', "the byte 0xff is not UTF-8"),
-        ("graphkin = 1".encode("utf-16"), "the byte 0xff is not UTF-8"),
+        (b"\xff\xfe" + "graphkin = 1".encode("utf-16-le"), "is UTF-16"),
+        (b"\xfe\xff" + "graphkin = 1".encode("utf-16-be"), "is UTF-16"),
         (b"\x00" * 300_000, "the file is too large"),
         (b"\x00", "not TOML"),
     ],

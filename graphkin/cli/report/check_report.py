@@ -74,7 +74,9 @@ class Checking:
         lines: list[str] = []
         for choice in choices(mechanism.scene, mechanism.groups, mechanism.program):
             lines += closure_lines(choice)
-        legend = ["(* as the scene says)"] if lines else ["nothing to choose"]
+        stated = any(line.startswith("*") for line in lines)
+        legend = ["(* as the scene says)"] if stated else []
+        lines = lines or ["nothing to choose"]
         yield from labelled("closures", [*lines, *legend])
         yield from labelled("range", range_lines(mechanism))
 
@@ -115,6 +117,8 @@ def title(scene: Scene) -> list[str]:
 def closure_lines(choice: Choice) -> list[str]:
     """Both closures of a dyad, the picked one marked."""
     lines = [f"{choice.pin} of links {listed(choice.links)}:"]
+    if not choice.closures:
+        lines.append("  none in this position")
     for closure in choice.closures:
         if closure.place is None:
             where = "cannot be drawn"

@@ -254,6 +254,10 @@ class SwungLever(Construction, frozen=True, kw_only=True):
         """The pin and the tip."""
         return self.pin, self.name
 
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """From the pin."""
+        return self.pin, self.name
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the angle of its bar in the plane."""
         words, spot = drawing.words, drawing.standing.spot

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
 
 
 @action("mark-off")
-def mark_off(line: Line, length: Real) -> Point:
-    """The point at a given distance along a line."""
+def mark_off(line: Line, length: Real, sense: int = 1) -> Point:
+    """The point at a given distance along a line, or back (sense -1)."""
+    length = length if sense > 0 else -length
     return line.point + line.along * (length / abs(line.along))
 
 
@@ -116,6 +117,10 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     @property
     def points(self) -> tuple[str, ...]:
         """The pivot and the tip."""
+        return self.pivot, self.name
+
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """From the pivot."""
         return self.pivot, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:

@@ -24,7 +24,7 @@ from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
-from graphkin.scene.model import FRAME
+from graphkin.scene.model import FRAME, OnLine
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -48,6 +48,10 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     @property
     def points(self) -> tuple[str, ...]:
         """From which point it is laid off, and itself."""
+        return self.start, self.name
+
+    def laid_length(self, role: str) -> tuple[str, str]:
+        """From that point."""
         return self.start, self.name
 
     def turned(self, drawing: Drawing) -> float | None:
@@ -253,30 +257,45 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
 
 
 def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
-    """A point of a link that is turned to its axis already; on its own guide it is laid off."""
+    """A point of a link that is turned to its axis already; on its own guide it is laid off.
+
+    Once a point stands on the guide that turned the link, the others follow from it and the pivot.
+    """
     line = pen.shared.get(("swing", base.link))
+    on_guide, sense = guide_point(pen, base, line) if line is not None else (None, 1)
+    if line is not None and name == on_guide:
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            length, back = shapes.length(base.link, base.start, name), (sense,) if sense < 0 else ()
+            point = pen.draw(mark_off, line, length, extra=back, name=name)
+        pen.make(PointOnLever(start=base.start, name=name, point=point))
+        return point
+    if on_guide is not None:
+        if not pen.has("position", on_guide):
+            pen.want("position", on_guide, set_by_axis(pen, shapes, base, on_guide))
+        return set_by_base(pen, shapes, Base(base.link, base.start, on_guide, ()), name)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        if line is not None and runs_along(pen, base, name):
-            length = shapes.length(base.link, base.start, name)
-            point = pen.draw(mark_off, line, length, name=name)
-            pen.make(PointOnLever(start=base.start, name=name, point=point))
-            return point
         here = (pen.the("position", base.start), axis(pen, shapes, base.link))
         ends = shapes.local(base.link, base.start), shapes.local(base.link, name)
         return place_point(pen, base.link, (base.start, name), *here, *ends)
 
 
-def runs_along(pen: Pen, base: Base, point: str) -> bool:
-    """Whether a guide is written along the way from a link's pivot to one of its points."""
-    for link in pen.scene.links.values():
-        for slide in link.slides:
-            if slide.on == base.link and slide.along == (base.start, point):
-                return True
-    return False
+def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:
+    """The point of a link to which the guide that turned it is written from its pivot (sense 1),
+    or from which it is written to the pivot (-1)."""
+    from graphkin.construction.guides.swung_guide import SwungGuide
+
+    guide = pen.steps[line].of
+    assert isinstance(guide, SwungGuide)
+    for slide in pen.scene.links[guide.block].slides:
+        if slide.on == base.link and slide.along is not None and base.start in slide.along:
+            first, second = slide.along
+            return (second, 1) if first == base.start else (first, -1)
+    return None, 1
 
 
 def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
     """A point of a link on its base: by hand an arc about each end, on its line the distance."""
+    base = own_line(pen, base, name)
     assert base.end is not None
     ends = pen.the("position", base.start), pen.the("position", base.end)
     ratio = shapes.ratio(base.link, base.start, base.end, name)
@@ -298,6 +317,20 @@ def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
         corner = pen.draw(arcs_meet, near, far, extra=(1 if value.imag > 0 else -1,))
     by_arcs = PlatePointByArcs(**own, point=0, corner=corner, near=near, far=far)
     return similar_on(pen, by_arcs, *ends, ratio)
+
+
+def own_line(pen: Pen, base: Base, name: str) -> Base:
+    """The two points between or beyond which a point is written, once they stand; else the base.
+
+    About the ends of the base two arcs may meet flat there, where the line needs none.
+    """
+    for placing in pen.scene.link(base.link).placings:
+        if placing.point == name and isinstance(placing, OnLine):
+            ends = {placing.first, placing.second}
+            if ends != {base.start, base.end} and all(pen.has("position", end) for end in ends):
+                (other,) = ends - {placing.start}
+                return Base(base.link, placing.start, other, ())
+    return base
 
 
 def similar_on(pen: Pen, kind: PlatePoint, start: int, end: int, ratio: int) -> int:

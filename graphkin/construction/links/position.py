@@ -13,6 +13,7 @@ from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import meet_arcs
 from graphkin.construction.links.link_shapes import LinkShapes, place
 from graphkin.construction.links.plate_points import arc, plate_points
+from graphkin.numbers.plane import cross
 from graphkin.scene.model import Apart, Link
 from graphkin.structure.groups import Crank, Driven, Dyad, Tie
 from graphkin.structure.pairs import Joint, Pin, Sliding
@@ -154,19 +155,44 @@ def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
 
 def refuse_misfit(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
     """Raise StructureError for an idle link that its neighbours leave no room for."""
-    if not isinstance(group.first, Pin) or not isinstance(group.second, Pin):
+    if not isinstance(group.first, Pin) or not isinstance(group.second, Pin | Sliding):
         return
-    p, q = group.first.point, group.second.point
-    ends = [pen.peek(pen.the("position", point)) for point in (p, q)]
-    length = pen.peek(shapes.length(group.link, p, q))
-    if None in (*ends, length) or abs(abs(ends[1] - ends[0]) - length) <= FITS * length:
+    link, p = group.link, group.first.point
+    place = pen.peek(pen.the("position", p))
+    if isinstance(group.second, Sliding):
+        found = beside_guide(pen, shapes, group.second, link, p)
+        expected = "a guide through it: the link is idle, the rest moves without it"
+    else:
+        q = group.second.point
+        end, length = pen.peek(pen.the("position", q)), pen.peek(shapes.length(link, p, q))
+        if None in (place, end, length) or abs(abs(end - place) - length) <= FITS * length:
+            return
+        found = (
+            f"{p} and {q} stand {1e3 * abs(end - place):.6g} mm apart without it, but it is "
+            f"{1e3 * length:.6g} mm long"
+        )
+        expected = "a length that fits: the link is idle, the rest moves without it"
+    if not found:
         return
     raise StructureError(
         Problem(
-            f"links.{group.link}",
-            f"{p} and {q} stand {1e3 * abs(ends[1] - ends[0]):.6g} mm apart without it, but it is "
-            f"{1e3 * length:.6g} mm long",
-            "a length that fits: the link is idle, the rest moves without it",
-            "or take a driver away, if the link is to move the rest",
+            f"links.{link}",
+            found,
+            expected,
+            "another closure may fit; or take a driver away, if the link is to move the rest",
         )
     )
+
+
+def beside_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, point: str) -> str:
+    """How far an idle block's pin stands beside its guide; nothing where that is as printed."""
+    from graphkin.construction.guides.swung_guide import breadth_about
+
+    at = pen.the("position", point)
+    line, place = pen.peek(path_of(pen, shapes, pair, link, point)), pen.peek(at)
+    if line is None or place is None:
+        return ""
+    away = abs(cross(line.along, place - line.point)) / abs(line.along)
+    if away <= FITS * breadth_about(pen, at):
+        return ""
+    return f"{point} stands {1e3 * away:.6g} mm beside its guide without it"
