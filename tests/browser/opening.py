@@ -184,7 +184,7 @@ def watched(
         pytest.fail("told or asked for by a page:\n" + "\n".join(wrong), pytrace=False)
 
 
-ANEW = """async place => {
+ANEW = """() => {
   const part = name => document.getElementById(name), seen = name => part(name)?.checkVisibility();
   if (seen("turn-panel")) {
     if (seen("score")) part("turn-score").click();
@@ -192,12 +192,17 @@ ANEW = """async place => {
   }
   if (seen("back")) part("back").click();
   document.activeElement.blur();
+}"""
+"""Leave a turn, and put the driver back."""
+LED = """async place => {
   if (location.hash === place) return;
   const there = new Promise(done => addEventListener("hashchange", done, { once: true }));
   location.hash = place;
   await there;
 }"""
-"""Leave a turn, put the driver back, and go to a place of the same page."""
+"""Go to a place of the same page."""
+PAINTED = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+"""What is led is drawn in the next picture."""
 
 
 @pytest.fixture(scope="module")
@@ -213,7 +218,9 @@ def kept(chromium: Any, tabs: dict[str, Tab]) -> Iterator[Opened]:
                 return shown
             shown.emulate_media(media="null")
             shown.mouse.move(0, 0)
-            shown.evaluate(ANEW, place)
+            for script, told in ((ANEW, None), (LED, place)):
+                shown.evaluate(script, told)
+                shown.clock.run_for(100) if options.get("stopped") else shown.evaluate(PAINTED)
             return shown
 
         yield led

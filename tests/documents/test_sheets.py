@@ -151,20 +151,15 @@ def taken_up(mark: Mark) -> BaseGeometry:
 
 def test_the_number_of_a_plate_stands_inside_where_a_clear_place_is(page):
     """A circle of 2.3 mm has a clear place if its middle is 3.1 mm from sides and other lines."""
-    plates = [mark for mark in page.marks["mechanism"] if kind_of(mark) == "plate"]
-    lines = shapely.union_all(
-        [
-            outline(mark)
-            for mark in page.marks["mechanism"]
-            if not isinstance(mark, Text) and not is_label(mark) and kind_of(mark) != "plate"
-        ]
-    )
+    marks = page.marks["mechanism"]
+    plates = {mark.name: shapely.Polygon(mark.points) for mark in marks if kind_of(mark) == "plate"}
+    others = [mark for mark in marks if not isinstance(mark, Text) and not is_label(mark)]
+    lines = [outline(mark) for mark in others if kind_of(mark) != "plate"]
     for label in page.labels("mechanism"):
-        for plate in plates:
-            body = shapely.Polygon(plate.points)
-            if label.ring and plate.name == label.text.name:
-                clear = body.buffer(-3.2) - lines.buffer(3.2)
-                assert clear.is_empty or body.contains(label.ink()), label.text
+        if label.ring and label.text.name in plates:
+            body = plates[label.text.name]
+            clear = body.buffer(-3.2) - shapely.union_all(shapely.buffer(lines, 3.2))
+            assert clear.is_empty or body.contains(label.ink()), label.text
 
 
 def names_of(page: Drawn, mark: Mark) -> set[str]:

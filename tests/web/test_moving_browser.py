@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
+from functools import cache
 from itertools import combinations
 from typing import Any
 
@@ -17,7 +18,7 @@ from graphkin.construction.tape.tape_outputs import runner
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
 from graphkin.web.moving import Moving
 from tests.chosen import EVERY
-from tests.web.laid import laid
+from tests.web.laid import Laid, laid
 from tests.web.test_moving import LIMIT, compared, fields, page_of
 
 SCENES = (
@@ -32,6 +33,8 @@ SCENES = (
 )
 """Cranks, slides, gears, a rack, a group of class III, a driver that slides, a law of time."""
 PLACES = (0.04, 0.2, 0.36, 0.52, 0.68, 0.84, 0.97)
+RAN: dict[str, list[dict[str, Any]]] = {}
+"""What the page of each scene did, once it has run."""
 RUN = """([source, places]) => {
   const motion = new Function(source + ';return graphkinMotion')();
   return places.map((x) => {
@@ -71,6 +74,21 @@ def run(page: Any, name: str, places: Sequence[float]) -> list[dict[str, Any]]:
     return found
 
 
+def everywhere(page: Any, name: str) -> list[tuple[float, dict[str, Any]]]:
+    """The same at all places that are looked at, each with its place; run once."""
+    if name not in RAN:
+        RAN[name] = run(page, name, places_of(name))
+    return [*zip(places_of(name), RAN[name], strict=True)]
+
+
+@cache
+def laid_at(name: str, x: float) -> Mapping[str, Laid]:
+    """Where the records of a page lay its marks at a place of the driver."""
+    found = laid(page_of(name)[1], x)
+    assert found is not None
+    return found
+
+
 def places_of(name: str) -> list[float]:
     """Places within the range of a scene, that where it stands first."""
     reach, driven = page_of(name)[1].reach, page_of(name)[1].driven
@@ -95,8 +113,7 @@ def read(mark: Mark | None, written: Mapping[str, str]) -> list[float] | None:
 def test_a_browser_draws_as_python_does(page, name):
     """Coordinates of every line, circle, arc and vector within 0.01 mm of a fresh drawing."""
     by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
-    places = places_of(name)[:: 1 if EVERY else 3]
-    for x, found in zip(places, run(page, name, places), strict=True):
+    for x, found in everywhere(page, name)[:: 1 if EVERY else 3]:
         assert found["ok"]
         marks = {i: read(by_id.get(i), written) for i, written in found["marks"].items()}
         assert not list(compared(name, x, marks))
@@ -108,9 +125,8 @@ def test_texts_move_as_their_bindings_say(page, name):
     the other side of what it names."""
     records = {record[0]: record for record in page_of(name)[1].data["marks"]}
     by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
-    for x, found in zip(places_of(name), run(page, name, places_of(name)), strict=True):
-        shifts = laid(page_of(name)[1], x)
-        assert shifts is not None
+    for x, found in everywhere(page, name):
+        shifts = laid_at(name, x)
         for mark_id, written in found["marks"].items():
             if isinstance(by_id.get(mark_id), Text) and "transform" in written:
                 if written.get("visibility") == "hidden":
@@ -133,9 +149,8 @@ def overturned(moving: Moving, record: list[Any], x: float) -> list[float] | Non
 def test_fewer_labels_lie_on_one_another(page, name):
     """Than if each kept its side: at most half as many of all places."""
     found, before, after = page_of(name)[1], 0, 0
-    for x, here in zip(places_of(name)[1:], run(page, name, places_of(name)[1:]), strict=True):
-        plain = laid(found, x)
-        assert plain is not None
+    for x, here in everywhere(page, name)[1:]:
+        plain = laid_at(name, x)
         for field in (field for sheet in found.data["fields"] for field in sheet):
             first, last = [], []
             for i, across, down, _ in field["labels"]:
@@ -163,7 +178,7 @@ def hits(boxes: Sequence[tuple[float, float, float, float]]) -> int:
 def test_read_outs_and_margins_are_those_of_the_sheet(page, name):
     """Where the scene stands, values and sines are those that the construction has."""
     sheets, _ = page_of(name)
-    (found,) = run(page, name, places_of(name)[:1])
+    _, found = everywhere(page, name)[0]
     for sheet in sheets:
         drawing = sheet.drawing
         what, letter = ("omega", "ω") if drawing.kind == "velocity" else ("epsilon", "ε")
@@ -244,9 +259,8 @@ def test_names_cannot_leave_the_script():
 def test_bodies_move_as_their_bindings_say(page, name):
     """Teeth, strokes, plates and slots lie where their records lay them."""
     by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
-    for x, found in zip(places_of(name), run(page, name, places_of(name)), strict=True):
-        wanted = laid(page_of(name)[1], x)
-        assert wanted is not None
+    for x, found in everywhere(page, name):
+        wanted = laid_at(name, x)
         for mark_id, written in found["marks"].items():
             if isinstance(by_id.get(mark_id), Text):
                 continue
