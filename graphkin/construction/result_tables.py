@@ -63,10 +63,10 @@ def unread(drawing: Drawing) -> Iterator[str]:
         if drawing.turning(link) == 0:
             still[link] = f"{drawing.rate.letter}_{link}"
     sheet, least = words(f"sheet.{drawing.kind}"), words.decimal(f"{LEGIBLE:g}")
-    for key, names in (("too_short", short), ("at_rest", still)):
+    for key, names in (("sheet.too_short", short), ("sheet.at_rest", still)):
         if names:
             listed = words("list_mark").join(names.values())
-            yield words(f"sheet.{key}", sheet=sheet, least=least, list=listed)
+            yield words(key, sheet=sheet, least=least, list=listed)
 
 
 def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

@@ -29,7 +29,7 @@ from graphkin.construction.core.relation import (
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
-from graphkin.construction.drivers.driver_relations import of_driver, of_scales
+from graphkin.construction.drivers.driver_relations import KA, of_driver, of_scales
 from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.rate_relations import of_sum, of_turning
@@ -49,10 +49,12 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     """The sections of the calculation, in the order of the work.
 
     The data of one that is not solved leave out what it asks. What a cam's centre of curvature is
-    driven at follows once that is found.
+    driven at follows once that is found. Without a plan of accelerations none of a driver are told.
     """
     first = drawings[0]
-    driver = [r for d in first.scene.drivers for r in of_driver(first, d)]
+    unused = () if any(each.kind == "acceleration" for each in drawings) else ("m/s^2", KA)
+    driver = [r for d in first.scene.drivers for r in of_driver(first, d) if r.unit not in unused]
+    scales = [r for r in of_scales(first) if r.unit not in unused]
     own = [section for drawing in drawings for section in sections_of(drawing)]
     cams = list(of_cams(first, [r.symbols for _, found in [("", driver), *own] for r in found]))
     after = tuple(f"·{relation.left}" for relation in cams if relation.result)
@@ -61,7 +63,7 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
         ("data", [data_line(first, solved=solved)]),
         ("structure", list(of_structure(first)) if solved else []),
         ("driver", [relation for relation in driver if relation not in driven]),
-        ("scales", list(of_scales(first))),
+        ("scales", scales),
         ("cams", cams + driven),
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)

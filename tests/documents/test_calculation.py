@@ -17,6 +17,7 @@ from graphkin.documents.calculation import (
     calculation,
     laid_out,
 )
+from graphkin.documents.relations import relations
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
 from graphkin.text import LANGUAGES, words
@@ -263,3 +264,11 @@ def test_results_of_measured_lengths_have_no_more_digits_than_these_however_larg
     )
     assert len(figures) > 20
     assert max(len(figure) for figure in figures) <= 7
+
+
+@pytest.mark.parametrize(("name", "drawn"), [("link-motion", False), ("slider-crank", True)])
+def test_nothing_of_accelerations_is_told_where_no_plan_of_them_is_drawn(name, drawn):
+    found = relations(drawings(name))
+    told = {relation.left for _, several in found for relation in several}
+    assert ("*k*_a" in told) is drawn
+    assert ("*a*_{A}" in told) is drawn
