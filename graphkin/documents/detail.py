@@ -15,7 +15,7 @@ from graphkin.drawing.field import XY
 from graphkin.drawing.free_space import FreeDisc, Space
 from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import HELPERS, FieldContent, free_ones
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, moved
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, moved, style_class
 from graphkin.drawing.place_labels import finished
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.style import VECTORS
@@ -153,7 +153,7 @@ def enlarged_part(board: FieldContent, source: Source, at: XY) -> FieldContent:
     part = FieldContent((x - RADIUS, y - RADIUS, x + RADIUS, y + RADIUS))
     part.marks.append(CircleMark(x, y, RADIUS, "detail"))
     for mark in board.marks:
-        shown = mark.cls.split()[0] in SHOWN
+        shown = style_class(mark) in SHOWN
         if isinstance(mark, LineMark) and shown and passes(mark, source.at, RADIUS / source.times):
             draw_part(part, mark, source, at)
     part.labels = [*named(board, source, at)]
@@ -174,7 +174,7 @@ def draw_part(board: FieldContent, line: LineMark, source: Source, at: XY) -> No
     if found is None:
         return
     (x0, y0), (x1, y1) = (larger(end, source, at) for end in found)
-    style = line.cls.split()[0]
+    style = style_class(line)
     board.marks.append(LineMark(x0, y0, x1, y1, f"{style} detail"))
     whole = found[1] == (line.x2, line.y2)
     if style in VECTORS and whole and hypot(x1 - x0, y1 - y0) >= SHORT:
@@ -240,4 +240,4 @@ def dots(labels: Sequence[Label]) -> Iterator[Mark]:
 
 def is_vector(mark: Mark) -> TypeGuard[LineMark]:
     """True for the line of a vector."""
-    return isinstance(mark, LineMark) and mark.cls.split()[0] in VECTORS
+    return isinstance(mark, LineMark) and style_class(mark) in VECTORS

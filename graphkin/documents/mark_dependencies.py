@@ -10,7 +10,7 @@ from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.plates import corners_of, farthest, is_all_wheel
 from graphkin.construction.links.wheel_symbols import TOUCHED, straight_tracks, touching_points
 from graphkin.drawing.field import Field
-from graphkin.drawing.marks import Mark
+from graphkin.drawing.marks import Mark, style_class
 from graphkin.scene.model import FRAME, Driver, Link
 
 Target = tuple[str, str]
@@ -41,7 +41,7 @@ def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:
     """The targets of the program that a mark cannot stand without; none for what is given."""
     name, link = mark.name, drawing.scene.links.get(mark.name)
     if link is not None:
-        yield from of_link(drawing, link, mark.cls.split()[0])
+        yield from of_link(drawing, link, style_class(mark))
     elif driver := driver_of(drawing, name):
         yield from of_driver(drawing, driver)
     else:

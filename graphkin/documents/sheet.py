@@ -41,7 +41,7 @@ from graphkin.drawing.bare_stretches import at_bare_stretches
 from graphkin.drawing.frame import TitleBlock, check_bar, sheet_frame, wrapped
 from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent, FootNote
-from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach
+from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach, style_class
 from graphkin.drawing.richtext import extent, flowed, words_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape, symbol
@@ -325,8 +325,8 @@ def raise_marks(board: FieldContent, some: Sequence[Mark]) -> None:
 
 def vectors(marks: Sequence[Mark]) -> list[Mark]:
     """The vectors of steps with their heads."""
-    own = {(m.step, m.name) for m in marks if m.step is not None and m.cls.split()[0] in VECTORS}
-    return [m for m in marks if (m.step, m.name) in own and m.cls.split()[0] in RAISED]
+    own = {(m.step, m.name) for m in marks if m.step is not None and style_class(m) in VECTORS}
+    return [m for m in marks if (m.step, m.name) in own and style_class(m) in RAISED]
 
 
 def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:

@@ -14,7 +14,7 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.documents.mark_dependencies import Target, rests_on
 from graphkin.documents.sentences import SET_ON
-from graphkin.drawing.marks import Mark
+from graphkin.drawing.marks import Mark, style_class
 from graphkin.scene.link_points import lettered
 
 AT_LAST = ("detail", "note")
@@ -109,7 +109,7 @@ def stage_of(
     targets = drawing.trace.program.targets
     rests = ground[mark] if mark in ground else rests_on(drawing, mark)
     numbers = (targets[target] for target in rests if target in targets)
-    idle = (stage for stage, one in enumerate(said) if one.name == IDLE + mark.name)
+    idle = (stage for stage, one in enumerate(said) if one.name == IDLE and one.link == mark.name)
     return max((*idle, *(settled(drawing, number, staged) for number in numbers)), default=BEFORE)
 
 
@@ -137,7 +137,7 @@ def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> in
 
 def stage_of_closing(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
     """The sentence that closes a group at a pin, for the pin's marks; None for all others."""
-    if mark.cls.split()[0] not in PINS or mark.name in drawing.scene.links:
+    if style_class(mark) not in PINS or mark.name in drawing.scene.links:
         return None
     return next((at for at, one in enumerate(said) if mark.name in traced(drawing, one)), None)
 

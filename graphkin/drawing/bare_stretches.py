@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.marks import LineMark, Mark
+from graphkin.drawing.marks import LineMark, Mark, style_class
 from graphkin.drawing.style import VECTORS
 
 ASIDE = 0.1
@@ -27,7 +27,7 @@ def at_bare_stretches(labels: Sequence[Label], marks: Sequence[Mark]) -> list[La
 
     Where no such stretch is long enough, or nothing is covered, they name the whole vector.
     """
-    drawn = [m for m in marks if isinstance(m, LineMark) and m.cls.split()[0] in VECTORS]
+    drawn = [m for m in marks if isinstance(m, LineMark) and style_class(m) in VECTORS]
     return [
         replace(label, subject=bare_stretch(label, drawn))
         if segment_of(label) and label.cls in VECTORS

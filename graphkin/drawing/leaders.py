@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY, clipped
 from graphkin.drawing.label import Label, segment_of
-from graphkin.drawing.marks import LineMark, Mark, Polyline
+from graphkin.drawing.marks import LineMark, Mark, Polyline, style_class
 from graphkin.drawing.placement import CLEAR, Spot
 from graphkin.drawing.shapes import Array, struck
 from graphkin.drawing.style import OWN_LINES, VECTORS
@@ -51,7 +51,7 @@ def with_leaders(
 
 def strong_lines(marks: Sequence[Mark]) -> Array:
     """The links, guides and vectors of a drawing, which leaders should not cross."""
-    return pieces_of([mark for mark in marks if mark.cls.split()[0] in STRONG])
+    return pieces_of([mark for mark in marks if style_class(mark) in STRONG])
 
 
 def doubtful_letters(labels: Sequence[Label], spots: Sequence[Spot]) -> list[int]:
@@ -118,7 +118,7 @@ def rivals(marks: Sequence[Mark]) -> dict[tuple[str, ...], dict[str, Any]]:
     for mark in marks:
         if not mark.name or not isinstance(mark, LineMark | Polyline):
             continue
-        cls = mark.cls.split()[0]
+        cls = style_class(mark)
         if isinstance(mark, LineMark) and cls in KINDS:
             named = lines.setdefault(KINDS[cls], {}).setdefault(mark.name, [])
             named.append(((mark.x1, mark.y1), (mark.x2, mark.y2)))

@@ -130,6 +130,11 @@ class Text(Struct, frozen=True):
 Mark = LineMark | Polyline | CircleMark | Arc | Text
 
 
+def style_class(mark: Mark) -> str:
+    """Tell the class that decides a mark's style: its first."""
+    return mark.cls.split(maxsplit=1)[0]
+
+
 def polygon(
     points: tuple[Point, ...], cls: str, name: str = "", step: int | None = None
 ) -> Polyline:

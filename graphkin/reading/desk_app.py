@@ -18,8 +18,8 @@ from graphkin.reading.read_sheet import SHOWN, SheetRecord
 from graphkin.reading.settled_points import LONGEST, PointDecision, SettledPoints, settled_points
 from graphkin.studio.local_pages import JSON, answer, answering, new_application
 from graphkin.studio.page_requests import PageRequestError
-from graphkin.studio.studio_page import gaps
 from graphkin.text import Words
+from graphkin.text.markup import as_text
 from graphkin.writers.templates import filled
 
 HERE = Path(__file__).parent / "web"
@@ -52,7 +52,9 @@ class DeskSession(Struct, dict=True):
 
     def told(self, record: SheetRecord, standing: Any) -> dict[str, Any]:
         """A sheet as the page has it."""
-        points = [msgspec.to_builtins(each) for each in settled_points(record, standing)]
+        points = [
+            msgspec.to_builtins(each, enc_hook=as_text) for each in settled_points(record, standing)
+        ]
         for point in points:
             decision = standing.get((record.name, point["step"]))
             point["note"] = decision.note if decision else ""
@@ -108,9 +110,9 @@ class DeskSession(Struct, dict=True):
 def desk_page(session: DeskSession) -> bytes:
     """The page itself, in the words of its language."""
     words = session.words
-    said = {key: words(name, **gaps(words, name)) for key in SAID if (name := f"desk.{key}")}
+    said = {key: words.open(f"desk.{key}") for key in SAID}
     start = {"said": said, "verdicts": VERDICTS, "density": SHOWN}
-    text = msgspec.json.encode(start).decode()
+    text = msgspec.json.encode(start, enc_hook=as_text).decode()
     page = filled("reading/web/desk.html", said=said, language=words.language, start=text)
     return f"{page}\n".encode()
 
@@ -124,7 +126,7 @@ def desk_application(session: DeskSession) -> Any:
         except (PageRequestError, OSError):
             return answer(404, "text/plain", b"no such picture\n")
 
-    encoded = msgspec.json.encode
+    encoded = msgspec.json.Encoder(enc_hook=as_text).encode
     app = new_application(HERE)
     app.route("/", "GET", lambda: answer(200, "text/html", desk_page(session)))
     app.route("/sheets", "GET", lambda: answer(200, JSON, encoded(session.sheets())))

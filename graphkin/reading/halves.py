@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.drawing.marks import Page
+from graphkin.drawing.marks import Page, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.drawn_ink import flattened
 from graphkin.reading.paper_map import PaperMap
@@ -37,7 +37,7 @@ def put_together(left: Any, right: Any, page: Page) -> Any:
     """The sheet whose halves are two grey pictures, framed as a page. Raises Unreadable where a
     half is not found.
     """
-    frame = replace(page, marks=[m for m in page.marks if m.cls.split()[0] in SHARED])
+    frame = replace(page, marks=[m for m in page.marks if style_class(m) in SHARED])
     first, second = half_found(left, frame, "left"), half_found(right, frame, "right")
     ours, cut = seen(first, left), round(CUT * DENSITY)
     ours[:, cut:] &= ~seen(second, right)[:, cut:]

@@ -24,6 +24,7 @@ from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.kept_readings import PICTURE, READING, kept
 from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
+from graphkin.text.markup import as_text
 from graphkin.writers.files import put_in_place
 from graphkin.writers.lock import locked
 
@@ -100,7 +101,7 @@ def put(out: Path, one: SheetRead) -> None:
     """Write a record and its picture."""
     name = one.record.name
     files = {out / f"{name}{PICTURE}": one.picture} if one.picture else {}
-    data = msgspec.json.format(msgspec.json.encode(one.record), indent=1)
+    data = msgspec.json.format(msgspec.json.encode(one.record, enc_hook=as_text), indent=1)
     put_in_place({**files, out / f"{name}{READING}": data + b"\n"})
 
 
@@ -129,7 +130,7 @@ def points_file(record: SheetRecord) -> bytes:
         "seconds": record.seconds,
         "points": points,
     }
-    return msgspec.json.encode(found) + b"\n"
+    return msgspec.json.encode(found, enc_hook=as_text) + b"\n"
 
 
 def said(opened: ClassFolder, outcome: ReadOutcome) -> Iterator[str]:

@@ -17,7 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.printing.register_crosses import crosses_of
-from graphkin.drawing.marks import LineMark, Page, Polyline
+from graphkin.drawing.marks import LineMark, Page, Polyline, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import (
     BENDS,
@@ -153,7 +153,7 @@ def printed_lines(page: Page, *, faint: bool = False) -> PrintedLines:
 def segments(page: Page) -> Iterator[tuple[float, float, float, float, str]]:
     """The straight printed lines of a page that are followed, with their classes."""
     for mark in page.marks:
-        if mark.cls.split()[0] not in LINES or "scheme" in mark.cls:
+        if style_class(mark) not in LINES or "scheme" in mark.cls:
             continue
         if isinstance(mark, LineMark):
             yield mark.x1, mark.y1, mark.x2, mark.y2, mark.cls

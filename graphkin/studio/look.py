@@ -23,6 +23,7 @@ from graphkin.studio.sliders import sliders
 from graphkin.studio.toml_spans import Span, spans
 from graphkin.text import Words, words
 from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.markup import as_text
 from graphkin.text.problems import spoken
 
 LINES = "\n"
@@ -120,10 +121,10 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
     """
     found: dict[str, Any] = {"problems": [], "sliders": []}
     if not sight.quick:
-        found["help"] = to_builtins(editing_help(sight.text, sight.name))
+        found["help"] = to_builtins(editing_help(sight.text, sight.name), enc_hook=as_text)
     try:
         scene = read(sight)
-        found["sliders"] = [to_builtins(each) for each in sliders(scene)]
+        found["sliders"] = [to_builtins(each, enc_hook=as_text) for each in sliders(scene)]
         found["title"] = scene.titles.get(sight.language, scene.title)
         mechanism = memory.mechanism(scene, sight.text)
         found |= drawn(mechanism, sight, memory, found["problems"], go_on)

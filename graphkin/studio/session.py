@@ -52,6 +52,7 @@ from graphkin.studio.scene_edits import edits
 from graphkin.studio.sketch import sketch
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import GraphkinError, SceneError
+from graphkin.text.markup import as_text
 
 OPENED = ("lab", "example", "like", "empty", "scene")
 """What an address may ask to open, by its key."""
@@ -190,7 +191,7 @@ class Session:
                 if order.flag("building"):
                     places = order.places()
                     seen = sketch(sight.text, sight.name, places, sight.settings)
-                    found["sketch"] = seen and to_builtins(seen)
+                    found["sketch"] = seen and to_builtins(seen, enc_hook=as_text)
         except StaleError:
             found = {"stale": True}
         return found | {"number": number}
@@ -258,7 +259,7 @@ class Session:
         if isinstance(found, LabProblems):
             wrong = told_in(found.rules, texts.rules, words.language)
             return {"problems": wrong, "scene_wrong": bool(found.scene), "number": number}
-        known = to_builtins(told_of(found, texts, words))
+        known = to_builtins(told_of(found, texts, words), enc_hook=as_text)
         return {"problems": [], "scene_wrong": False, "number": number, **known}
 
     def student(self, order: PageRequest) -> dict[str, Any]:
@@ -308,7 +309,10 @@ class Session:
         """The changes of a text that put the values of the sliders into it, or why they cannot."""
         text, settings = order.scene(), order.settings()
         try:
-            return {"edits": [to_builtins(edit) for edit in edits(text, settings)], "problems": []}
+            return {
+                "edits": [to_builtins(edit, enc_hook=as_text) for edit in edits(text, settings)],
+                "problems": [],
+            }
         except GraphkinError as error:
             return {"edits": [], "problems": told_in(error.problems, text, language_in(order))}
 
@@ -321,7 +325,7 @@ class Session:
                 seen = sketch(opened.text, stem_of(opened.name), {})
         except GraphkinError:
             return {"sketch": None}
-        return {"sketch": seen and to_builtins(seen)}
+        return {"sketch": seen and to_builtins(seen, enc_hook=as_text)}
 
     def build(self, order: PageRequest) -> dict[str, Any]:
         """The text after an act of the hand, or why it is impossible."""
@@ -381,7 +385,7 @@ class Session:
     def saving(self, work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
         """What was written, what is in the way, or why nothing was written."""
         try:
-            return {**to_builtins(work()), "problems": []}
+            return {**to_builtins(work(), enc_hook=as_text), "problems": []}
         except GraphkinError as error:
             problems = told_in(error.problems, text, language)
         return {**to_builtins(Saved()), "problems": problems}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from functools import lru_cache
 
 from graphkin import __version__
@@ -169,9 +168,4 @@ def page(opened: Opened, words: Words) -> str:
 def said_in(language: str) -> dict[str, str]:
     """The sentences of the page in one language."""
     words = spoken_in(language)
-    return {key: words(key, **gaps(words, key)) for key in SPOKEN}
-
-
-def gaps(words: Words, key: str) -> dict[str, str]:
-    """The gaps of a sentence, left as they are for the page to fill."""
-    return {name: f"{{{name}}}" for name in re.findall(r"\{(\w+)\}", words.sentences[key])}
+    return {key: words.open(key) for key in SPOKEN}

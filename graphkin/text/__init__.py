@@ -46,6 +46,10 @@ class Words:
         """The names of the fields of a sentence."""
         return gaps_of(self.sentences[key])
 
+    def open(self, key: str) -> str:
+        """The sentence under a key, its fields left as they are for a page to fill."""
+        return self(key, **{name: f"{{{name}}}" for name in self.gaps(key)})
+
     def has(self, key: str) -> bool:
         """True when there is a sentence under a key."""
         return key in self.sentences

@@ -35,6 +35,13 @@ def names_in(text: object) -> frozenset[str]:
     return text.names if isinstance(text, Markup) else frozenset()
 
 
+def as_text(value: object) -> str:
+    """Markup as plain text, for what encodes records; TypeError for anything else."""
+    if isinstance(value, Markup):
+        return str(value)
+    raise TypeError(f"{type(value).__name__} is no text")
+
+
 NOTHING = Markup()
 """What joins markup without anything between."""
 AND = Markup("; ")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from graphkin.drawing.areas import Rect
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text, style_class
 from graphkin.drawing.richtext import extent
 
 GROWTH = 3.5
@@ -25,7 +25,7 @@ def room_of(rect: Rect) -> Rect:
 
 def must_be_seen(mark: Mark) -> bool:
     """Whether a mark is to be in sight as a whole."""
-    return mark.cls.split()[0] not in UNSEEN
+    return style_class(mark) not in UNSEEN
 
 
 def half(mark: Mark) -> tuple[float, float]:

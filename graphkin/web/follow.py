@@ -11,7 +11,7 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.plot import above_foot, stretched
-from graphkin.drawing.marks import LineMark, Mark, Text
+from graphkin.drawing.marks import LineMark, Mark, Text, style_class
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
 from graphkin.web.body_binding import StepStrokes, grown, told
@@ -79,7 +79,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
     def sides(self, k: int, record: Record) -> int:
         """Whether a label can as well stand on the other side of what it names: that of a vector or
         a line, or a letter at a point; 2 where a leader leads to it, 0 for one in a circle."""
-        led = {self.marks[j].cls.split()[0] for j in self.led(k)}
+        led = {style_class(self.marks[j]) for j in self.led(k)}
         if "number" in led or not (record[0] == "b" or self.is_upright(record)):
             return 0
         return 2 if led else 1
@@ -92,12 +92,12 @@ class MarkBindings(Struct, frozen=True, dict=True):
     def led(self, k: int) -> list[int]:
         """The leader and the circle that come right before a label."""
         beside = (k - 1, k - 2)
-        is_led = [j >= 0 and self.marks[j].cls.split()[0] in LABELS[1:] for j in beside]
+        is_led = [j >= 0 and style_class(self.marks[j]) in LABELS[1:] for j in beside]
         return [*beside[: is_led.index(False)]] if False in is_led else [*beside]
 
     def keeps_off(self, k: int, record: Record) -> bool:
         """Whether a letter, or the leader or circle that goes with it, stands off a point."""
-        text = self.text_of(k) if self.marks[k].cls.split()[0] in LABELS else None
+        text = self.text_of(k) if style_class(self.marks[k]) in LABELS else None
         if text is None or record[0] not in "tmf" or not self.is_upright(record):
             return False
         return text.step is not None or text.name in self.binder.places.spots
@@ -115,7 +115,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         The head of a vector too short to have one, the far part of a line too short to be parted.
         """
         for k, mark in enumerate(self.marks):
-            first = mark.cls.split()[0]
+            first = style_class(mark)
             if not isinstance(mark, LineMark) or mark.step is None or first in LABELS:
                 continue
             stroke, after = self.steps.stroke(mark), self.marks[k + 1 : k + 2]
@@ -135,7 +135,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         found = self.bodies.get(mark)
         if found is not None:
             return found
-        first = mark.cls.split()[0]
+        first = style_class(mark)
         if first in LABELS:
             return self.label(k, mark)
         if mark.step is not None:

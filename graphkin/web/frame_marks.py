@@ -25,7 +25,7 @@ from graphkin.construction.step_marks import draw_plan_steps
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field, clipped
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, reach
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, reach, style_class
 from graphkin.drawing.scale import Extent, extent_of
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import symbol
@@ -112,7 +112,7 @@ def is_shown(drawing: Drawing, mark: Mark) -> bool:
     """Whether a mark of a plan is a vector or a point of the plan itself."""
     steps = drawing.trace.program.steps
     aside = mark.step is not None and steps[mark.step].aside is not None
-    return mark.cls.split()[0] in SHOWN and not aside
+    return style_class(mark) in SHOWN and not aside
 
 
 def plan_box(drawing: Drawing) -> Extent:

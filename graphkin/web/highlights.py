@@ -11,7 +11,7 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.mark_dependencies import BODY
-from graphkin.drawing.marks import CircleMark, Text
+from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.web.facts import SLIDES
@@ -62,7 +62,7 @@ def marks_of_link(told: PageProtocol, sheet: int, link: str) -> tuple[list[str],
     body, number = [], ""
     for k, timed in enumerate(told.timed[sheet]):
         if timed.mark.name == link:
-            look = timed.mark.cls.split()[0]
+            look = style_class(timed.mark)
             if look in BODIES:
                 body.append(f"m{sheet}-{k}")
             elif look == "number" and isinstance(timed.mark, CircleMark):

@@ -21,7 +21,7 @@ from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.traced import UntraceableError
 from graphkin.construction.tape.tracer import traced_kind
 from graphkin.drawing.areas import Rect
-from graphkin.drawing.marks import CircleMark, Text
+from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, reach_of
 from graphkin.numbers.plane import Vector
@@ -214,9 +214,9 @@ def grips(
     by which of the figures; -1 for the driver itself, or the time."""
     own = points_led(places, driven)
     for k, mark in enumerate(sheet.left):
-        if isinstance(mark, CircleMark) and mark.cls.split()[0] in ("pin", "point"):
+        if isinstance(mark, CircleMark) and style_class(mark) in ("pin", "point"):
             led = own.get(mark.name, -1)
-            if led >= 0 or mark.cls.split()[0] == "pin":
+            if led >= 0 or style_class(mark) == "pin":
                 yield f"m{s}-{k}", mark.name, led >= 0 or mark.name in driven.pins, led
 
 

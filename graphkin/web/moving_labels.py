@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class
 from graphkin.drawing.richtext import extent
 
 if TYPE_CHECKING:
@@ -215,7 +215,7 @@ def obstacles(marks: Sequence[Mark]) -> tuple[Any, Any, Any]:
             continue
         own = [*strokes(mark)]
         lines += own
-        prices += [COVERED["fine" if mark.cls.split()[0] in FAINT else "line"]] * len(own)
+        prices += [COVERED["fine" if style_class(mark) in FAINT else "line"]] * len(own)
     return np.array(lines).reshape(-1, 4), np.array(prices), np.array(points).reshape(-1, 2)
 
 

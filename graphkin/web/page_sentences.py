@@ -31,18 +31,19 @@ MOST = 3
 class SentencePart(Struct, frozen=True):
     """A part of a sentence: the step that it ends with, and that of the point that it helps find.
 
-    ``name`` is that of its sentence.
+    ``name`` and ``link`` are those of its sentence.
     """
 
     step: int
     point: int
     markup: str
     name: str = ""
+    link: str = ""
 
     @property
     def sentence(self) -> Sentence:
         """It as a sentence of its own."""
-        return Sentence(self.step, self.name, self.markup)
+        return Sentence(self.step, self.name, self.markup, link=self.link)
 
 
 class PartedSentence(Struct, frozen=True):
@@ -67,7 +68,7 @@ class PartedSentence(Struct, frozen=True):
                 markup = self.plan.introduced(drawing, markup, first=begins)
                 name = name if place == 0 else ""
             steps = tuple(part.step for part in some) if len(some) > 1 else ()
-            yield Sentence(some[-1].step, name, markup, steps), len(some)
+            yield Sentence(some[-1].step, name, markup, steps, some[-1].link), len(some)
 
 
 def grouped(parts: Sequence[SentencePart], strokes: Sequence[int]) -> Iterator[list[SentencePart]]:
@@ -89,7 +90,7 @@ def parted_sentences(drawing: Drawing) -> list[PartedSentence]:
 
 def parted_sentence(drawing: Drawing, said: Sentence) -> PartedSentence:
     """A sentence of a sheet with its parts."""
-    one = SentencePart(said.step, said.step, said.markup, said.name)
+    one = SentencePart(said.step, said.step, said.markup, said.name, said.link)
     if said.name == TURNING:
         return PartedSentence(said, tuple(readings(drawing)) or (one,))
     plan = auxiliary_plan(drawing, said.step)

@@ -16,7 +16,7 @@ from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.scaling import natural_seconds, targets_of
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import Field
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, style_class
 from graphkin.drawing.scale import Scales
 from graphkin.drawing.style import VECTORS
 from graphkin.drawing.symbol_markup import escape as markup
@@ -169,14 +169,14 @@ def vector_names(sheet: ScreenSheet, s: int) -> Iterator[VectorName]:
     steps, asked = sheet.drawing.trace.program.steps, asked_rows(sheet.drawing)
     found = []
     for k, mark in enumerate(sheet.right, len(sheet.left)):
-        if isinstance(mark, LineMark) and mark.cls.split()[0] in VECTORS and mark.step is not None:
+        if isinstance(mark, LineMark) and style_class(mark) in VECTORS and mark.step is not None:
             vector = plan_vector(steps[mark.step])
             if vector is not None:
                 rank = (vector.symbol not in asked, bool(vector.p or vector.sign), k)
                 found.append((rank, mark, vector.symbol))
     for rank, mark, name in sorted(found, key=lambda each: each[0]):
         x, y = sheet.layout.plan.at
-        text = Text(x, y, symbol(name), f"label {mark.cls.split()[0]}", NAMES, "middle", name)
+        text = Text(x, y, symbol(name), f"label {style_class(mark)}", NAMES, "middle", name)
         yield VectorName(f"v{s}-{rank[-1]}", f"m{s}-{rank[-1]}", text, not rank[0])
 
 
@@ -334,7 +334,7 @@ def letters(set_up: Stage, sheet: ScreenSheet, s: int) -> Iterator[list[list[obj
         circles = {
             mark.name: f"m{s}-{first + k}"
             for k, mark in enumerate(marks)
-            if isinstance(mark, CircleMark) and mark.cls.split()[0] in POINTS
+            if isinstance(mark, CircleMark) and style_class(mark) in POINTS
         }
         found: list[list[object]] = []
         for k, mark in enumerate(marks):

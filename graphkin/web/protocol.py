@@ -23,7 +23,7 @@ from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.sentences import SET_ON, TURNING, set_on_mechanism
 from graphkin.documents.step_numbers import behind, stage_of, stages
 from graphkin.documents.step_visibility import accompanied, when_told
-from graphkin.drawing.marks import CircleMark, Mark, Text
+from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.markup import AND, EQUALS, names_in
@@ -250,7 +250,7 @@ def strokes(marks: Iterable[Timed], count: int) -> list[int]:
     """How many lines, arcs and vectors each of some sentences draws; pieces of one line are one."""
     found: list[set[tuple[int, str, str]]] = [set() for _ in range(count)]
     for one in marks:
-        look = one.mark.cls.split()[0]
+        look = style_class(one.mark)
         if one.at and one.step is not None and look in DRAWN and not isinstance(one.mark, Text):
             found[one.at - 1].add((one.step, look, one.mark.name))
     return [len(some) for some in found]

@@ -31,6 +31,7 @@ BY_NAME = {
     VECTORS_APART: "why.vectors",
     "again": "why.again",
     SET_ON: "why.set_on",
+    IDLE: "why.idle",
     "moving-centrode": "why.centrodes",
     "trajectory": "why.path",
 }
@@ -76,8 +77,6 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
     if sentence.name == TURNING:
         kind = construction(steps[sentence.step])
         yield words(kind.rate_reason(drawing) if kind else "why.rate"), NO_STEP
-    elif sentence.name.startswith(IDLE):
-        yield words("why.idle"), NO_STEP
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
     elif plan and (key := plan.reason(sentence.name)):

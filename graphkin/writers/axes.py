@@ -14,7 +14,16 @@ from matplotlib.transforms import Affine2D, ScaledTranslation, Transform
 
 from graphkin.drawing.field import Field
 from graphkin.drawing.glyphs import font_file
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
+from graphkin.drawing.marks import (
+    Arc,
+    CircleMark,
+    LineMark,
+    Mark,
+    Polyline,
+    Text,
+    reach,
+    style_class,
+)
 from graphkin.drawing.richtext import runs
 from graphkin.drawing.style import Ink, Style, style_of
 
@@ -79,7 +88,7 @@ def size_of(ax: Axes) -> tuple[float, float]:
 
 def place_of(mark: Mark) -> tuple[float, float] | None:
     """Where a text, a sign or an arrowhead stands; None for what is drawn to scale."""
-    kind = mark.cls.split()[0]
+    kind = style_class(mark)
     if isinstance(mark, Polyline) and kind == "arrowhead":
         return mark.points[0]
     if isinstance(mark, LineMark) or not (isinstance(mark, Text) or kind in SIGNS):

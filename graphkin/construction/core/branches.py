@@ -22,7 +22,7 @@ from graphkin.structure.pairs import Pin
 from graphkin.text.errors import Problem, StructureError, TakenOut, Written
 
 WAYS = '"forward"', '"backward"'
-"""The branches of what slides or rolls, as a scene writes them."""
+"""The larger and the smaller coordinate along a guide, as a scene writes them."""
 MISSING = "is missing"
 """What is found of a branch that is not written."""
 

@@ -10,13 +10,15 @@ from msgspec import Struct
 class Sentence(Struct, frozen=True):
     """A sentence of the construction with the number of the step that it ends with.
 
-    ``steps`` are all the steps that it speaks of, where it stands for several sentences.
+    ``steps`` are all the steps that it speaks of, where it stands for several sentences;
+    ``link`` is the idle link that it is of.
     """
 
     step: int
     name: str
     markup: str
     steps: tuple[int, ...] = ()
+    link: str = ""
 
     @property
     def all_steps(self) -> tuple[int, ...]:

@@ -12,8 +12,8 @@ from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.drawing.symbol_markup import bar, escape
 
-IDLE = "idle "
-"""What the name of a sentence about an idle link begins with; the link's name follows."""
+IDLE = "idle"
+"""The name of a sentence about an idle link."""
 
 
 def points_of(step: Step) -> set[str]:
@@ -38,9 +38,9 @@ def idle_sentences(drawing: Drawing) -> Iterator[Sentence]:
     for link in drawing.scene.links.values():
         points = set(link.points)
         if words := face_words(drawing, link):
-            yield Sentence(-1, IDLE + link.name, words)
+            yield Sentence(-1, IDLE, words, link=link.name)
         laid = link.name in closing or any(len(points & names) > 1 for names in told)
         if len(points) > 1 and not laid and not link.slides and not link.wheels:
             names = {"bar": bar(*link.points[:2]), "k": escape(link.name)}
             key = "step.cam-link" if link.name in drawing.scene.cam_links else "step.idle"
-            yield Sentence(-1, IDLE + link.name, drawing.words(key, **names))
+            yield Sentence(-1, IDLE, drawing.words(key, **names), link=link.name)

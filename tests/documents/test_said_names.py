@@ -1,0 +1,52 @@
+"""Sentences know the names whose symbols they say, as one finds them by reading their text."""
+
+import re
+
+import pytest
+
+import graphkin
+from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.documents.scaling import shown
+from graphkin.documents.sentences import unexplained
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.text import words
+from graphkin.text.markup import AND, Markup, names_in
+
+SCENES = ("pump", "rapid-return", "cylinders-two", "klein-engine", "stephenson-3", "belts-equal")
+
+
+def read(markup: str, name: str) -> bool:
+    """Whether the symbol of a name stands in a text, not as a part of a longer one."""
+    return re.search(re.escape(symbol(name)) + r"(?![\^_])", markup) is not None
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("language", ["en", "it", "ro"])
+def test_every_vector_that_a_sentence_says_is_among_its_names(name, language):
+    place = name if name == "pump" else f"examples/scenes/{name}.toml"
+    mechanism = graphkin.load(place)
+    verdict = proved(mechanism, shown(mechanism))
+    for drawing in drawings_of(mechanism, verdict, words(language)):
+        vectors = {v.symbol for step in drawing.trace.program.steps if (v := plan_vector(step))}
+        for said in unexplained(drawing):
+            found = {each for each in vectors if read(said.markup, each)}
+            assert found == vectors & names_in(said.markup), said.markup
+
+
+def test_what_is_joined_says_what_its_parts_say():
+    a, b = symbol("v_A"), symbol("v_B")
+    assert names_in(AND.join((a, "and", b))) == {"v_A", "v_B"}
+    assert names_in(a + " ⊥ ") == {"v_A"}
+    assert names_in(str(a)) == names_in(f"{a}") == frozenset()
+    assert AND.join((a, b)) == f"{a}; {b}" and isinstance(AND.join(()), Markup)
+
+
+def test_a_sentence_says_those_of_its_fields_that_it_has():
+    said = words("en")("why.over", q=symbol("B"), p=symbol("A"), cut=symbol("B‴"), tip=symbol("B″"))
+    assert names_in(said) == {"A", "B", "B‴"}
+
+
+def test_a_corner_written_without_its_index_keeps_its_name():
+    assert symbol("B″_BA", "B″") == symbol("B″")
+    assert names_in(symbol("B″_BA", "B″")) == {"B″_BA"}
