@@ -936,7 +936,7 @@ on = 1
 tip = "roller"
 base = 0.04
 roller = 0.01
-law = [{ to = 180, rise = 0.02, motion = "cycloidal" }, { to = 360, rise = -0.02, motion = "3-4-5" }]
+law = [[0, 0], [120, 0.018], [240, 0.014]]
 [[drivers]]
 turn = 1
 angle = 50
