@@ -936,7 +936,10 @@ on = 1
 tip = "roller"
 base = 0.04
 roller = 0.01
-law = [[0, 0], [120, 0.018], [240, 0.014]]
+law = [
+  { to = 180, rise = 0.02, motion = "cycloidal" },
+  { to = 360, rise = -0.02, motion = "3-4-5" },
+]
 [[drivers]]
 turn = 1
 angle = 50
