@@ -256,7 +256,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
 
     def laid_length(self, role: str) -> tuple[str, str]:
         """From the pin."""
-        return self.points
+        return self.pin, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the angle of its bar in the plane."""

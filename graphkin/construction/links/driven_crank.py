@@ -121,7 +121,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
 
     def laid_length(self, role: str) -> tuple[str, str]:
         """From the pivot."""
-        return self.points
+        return self.pivot, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its angle; by that of the bar in the plane where it was found with a group."""

@@ -52,7 +52,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
 
     def laid_length(self, role: str) -> tuple[str, str]:
         """From that point."""
-        return self.points
+        return self.start, self.name
 
     def turned(self, drawing: Drawing) -> float | None:
         """By how many degrees the link has turned since the start; None where it is not said."""
