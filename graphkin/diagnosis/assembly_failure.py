@@ -99,7 +99,9 @@ def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
     """The problem of a step that finds nothing, for some reason."""
     step = program.steps[number]
     what = " of ".join(part for part in (step.part.value, sought(program, number)) if part)
-    found = f"{step.name or 'a value'} cannot be found: {reason}"
+    kind = construction(step)
+    turned = f"how link {kind.found_link} stands" if kind and kind.found_link else ""
+    found = f"{step.name or turned or 'a value'} cannot be found: {reason}"
     return Problem(what, found, "loci that cross", hint)
 
 
@@ -109,7 +111,14 @@ def sought(program: Program, number: int) -> str:
     if links := closed_by(step):
         return f"links {', '.join(links)}"
     kind = construction(step)
-    return step.name or ("-".join(filter(None, kind.points)) if kind is not None else "")
+    if step.name or kind is None:
+        return step.name
+    return words_of_link(kind.found_link) or "-".join(filter(None, kind.points))
+
+
+def words_of_link(link: str) -> str:
+    """Words for a link; nothing for none."""
+    return f"link {link}" if link else ""
 
 
 def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:

@@ -172,7 +172,9 @@ ADVICE = (
     ("invalid statement", PARTS),
 )
 """How what the reader of TOML says begins, and what helps."""
-NAMED = "these are A to Z and a to z without accents"
+OTHER_LETTER = (
+    "“{letter}” ({code}) is no letter of a name: these are A to Z and a to z without accents"
+)
 OF_KEYS = ("invalid statement", "invalid initial character", "expected '='", "expected ']'")
 """How what the reader says of a name begins that has a letter of another alphabet."""
 LAST = "'\\n'"
@@ -194,7 +196,7 @@ def certain(found: str, line: str, rest: str) -> Hint:
     if line.lstrip().startswith("[") and found.startswith("expected ']"):
         return HEADING
     if rest and rest[0].isalpha() and not rest[0].isascii() and found.startswith(OF_KEYS):
-        return f"“{rest[0]}” (U+{ord(rest[0]):04X}) is no letter of a name: {NAMED}"
+        return OTHER_LETTER.format(letter=rest[0], code=f"U+{ord(rest[0]):04X}")
     comment = re.match(r"//|;", rest)
     if comment:
         return Mend(comment[0], "#", COMMENT)

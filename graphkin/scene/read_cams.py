@@ -61,10 +61,18 @@ def with_cams(
             continue
         count += 1
         own = Table(table.at("cam"), raw, measures.findings)
-        cam = read_cam(name, own, found, measures, f"K{count}" if many else "K")
+        letter = centre_letter(found, f"K{count}" if many else "K")
+        cam = read_cam(name, own, found, measures, letter)
         if cam is not None:
             join(found, name, cam, measures)
     return found.pop(FRAME), found
+
+
+def centre_letter(links: Mapping[str, Link], usual: str) -> str:
+    """A name for a centre of curvature that is not written: the usual one, or another not taken."""
+    taken = {point for link in links.values() for point in link.points}
+    letters = (usual, *(f"K{number}" for number in range(1, len(taken) + 2)))
+    return next(letter for letter in letters if letter not in taken)
 
 
 def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:

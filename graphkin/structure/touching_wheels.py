@@ -67,7 +67,8 @@ def touching(
     if found is not None:
         return RollingContact(found.wheel, found.track, found.arm)
     if kept:
-        raise StructureError(gap(scene, name, rolling, min(kept, key=miss)))
+        ring = next((apart for apart in kept if may_be_ring(scene, apart)), None)
+        raise StructureError(gap(scene, name, rolling, ring or min(kept, key=miss)))
     return loose
 
 
@@ -202,10 +203,17 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Proble
     if apart.needed <= 0:
         return Problem(place, found, "a ring that is larger than the wheel within it")
     expected = f"the {how} of the radii, {centres} = {shown(scene, apart.needed)}"
-    within = abs(radius(scene, apart.track) - radius(scene, apart.wheel))
-    is_ring = how == "sum" and abs(within - apart.distance) <= TOUCH * apart.distance
+    is_ring = may_be_ring(scene, apart)
     hint = "write inside = true in the larger wheel, if it is a ring" if is_ring else ""
     return Problem(place, found, expected, hint)
+
+
+def may_be_ring(scene: Scene, apart: WheelsApart) -> bool:
+    """Whether two wheels that do not touch would, were the larger one written as a ring."""
+    if apart.track is None or apart.track.inside or apart.wheel.inside:
+        return False
+    within = abs(radius(scene, apart.track) - radius(scene, apart.wheel))
+    return abs(within - apart.distance) <= TOUCH * apart.distance
 
 
 def shown(scene: Scene, length: float) -> str:

@@ -23,6 +23,7 @@ from graphkin.scene.quantity import exact
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import ClosureError, SceneError, StructureError
 from tests.chosen import EVERY
+from tests.mechanisms import mechanism_of
 
 CAMS = [f"cam-{name}" for name in ("roller", "knife", "flat", "rocker", "lever", "table")]
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -919,3 +920,38 @@ def test_a_lever_may_be_a_block_on_a_bar_that_comes_later():
     share = 70 / 180
     rate = radians(5) / pi * (1 - cos(2 * pi * share)) * 5
     assert abs(found.links["2"].omega) == pytest.approx(rate, rel=1e-9)
+
+
+TAKEN = """
+[frame]
+O = [0, 0]
+K = [0.2, 0]
+[links.1]
+O = [0, 0]
+[links.2]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[links.2.cam]
+on = 1
+tip = "roller"
+base = 0.04
+roller = 0.01
+law = [
+  { to = 180, rise = 0.02, motion = "cycloidal" },
+  { to = 360, rise = -0.02, motion = "3-4-5" },
+]
+[[drivers]]
+turn = 1
+angle = 50
+speed = 3
+"""
+
+
+def test_a_centre_of_curvature_takes_a_letter_that_no_point_has():
+    """Its name is none of the scene's business: the motion is that without a point K."""
+    own, other = mechanism_of(TAKEN), mechanism_of(TAKEN.replace("K =", "P ="))
+    assert [cam.centre for cam in own.scene.cams.values()] == ["K1"]
+    assert [cam.centre for cam in other.scene.cams.values()] == ["K"]
+    found, expected = own.solve(), other.solve()
+    assert found.points["B"] == expected.points["B"]
+    assert own.witness(found).agrees

@@ -12,6 +12,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.richtext import plain
 from graphkin.text import words
+from graphkin.text.errors import ClosureError
 from tests.mechanisms import mechanism_of
 
 CRANK, PIVOT, RADIUS, ANGLE, SPEED = 0j, -0.04j, 0.09, 35.0, 9.0
@@ -146,3 +147,14 @@ def test_a_point_between_others_is_laid_off_on_their_line_and_not_by_flat_arcs()
     assert "on AP lay off AM: M" in said
     assert "on PA produced beyond P lay off PN: N" in said
     assert mechanism.witness(solution).agrees
+
+
+def test_a_guide_that_its_pin_cannot_reach_is_told_by_its_link():
+    """The slot passes Q at 0.2, the pin comes no farther than 0.13 from Q."""
+    text = LEVER.replace("SHAPE", "Q-B = 0.07").replace('"Q-B" }', '"Q-B", offset = 0.2 }')
+    with pytest.raises(ClosureError) as caught:
+        mechanism_of(text).solve()
+    assert str(caught.value).startswith(
+        "position of link 3: how link 3 stands cannot be found: "
+        "A stands nearer to Q than the guide passes it; "
+    )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.scene.file_limits import NAMED, NUMBER, PARTS, PLAIN, VALUE
+from graphkin.scene.file_limits import NUMBER, OTHER_LETTER, PARTS, PLAIN, VALUE
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import MORE, Problem, SceneError
 
@@ -86,10 +86,10 @@ def test_syntax_errors_name_their_line() -> None:
         ("O2-B = long", NUMBER),
         ("n = { value = seven }", PLAIN),
         ("2 = arm", 'put the text in quotes: "arm"'),
-        ("Ă-B = 1", f"“Ă” (U+0102) is no letter of a name: {NAMED}"),
-        ("A-\N{CYRILLIC CAPITAL LETTER VE} = 1", f"“В” (U+0412) is no letter of a name: {NAMED}"),
-        ("[links.ă]", f"“ă” (U+0103) is no letter of a name: {NAMED}"),
-        ("slides = { ön = 0 }", f"“ö” (U+00F6) is no letter of a name: {NAMED}"),
+        ("Ă-B = 1", OTHER_LETTER.format(letter="Ă", code="U+0102")),
+        ("A-\N{CYRILLIC CAPITAL LETTER VE} = 1", OTHER_LETTER.format(letter="В", code="U+0412")),
+        ("[links.ă]", OTHER_LETTER.format(letter="ă", code="U+0103")),
+        ("slides = { ön = 0 }", OTHER_LETTER.format(letter="ö", code="U+00F6")),
         ("title = Ștanță", 'put the text in quotes: "Ștanță"'),
         ("[[drivers]", "a heading ends as it begins: [links.2], [[drivers]]"),
         ("length = { a = 1", "the table { } is not closed: } or a comma is missing"),

@@ -199,6 +199,26 @@ def test_wheels_that_do_not_touch_are_refused_with_their_numbers():
     assert "link 1 keeps its centre C 1.5 m to the right of it" in refusal(plates(radius=2.5))
 
 
+def test_of_compound_wheels_the_one_that_fits_a_ring_is_named():
+    """Radius 50 within 150 at the distance 100; 40 is nearer to touching from outside."""
+    text = """
+[frame]
+O = [0, 0]
+wheel = { centre = "O", radius = 150 }
+[links.1]
+O-P = 100
+[links.2]
+P-Q = 20
+wheels = [{ centre = "P", radius = 40 }, { centre = "P", radius = 50 }]
+rolls = { on = 0 }
+"""
+    assert refusal(text) == (
+        "links.2.rolls: wheels of radius 50 m and 150 m (on the frame) do not touch: link 1 keeps "
+        "O-P = 100 m; expected the sum of the radii, O-P = 200 m; write inside = true in the "
+        "larger wheel, if it is a ring"
+    )
+
+
 # --- what turns ----------------------------------------------------------------------------------
 
 
