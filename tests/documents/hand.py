@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from tests.documents.printed_sheet import NAME, NUMBER, canonical, number
+from tests.documents.printed_sheet import NAME, NUMBER, RADIUS, canonical, number
 from tests.documents.reader_rules import RULES, TURNING, VECTOR
 from tests.documents.ruler_and_compass import APART, Circle, DefectError, Line, cross, dot
 
@@ -379,7 +379,7 @@ class Hand:
     def wheel_about(self, point: str) -> tuple[str, float]:
         """What wheel is about a point, and its radius on paper."""
         for item in self.items:
-            told = rf"(.*): centre {re.escape(point)}, r = ({NUMBER}) (mm|cm|m)"
+            told = rf"(.*): centre {re.escape(point)}, {RADIUS} = ({NUMBER}) (mm|cm|m)"
             if match := re.match(told, item):
                 return match[1], number(match[2]) * MILLIMETRES[match[3]] / self.scale
         raise DefectError(f"no radius is told of a wheel about {point}")

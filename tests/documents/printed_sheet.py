@@ -9,6 +9,8 @@ from xml.etree import ElementTree
 
 NAME = r"[A-Za-z][′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
 """The name of a point as it is printed."""
+WHEEL, RADIUS = r"\d+[′″‴]*", r"r_\{[^}]*\}"
+"""What a wheel is called, one of several of a link by its strokes, and the symbol of its radius."""
 FOOT = 201.0
 """Where the drawings of an A3 sheet end, in mm from its upper edge."""
 NUMBER = r"−?\d+(?:\.\d+)?"

@@ -20,7 +20,17 @@ from itertools import pairwise
 from pathlib import Path
 
 from tests.documents.hand import MILLIMETRES, SIDES, WAYS, sliding
-from tests.documents.printed_sheet import NAME, NUMBER, Printed, bare, canonical, number, printed
+from tests.documents.printed_sheet import (
+    NAME,
+    NUMBER,
+    RADIUS,
+    WHEEL,
+    Printed,
+    bare,
+    canonical,
+    number,
+    printed,
+)
 from tests.documents.reader_rules import SET, agrees, factored, says, times
 from tests.documents.ruler_and_compass import (
     Circle,
@@ -99,7 +109,7 @@ class Reader(Trials):
 
     def told_of_rim(self, k: str) -> str | None:
         """What the data say of a straight link on the rim of a wheel, if it is one."""
-        form = rf"wheel \w+ rolls in {NAME} on the line of link {k} through"
+        form = rf"wheel {WHEEL} rolls in {NAME} on the line of link {k} through"
         return next((item for item in self.items if re.match(form, item)), None)
 
     def moved_link(self, k: str) -> Callable[[float], tuple[dict[str, complex], float]]:
@@ -159,7 +169,7 @@ class Reader(Trials):
     def on_rim(self, k: str, item: str) -> Callable[[float], tuple[dict[str, complex], float]]:
         """A straight link on the rim of a wheel that stands: as far along it as both turned."""
         told = re.search(
-            rf"wheel (\w+) rolls .* through (?:({NAME})|\(({NUMBER})[;,] 0\) (mm|cm|m))"
+            rf"wheel ({WHEEL}) rolls .* through (?:({NAME})|\(({NUMBER})[;,] 0\) (mm|cm|m))"
             rf"(?: at 0° to .*?)?, on its (left|right)-hand side, touching it .* when .*? is at "
             rf"({NUMBER}°) to (?:the x axis of link {k}|({NAME})({NAME}))",
             item,
@@ -267,7 +277,7 @@ class Reader(Trials):
     def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
         """Of the two tangents that on which the pin lies where the data tell: side and place."""
         own, pinned = re.escape(p), re.escape(q)
-        wheel = rf"wheel \d+ rolls in {NAME} on the line of link {k} through {own}[ ,]"
+        wheel = rf"wheel {WHEEL} rolls in {NAME} on the line of link {k} through {own}[ ,]"
         item = self.told_of(rf"{wheel}|{pinned} slides parallel to {own}{NAME}, ")
         side = re.search(rf"on its (left|right)-hand side| ({'|'.join(SIDES)}) it\b", item)
         place = re.search(r"the (farther|nearer) of the two places along it", item)
@@ -345,7 +355,7 @@ class Reader(Trials):
     def radius_along(self, k: str) -> None:
         rolls = self.told_of(rf"wheel {k} rolls")
         disc = self.told_of(rf"wheel {k}: centre")
-        size = re.search(rf"r = ({NUMBER}) (mm|cm|m)", disc)
+        size = re.search(rf"{RADIUS} = ({NUMBER}) (mm|cm|m)", disc)
         assert size
         side = re.search(r"on its (right|left)-hand side", rolls)
         if side is None:
@@ -369,7 +379,7 @@ class Reader(Trials):
         wheel = next(
             match[1]
             for item in self.items
-            if (match := re.match(rf"wheel (\w+): centre {re.escape(name)},", item))
+            if (match := re.match(rf"wheel ({WHEEL}): centre {re.escape(name)},", item))
         )
         touched = []
         for item in self.items:
@@ -529,9 +539,11 @@ class Reader(Trials):
     def moved_along(self, k: str, name: str, arc: float) -> None:
         """A strand or rack that a guide leads past a driven wheel, with the rim of this."""
         own = re.escape(name)
-        item = self.told_of(rf"wheel \w+ rolls in {NAME} on the line of link {k} through {own} at")
+        item = self.told_of(
+            rf"wheel {WHEEL} rolls in {NAME} on the line of link {k} through {own} at"
+        )
         told = re.match(
-            rf"wheel (\w+) .*, touching it at {own} when ({NAME}){NAME} is at ({NUMBER}°) to "
+            rf"wheel ({WHEEL}) .*, touching it at {own} when ({NAME}){NAME} is at ({NUMBER}°) to "
             rf"guide {k}$",
             item,
         )
@@ -585,13 +597,13 @@ class Reader(Trials):
         self.put(name, self.at(p) + along)
 
     @says(
-        r"links ⟨g:number⟩ and ⟨k:number⟩ touch in ⟨name⟩ on their line of centres, "
-        r"r_\{.*?\}(?: = m·z/2)? \(⟨r:number⟩ mm\) from ⟨o⟩"
+        rf"wheels ⟨g:wheel⟩ and ⟨k:wheel⟩ touch in ⟨name⟩ on their line of centres, "
+        rf"{RADIUS}(?: = m·z_\{{[^}}]*\}}/2)? \(⟨r:number⟩ mm\) from ⟨o⟩"
     )
     def wheels_touch(self, g: str, k: str, name: str, r: str, o: str) -> None:
         away, centres = 1, {}
         for item in self.items:
-            form = rf"(inner )?(?:gear|wheel|ring) (\d+|of the frame): centre ({NAME})"
+            form = rf"(inner )?(?:gear|wheel|ring) ({WHEEL}|of the frame): centre ({NAME})"
             if match := re.match(form, item):
                 link = match[2].replace("of the frame", "0")
                 centres[link] = match[3]
@@ -612,13 +624,13 @@ class Reader(Trials):
 
     def belted_radius(self, name: str, link: str) -> float:
         """The radius of the wheel of a link round which the belt of a point runs."""
-        told = rf"wheel {link}(?: \(r = ({NUMBER}) (?:mm|cm|m)\))?(?: |$)"
+        told = rf"wheel ({link}[′″‴]*)(?:;| |$)"
         for belt, strands in pairwise(self.items):
-            if "belt runs" in belt and re.search(rf"centres in {re.escape(name)}(?: |$)", strands):
-                match = re.search(told, belt)
-                if match and match[1]:
-                    return number(match[1])
-        sizes = [re.match(rf"wheel {link}: centre .*, r = ({NUMBER})", item) for item in self.items]
+            its = re.search(rf"centres in {re.escape(name)}(?: |$)", strands)
+            if "belt runs" in belt and its and (match := re.search(told, belt)):
+                link = match[1]
+        own = rf"wheel {link}: centre .*, {RADIUS} = ({NUMBER})"
+        sizes = [re.match(own, item) for item in self.items]
         (size,) = (number(found[1]) for found in sizes if found)
         return size
 
