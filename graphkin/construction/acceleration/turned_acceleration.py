@@ -145,8 +145,10 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         if role == "end":
             driven = self.is_of_driver(drawing, self.omega)
             if not (driven and self.is_steady):
-                omega = rate_symbol(drawing, self.omega)
-                spin = "" if self.epsilon is None else rate_symbol(drawing, self.epsilon, "ε")
+                omega = rate_symbol(drawing, self.omega, link=self.link)
+                spin = ""
+                if self.epsilon is not None:
+                    spin = rate_symbol(drawing, self.epsilon, "ε", self.link)
                 yield self.euler(drawing, omega=omega, epsilon=spin, steady=self.is_steady)
             if not driven:
                 yield self.by_turning(drawing, self.omega, "ν")

@@ -96,14 +96,14 @@ def has_no_length(drawing: Drawing, number: int) -> bool:
     return not drawing.settled(abs(values[number] - values[start]))
 
 
-def rate_symbol(drawing: Drawing, number: int, letter: str = "ω") -> str:
-    """Markup of an angular velocity or acceleration by the step that holds it."""
+def rate_symbol(drawing: Drawing, number: int, letter: str = "ω", link: str = "") -> str:
+    """Markup of an angular velocity or acceleration by the step that holds it, or by its link."""
     step = drawing.trace.program.steps[number]
     if step.name in drawing.scene.links:
         return symbol(f"{letter}_{turning_with(drawing, step.name)}")
     if isinstance(step.of, Drive):
         return symbol(f"{letter}_{drawing.scene.drivers[step.of.driver].link}")
-    return f"*{letter}*"
+    return symbol(f"{letter}_{turning_with(drawing, link)}") if link else f"*{letter}*"
 
 
 def turning_with(drawing: Drawing, link: str) -> str:

@@ -186,7 +186,7 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem, and its size; a driver's crank has relations of its own."""
         if not self.is_of_driver(drawing, self.omega):
-            yield self.euler(drawing, omega=rate_symbol(drawing, self.omega))
+            yield self.euler(drawing, omega=rate_symbol(drawing, self.omega, link=self.link))
             if self.image not in drawing.auxiliary:
                 yield self.by_turning(drawing, self.omega, "")
 
