@@ -299,6 +299,16 @@ def test_both_candidates_stay_until_one_is_chosen(kept: Opened, pages: Path):
     assert page.evaluate(SEEN, "a") == 0
 
 
+def test_nothing_stays_lit_of_a_mechanism_that_was_moved_before(opened: Opened, pages: Path):
+    """The driver goes back as a turn begins, and what was marked is not marked again as it rests."""
+    page = opened(pages / "pump.html", "#step=19", stopped=True, **DESKTOP)
+    page.locator("#driver").fill("70")
+    assert page.locator(".halo > *").count() > 0
+    page.locator("#turn").click()
+    page.clock.run_for(2000)
+    assert page.locator(".halo > *").count() == 0
+
+
 def test_a_turn_that_was_left_goes_on(opened: Opened, pages: Path):
     """With the same steps, wherever the page has been meanwhile, until one begins again."""
     page = begun(opened, pages, "pump", 6)

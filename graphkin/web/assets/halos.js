@@ -10,8 +10,9 @@ function tint(step) {
   return `t${(data.tints[step] ?? 0) % TINTS}`;
 }
 
-/** Draw them in each field in sight. */
+/** Draw them in each field in sight; in a turn of one's own nothing is lit but what is picked there. */
 function halos() {
+  if (page.classList.contains("turning")) return;
   const sheet = sheets[here()], steps = looked_at(), from = sources(steps);
   const fresh = state.over ? steps.flatMap(step => sheet.of.get(step) ?? []) :
     sheet.marks.filter(mark => mark.classList.contains("now"));

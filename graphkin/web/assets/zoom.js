@@ -30,7 +30,7 @@ function look(glides = false) {
   });
   if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) { // letters of another size stand elsewhere
     put();
-    if (!page.classList.contains("turning")) halos();
+    halos();
   }
   bars(sheet, sizes, boxes);
 }
