@@ -207,7 +207,9 @@ def bare_page(items: list[Item], identity: Identity, language: str = "en") -> st
 @pytest.fixture(scope="module")
 def bare(tmp_path_factory) -> Path:
     """A form with a field of each unit."""
-    items = [Item(name, "value", f"*{name[0]}*", unit, "x", "D") for name, unit in UNITS.items()]
+    items = [
+        Item(name, "value", f"*{name[0]}*", unit, "velocity", "D") for name, unit in UNITS.items()
+    ]
     path = tmp_path_factory.mktemp("bare") / "form.html"
     path.write_text(bare_page(items, Identity("bare", "bare")), encoding="utf-8")
     return path

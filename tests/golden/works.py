@@ -2,8 +2,8 @@
 
 The small scenes of other tests are checked and drawn once each; some are wrong, and told so.
 
-Everything goes through ``python -m graphkin``, in this process, so that nothing here depends on
-what the modules are called. A work is named by its command line without the scene.
+Everything goes through the entry of the command line, in this process, so that nothing else here
+depends on what the modules are called. A work is named by its command line without the scene.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import csv
 import io
 import os
 import re
-import runpy
 import shutil
 import sys
 import tomllib
@@ -25,6 +24,8 @@ from unittest.mock import patch
 from zlib import crc32
 
 import tomlkit
+
+from graphkin.__main__ import main
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = {path.parent.name: path.parent.name for path in sorted(ROOT.glob("sheets/*/scene.toml"))}
@@ -121,7 +122,7 @@ def graphkin(*words: object) -> str:
     leaving = patch.object(os, "_exit", sys.exit), patch.object(atexit, "_run_exitfuncs")
     with argv, leaving[0], leaving[1], redirect_stdout(out), redirect_stderr(err):
         try:
-            runpy.run_module("graphkin", run_name="__main__")
+            main()
         except SystemExit as left:
             status = f"status {left.code}\n" if left.code else ""
     return TIMES.sub(r"\1 …", out.getvalue()) + err.getvalue() + status
