@@ -300,7 +300,7 @@ def test_both_candidates_stay_until_one_is_chosen(kept: Opened, pages: Path):
 
 
 def test_nothing_stays_lit_of_a_mechanism_that_was_moved_before(opened: Opened, pages: Path):
-    """The driver goes back as a turn begins, and what was marked is not marked again as it rests."""
+    """The driver goes back as a turn begins; what was marked is not marked again as it rests."""
     page = opened(pages / "pump.html", "#step=19", stopped=True, **DESKTOP)
     page.locator("#driver").fill("70")
     assert page.locator(".halo > *").count() > 0
