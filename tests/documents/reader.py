@@ -409,7 +409,7 @@ class Reader(Trials):
         self.put(name, self.ray.point + self.ray.along * number(drawn))
 
     @says(
-        "from the centre of wheel ⟨k:number⟩ the perpendicular to its track(?: on link "
+        "from the centre of wheel ⟨k:wheel⟩ the perpendicular to its track(?: on link "
         "⟨g:number⟩)?; it meets it in the point of contact ⟨name⟩"
     )
     def contact(self, k: str, g: str | None, name: str) -> None:
@@ -418,7 +418,7 @@ class Reader(Trials):
         track, centre = self.tracks[k, g] if g else self.track(k), self.centre(k)
         self.put(name, track.point + track.along * dot(track.along, centre - track.point))
 
-    @says("draw the track of wheel ⟨k:number⟩ on link ⟨g:number⟩: (?P<line>the line .*?)(?=;)")
+    @says("draw the track of wheel ⟨k:wheel⟩ on link ⟨g:number⟩: (?P<line>the line .*?)(?=;)")
     def draw_track_of(self, k: str, g: str, line: str) -> None:
         self.put_track(g, line)
         drawn = self.loci[-1]

@@ -154,11 +154,15 @@ def between_tracks(
 
 
 class Track(Construction, frozen=True, kw_only=True):
-    """The ``line`` of a straight track, on which a ``wheel`` rolls as ``rolling`` says."""
+    """The ``line`` of a straight track, on which a ``wheel`` rolls as ``rolling`` says.
+
+    ``sign`` is what the wheel is called among those of its link.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
 
     wheel: str
+    sign: str
     rolling: Rolling
     line: int
 
@@ -177,7 +181,7 @@ class Track(Construction, frozen=True, kw_only=True):
         if self.rolling.on == FRAME:
             return drawing.words("step.guide-named", guide=way_of(drawing, self.wheel))
         line = straight(drawing, self.rolling, on_paper=True)
-        names = {"g": escape(self.wheel), "h": escape(self.rolling.on)}
+        names = {"g": escape(self.sign), "h": escape(self.rolling.on)}
         key = "step.track-of-bar" if self.wheel == FRAME else "step.track-of"
         return drawing.words(key, line=line, **names)
 
@@ -234,7 +238,12 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
 
 
 class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
-    """The foot of the perpendicular from the wheel's centre to its straight track."""
+    """The foot of the perpendicular from the wheel's centre to its straight track.
+
+    ``sign`` is what the wheel is called among those of its link.
+    """
+
+    sign: str
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The track of a moving link, where no path of the centre tells of it."""
@@ -247,7 +256,7 @@ class ContactOnTrack(PointOfContact, frozen=True, kw_only=True):
         """By the perpendicular."""
         key = "contact-on-track" if self.on == FRAME else "contact-on-track-of"
         key = "contact-on-bar" if self.wheel == FRAME else key
-        return drawing.words(f"step.{key}", **self.symbols())
+        return drawing.words(f"step.{key}", **self.symbols() | {"k": escape(self.sign)})
 
 
 class ContactOfWheels(PointOfContact, frozen=True, kw_only=True):

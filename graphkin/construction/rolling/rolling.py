@@ -143,7 +143,8 @@ def track_of(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
         wheel, on = contact.links
         with pen.on(Part.POSITION, Plane.MECHANISM):
             line = guide_line(pen, shapes, contact.rolling, on, wheel)
-        pen.make(Track(wheel=wheel, rolling=contact.rolling, line=line))
+        sign = contact.sign_of(pen.scene, wheel)
+        pen.make(Track(wheel=wheel, sign=sign, rolling=contact.rolling, line=line))
         pen.shared[key] = pen.want("track", wheel, line)
     return pen.shared[key]
 
@@ -218,7 +219,8 @@ def touch(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
 def touch_track(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
     """Where a wheel touches its straight track, as far along that."""
     line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
-    touching = mark_contact(pen, contact, ContactOnTrack, contact_on_track, line, centre)
+    kind = partial(ContactOnTrack, sign=contact.sign_of(pen.scene, contact.links[0]))
+    touching = mark_contact(pen, contact, kind, contact_on_track, line, centre)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         return pen.draw(coordinate, line, touching)
 
