@@ -8,6 +8,7 @@ from typing import Any
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark, marked
+from graphkin.construction.core.kind import construction
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.numbers.common_roots import solutions
@@ -44,7 +45,9 @@ def step_drawn(
     value = unmarked(original, number, found)
     if mark is None:
         return value
-    start = found[step.args[0]] if mark is PencilMark.ARROW else value
+    start, kind = value, construction(step)
+    if mark is PencilMark.ARROW and kind is not None:
+        start = found[kind.laid_from(step)]
     return marked(mark, value, start, errors, pencil, mm)
 
 

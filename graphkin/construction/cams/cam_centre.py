@@ -269,7 +269,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
 class CurvatureCentre(Determined, frozen=True, kw_only=True):
     """The centre of curvature ``point``, called ``name``, of the cam ``link`` under its follower.
 
-    It is laid off from the cam's pivot ``start``.
+    It is laid off from the cam's pivot, called ``start``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
@@ -281,6 +281,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     follower: str
     start: str
     name: str
+    pivot: int
     lift: int
     rate: int
     bend: int
@@ -290,6 +291,10 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     def points(self) -> tuple[str, ...]:
         """The pivot and the centre."""
         return self.start, self.name
+
+    def laid_from(self, step: Step) -> int:
+        """The cam's pivot."""
+        return self.pivot
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """A pitch curve without curvature."""
@@ -509,7 +514,16 @@ def curvature_centre(pen: Pen, shapes: LinkShapes, name: str) -> int:
     displaced_by = pen.shared["cam lift", follower]
     with pen.on(Part.POSITION, Plane.MECHANISM):
         point = pen.draw(kind, *where, rate, bend, *size, extra=extra_side, name=name)
-        roles = {"link": cam.on, "follower": follower, "start": cam.pivot, "name": name}
-        made = CurvatureCentre(**roles, lift=displaced_by, rate=rate, bend=bend, point=point)
+        made = CurvatureCentre(
+            link=cam.on,
+            follower=follower,
+            start=cam.pivot,
+            name=name,
+            pivot=pen.the("position", cam.pivot),
+            lift=displaced_by,
+            rate=rate,
+            bend=bend,
+            point=point,
+        )
         pen.make(made)
     return point

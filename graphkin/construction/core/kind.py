@@ -20,7 +20,7 @@ class Construction(Roles, frozen=True):
     """One construction: its roles are fields, and beside them stands all that is known of it.
 
     ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
-    ``laid_off`` the roles of points that are laid off from the first value of their step,
+    ``laid_off`` the roles of points that are laid off from another (``laid_from``),
     ``unmarked`` those of points that a pencil need not mark, ``directions`` those of unit vectors,
     ``slips`` by what a student's slip multiplies its result, ``drawn_in`` what a report calls the
     drawing of its crossings where that is not the plan's. ``joins`` are the roles of lines drawn as
@@ -97,6 +97,10 @@ class Construction(Roles, frozen=True):
     def points(self) -> tuple[str, ...]:
         """The points of the mechanism that it joins."""
         return ()
+
+    def laid_from(self, step: Step) -> int:
+        """The point from which a step lays off: the first value that it takes."""
+        return step.args[0]
 
     def laid_length(self, role: str) -> tuple[str, str] | None:
         """The points whose distance is laid off at a role's step; None for other roles."""
