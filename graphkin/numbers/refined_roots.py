@@ -139,7 +139,8 @@ def size_of(value: Any) -> Any:
 def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
     """Where all misfits vanish, near a start: until they no longer come nearer to nought.
 
-    Differences reach as far as the last step went.
+    Differences reach as far as the last step went. In the end these are rounding alone, and may
+    lead anywhere: a place where there are no misfits (ValueError) is no nearer.
     """
     here, steps = [*start], [size_of(each) * APART for each in start]
     value = misfits(here)
@@ -149,7 +150,10 @@ def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
         rows = slopes(misfits, here, value, steps)
         way = solved(rows, [-each for each in value])
         aim = [middle(each + step) for each, step in zip(here, way, strict=True)]
-        there = misfits(aim)
+        try:
+            there = misfits(aim)
+        except ValueError:
+            break
         if not sum(map(abs, there)) < sum(map(abs, value)):
             break
         here, value = aim, there
