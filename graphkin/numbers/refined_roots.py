@@ -139,8 +139,9 @@ def size_of(value: Any) -> Any:
 def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
     """Where all misfits vanish, near a start: until they no longer come nearer to nought.
 
-    Differences reach as far as the last step went. In the end these are rounding alone, and may
-    lead anywhere: a place where there are no misfits (ValueError) is no nearer.
+    Differences reach as far as the last step went. In the end these are rounding alone, which may
+    lead nowhere (ZeroDivisionError), or to where there are no misfits (ValueError): neither is
+    nearer.
     """
     here, steps = [*start], [size_of(each) * APART for each in start]
     value = misfits(here)
@@ -148,11 +149,11 @@ def by_newton(misfits: Misfits, start: Sequence[Any]) -> list[Any]:
         if not any(value):
             break
         rows = slopes(misfits, here, value, steps)
-        way = solved(rows, [-each for each in value])
-        aim = [middle(each + step) for each, step in zip(here, way, strict=True)]
         try:
+            way = solved(rows, [-each for each in value])
+            aim = [middle(each + step) for each, step in zip(here, way, strict=True)]
             there = misfits(aim)
-        except ValueError:
+        except (ZeroDivisionError, ValueError):
             break
         if not sum(map(abs, there)) < sum(map(abs, value)):
             break

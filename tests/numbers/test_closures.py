@@ -64,8 +64,8 @@ def bisected(misfit, low, high):
     return (low + high) / 2
 
 
-def test_all_scenes_of_higher_class_are_tried():
-    assert {*filter(of_higher_class, NAMES)} == {*CLOSED}
+def test_the_scenes_are_of_higher_class():
+    assert {*CLOSED} <= {*filter(of_higher_class, NAMES)}
 
 
 @pytest.mark.parametrize("name", CLOSED)

@@ -30,7 +30,7 @@ MOVES = 6
 """Runs with moved numbers; the largest move of an answer counts."""
 ROUNDINGS = 4
 """Units of its moves by which an answer may be off: a step rounds more than once."""
-NARROW = {False: 1e4, True: 1e7}
+NARROW = {False: 3e4, True: 3e7}
 """Units of its moves by which a ball may be wide, without and with trials.
 
 It adds up what may cancel, in a trial twice: in what is tried and in what is drawn from it.
