@@ -105,6 +105,9 @@ epsilon = [2]
 """A bar between blocks on parallel guides: it shifts steadily, all else is rounding."""
 WHICH = [*((name, None) for name in ("watt-1", "lifter", "stephenson-1", *CHOSEN)), *LABS]
 
+TRIED = {("plates-ring", None)}
+"""Where a trial plan lays one off on its own, with the tangential component after it."""
+
 
 def short_ones(drawing):
     """The vectors of the plan that are shorter than what a hand draws, but not nought."""
@@ -165,7 +168,7 @@ def test_a_component_that_is_too_short_says_so_with_its_length():
     assert cells_of(drawing)[f"a_{name}^ν"][1] == length
 
 
-@pytest.mark.parametrize("which", WHICH, ids=named)
+@pytest.mark.parametrize("which", [each for each in WHICH if each not in TRIED], ids=named)
 def test_no_sentence_lays_it_off_or_draws_its_triangle(which):
     for drawing in drawings(*which):
         for name in short_ones(drawing):

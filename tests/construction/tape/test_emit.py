@@ -166,7 +166,10 @@ def test_a_scene_that_can_be_followed_runs_the_same_by_source(name):
     assert closes or None not in press.kept.values(), "not followed"
     clear = np.broadcast_to(smallest_margin(plain) > CLEAR, POSITIONS)
     turning = max((peak(plain.value(*t), clear) for t in targets if t[0] == "omega"), default=0)
-    least = {"omega": turning, "epsilon": turning**2}
+    moving = max(
+        (peak(plain.value(*t), clear) for t in targets if t[0] == "acceleration"), default=0
+    )
+    least = {"omega": turning, "epsilon": turning**2, "slide acceleration": moving}
     targets = [target for target in targets if not isinstance(plain.value(*target), tuple)]
     for what in {what for what, _ in targets}:
         pairs = [(t, ours.value(*t), plain.value(*t)) for t in targets if t[0] == what]
