@@ -93,16 +93,21 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     """One row for each angular velocity or acceleration, with its sense."""
     letter, words = drawing.rate.letter, drawing.words
     rows = []
+    for link, value in turning_links(drawing):
+        cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
+        rows.append(Row((symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
+    return rows
+
+
+def turning_links(drawing: Drawing) -> Iterator[tuple[str, float]]:
+    """The links whose angular velocity or acceleration a sheet tells, with its value."""
     scene = drawing.scene
     for link in scene.links:
         if link in scene.unseen and link not in (*scene.ask.omega, *scene.ask.epsilon):
             continue
         value = drawing.turning(link)
-        if value is None:
-            continue
-        cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
-        rows.append(Row((symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
-    return rows
+        if value is not None:
+            yield link, value
 
 
 def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

@@ -1,16 +1,25 @@
 """What is put into free room at last: senses of links' turning, the axes, the scale of a plan.
 
-Each is left out where there is no room for it.
+Each is left out where there is no room for it; senses are then told in words.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from cmath import rect
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from math import cos, floor, hypot, log10, radians, sin
+from typing import NamedTuple
+
+from numpy import arange
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_plan, scale_of
+from graphkin.construction.core.naming import sense as sense_word
+from graphkin.construction.drivers.driver_symbols import pivot_of
+from graphkin.construction.guides.rails import places_of
 from graphkin.construction.links.link_numbers import SHARES, Body, body_of, within
+from graphkin.construction.result_tables import turning_links
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.free_space import Space
@@ -18,9 +27,14 @@ from graphkin.drawing.marks import LineMark, Mark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.drawing.symbols import head, turned_arrow
+from graphkin.scene.model import FRAME
 
 ROUND, OPEN = 3.4, 230.0
 """Least radius of a turning arrow in mm, and the angle in degrees at which it ends or begins."""
+TINY, BESIDE = 2.2, 0.8
+"""Radius of an arrow with its letter beside it, and how far apart these are, in mm."""
+RINGS, WAYS = (0.0, 4.5, 6.0, 8.0, 10.0, 12.5, 15.0, 18.0, 21.0, 25.0), 16
+"""How far from a link, in mm, and in how many ways there, room for its arrow is sought."""
 AIR = 1.0
 """How far a turning arrow stays from all else, in mm."""
 NEAR, FARTHER = 0.1, 3.0
@@ -49,21 +63,128 @@ def plan_signs(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Ma
 
 
 def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
-    """A turning arrow about ω or ε beside each link whose rate the sheet finds."""
+    """A turning arrow about ω or ε at each link whose rate the sheet tells.
+
+    First beside the bars and in the plates, driven links last; what finds no room there stands
+    where there is some around the link, with its letter beside a smaller arrow where that is long.
+    What finds none is told at the foot of the field.
+    """
     driven = {driver.link for driver in drawing.scene.drivers if driver.kind == "turn"}
-    for name, link in drawing.scene.links.items():
-        rate, body = drawing.turning(name), body_of(drawing, field, link)
-        if not rate or body is None or name in driven:
-            continue
-        text = symbol(f"{drawing.rate.letter}_{name}")
-        width, top, bottom = extent(text, HEIGHT)
-        radius = max(ROUND, hypot(width, bottom - top) / 2 + 0.7)
-        at = space.first([*places_beside(body, radius + AIR)], (0.0, 0.0), radius + AIR)
-        if at is not None:
-            space.take((at[0] - radius, at[1] - radius, at[0] + radius, at[1] + radius))
-            yield from sense(at, radius, rate, drawing.kind)
-            x, y = at[0] - width / 2, at[1] - (top + bottom) / 2
-            yield Text(x, y, text, f"label {drawing.kind}", HEIGHT)
+    shown = told_by_drivers(drawing)
+    rates = {name: rate for name, rate in turning_links(drawing) if rate and name not in shown}
+    bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
+    left = []
+    for name in sorted(rates, key=lambda name: name in driven):
+        body, sign = bodies[name], sign_of(drawing, name)
+        at = None
+        if body is not None:
+            near = [*places_beside(body, sign.radius + AIR)]
+            at = space.first(near, (0.0, 0.0), sign.radius + AIR)
+        if at is None:
+            left.append(name)
+        else:
+            yield from sign.put(space, at, rates[name])
+    lost = []
+    for name in left:
+        near = [*places_around(drawing, field, name, bodies)]
+        for sign in dict.fromkeys((sign_of(drawing, name), sign_of(drawing, name).aside)):
+            at = space.first(near, sign.half, AIR) if near else None
+            if at is not None:
+                yield from sign.put(space, at, rates[name])
+                break
+        else:
+            lost.append(name)
+    yield from at_foot(drawing, space, {name: rates[name] for name in lost})
+
+
+def told_by_drivers(drawing: Drawing) -> set[str]:
+    """The links whose rate the arrow of their driver shows: on the velocity sheet, where they turn
+    against the frame."""
+    return {
+        driver.link
+        for driver in drawing.scene.drivers
+        if drawing.kind == "velocity"
+        and driver.kind == "turn"
+        and driver.against == FRAME
+        and pivot_of(drawing, driver) in drawing.positions
+    }
+
+
+class Sign(NamedTuple):
+    """A turning arrow with the letter of a rate in it, or beside it where it is ``apart``."""
+
+    text: str
+    kind: str
+    radius: float
+    apart: float = 0.0
+
+    @property
+    def aside(self) -> Sign:
+        """The same with its letter beside a small arrow, where that saves room."""
+        width = extent(self.text, HEIGHT)[0]
+        return self if self.radius <= ROUND else Sign(self.text, self.kind, TINY, width)
+
+    @property
+    def half(self) -> XY:
+        """Half the sides of the box that it takes up."""
+        return self.radius + (self.apart + BESIDE) / 2 if self.apart else self.radius, self.radius
+
+    def put(self, space: Space, at: XY, rate: float) -> Iterator[Mark]:
+        """Its marks with the middle at a place, which is taken."""
+        (wide, high), (x, y) = self.half, at
+        space.take((x - wide, y - high, x + wide, y + high))
+        yield from sense((x - wide + self.radius, y), self.radius, rate, self.kind)
+        width, top, bottom = extent(self.text, HEIGHT)
+        start = x + wide - width if self.apart else x - width / 2
+        yield Text(start, y - (top + bottom) / 2, self.text, f"label {self.kind}", HEIGHT)
+
+
+def sign_of(drawing: Drawing, name: str) -> Sign:
+    """The arrow of a link with its letter inside."""
+    text = symbol(f"{drawing.rate.letter}_{name}")
+    width, top, bottom = extent(text, HEIGHT)
+    return Sign(text, drawing.kind, max(ROUND, hypot(width, bottom - top) / 2 + 0.7))
+
+
+def places_around(
+    drawing: Drawing, field: Field, name: str, bodies: Mapping[str, Body | None]
+) -> Iterator[XY]:
+    """Places around a link, the nearest first, in no other plate or wheel."""
+    body = bodies[name]
+    anchors = [complex(*field(place)) for place in places_of(drawing, name)]
+    discs = [disc for disc in drawing.standing.discs if disc.link == name]
+    anchors += [complex(*field(disc.centre)) for disc in discs]
+    if body is not None:
+        anchors += [p + share * (q - p) for share, (p, q) in product(SHARES, body.sides)]
+    others = [each for other, each in bodies.items() if each is not None and other != name]
+    wheels = [
+        (complex(*field(disc.centre)), disc.outer * field.mm)
+        for disc in drawing.standing.discs
+        if disc.link != name and not disc.wheel.inside
+    ]
+    for far, anchor, nth in product(RINGS, dict.fromkeys(anchors), range(WAYS)):
+        place = anchor + rect(far, radians(360 / WAYS * nth))
+        apart = (abs(place - centre) > radius for centre, radius in wheels)
+        if all(apart) and not any(other.holds(place) for other in others):
+            yield place.real, place.imag
+
+
+def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Iterator[Mark]:
+    """The senses that find no room, in words, in one line as low in the field as there is room."""
+    if not rates:
+        return
+    letter, words = drawing.rate.letter, drawing.words
+    told = "; ".join(f"{symbol(f'{letter}_{n}')}: {sense_word(words, r)}" for n, r in rates.items())
+    width, top, bottom = extent(told, HEIGHT)
+    half = width / 2, (bottom - top) / 2
+    (left, high, right, low), air = space.rect, AIR + 0.1
+    xs = arange(left + half[0] + air, right - half[0] - air, 5.0).tolist()
+    ys = arange(low - half[1] - air, high + half[1] + air, -5.0).tolist()
+    at = space.first([(x, y) for y in ys for x in xs], half, AIR) if xs and ys else None
+    if at is not None:
+        x, y = at[0] - half[0], at[1] - (top + bottom) / 2
+        space.take((x, at[1] - half[1], x + width, at[1] + half[1]))
+        yield Text(x, y, told, "caption", HEIGHT, name="senses")
 
 
 def places_beside(body: Body, off: float) -> Iterator[XY]:

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, SharedLetter, Text, box
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, SharedLetter, Text, drawn_out
 from graphkin.drawing.placement import Spot, Wish
 from graphkin.drawing.richtext import extent
 
@@ -19,7 +19,7 @@ NUMBER = 2.3
 SMALL = 1.8
 """Height of the smallest lettering in mm."""
 EDGE = 0.3
-"""How far what stands in that circle stays from it, in mm; longer names have a frame."""
+"""How far what stands in that circle stays from it, in mm; longer names draw it out in width."""
 GAP, LED = 0.9, 3.4
 """Clear distance of a label from its subject, and of one that always has a leader, in mm."""
 
@@ -87,12 +87,12 @@ class Label(Struct, frozen=True):
         yield self.text(spot)
 
     def balloon(self, spot: Spot) -> Mark:
-        """The circle around a link's number, or the frame around its name."""
+        """The circle around a link's number, which is drawn out in width for a longer name."""
         width, height = self.size()
         style = f"number {self.cls}".strip()
         if width <= height:
             return CircleMark(spot.x, spot.y, NUMBER, style, self.name)
-        return box(spot.x - width / 2, spot.y - height / 2, width, height, style)
+        return drawn_out(spot.x, spot.y, NUMBER, width, style)
 
     def text(self, spot: Spot) -> Text:
         """The label's text with the middle of its ink at a place."""

@@ -9,7 +9,7 @@ blanks; the first decides the style (see ``style``). ``name`` and ``step`` go in
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, isfinite, radians, sin
+from math import cos, isfinite, pi, radians, sin
 from typing import Literal
 
 from msgspec import Struct
@@ -21,6 +21,8 @@ from graphkin.text.errors import PageError, Problem
 Point = tuple[float, float]
 Anchor = Literal["start", "middle", "end"]
 SLACK = 1e-6  # mm, rounding forgiven at the page's edge
+CHORDS = 12
+"""Chords of the half circle at an end of a circle that is drawn out."""
 
 
 class LineMark(Struct, frozen=True):
@@ -146,6 +148,15 @@ def box(x: float, y: float, width: float, height: float, cls: str) -> Polyline:
     """Make an upright rectangle from its top-left corner and its size in mm."""
     right, below = x + width, y + height
     return Polyline(((x, y), (right, y), (right, below), (x, below)), cls, closed=True)
+
+
+def drawn_out(x: float, y: float, radius: float, width: float, cls: str) -> Polyline:
+    """Make a circle drawn out to a width in mm: half circles of chords at the ends of two lines."""
+    half = width / 2 - radius
+    turns = [pi * i / CHORDS for i in range(CHORDS + 1)]
+    right = [(x + half + radius * sin(t), y - radius * cos(t)) for t in turns]
+    left = [(x - half - radius * sin(t), y + radius * cos(t)) for t in turns]
+    return Polyline((*right, *left), cls, closed=True)
 
 
 def arc_points(arc: Arc) -> Iterator[Point]:

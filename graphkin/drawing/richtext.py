@@ -28,9 +28,21 @@ STACKED = 2
 """Signs of the longest index above which an exponent may stand."""
 TOKEN = r"(?s)[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|."
 UNITS = r"(?:mm|cm|m|in|s|rad|deg|rev/min|rot/min)\b|\(m/s"
-GAP = rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<= \. ))(?:{UNITS}))"
+NUMBERED = (
+    *("link", "links", "wheel", "wheels", "gear", "gears", "guide", "guides"),
+    *("plate", "rack", "track", "cam"),
+    *("elementul", "elementului", "elementele", "elementelor", "roata", "roții", "roțile"),
+    *("ghidajul", "ghidajului", "cremaliera", "cama"),
+    *("membro", "membri", "ruota", "ruote", "dentata", "guida", "piastra", "dentiera", "camma"),
+)
+"""Words with which the number or the one letter after them stays in a line, in all languages."""
+AFTER_WORD = "".join(rf"(?<!\b{word} )" for word in NUMBERED)
+GAP = (
+    rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<= \. ))(?:{UNITS}))"
+    rf"(?:{AFTER_WORD}|(?!\d|[^\W_]\b))"
+)
 """Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥, ∥ and ÷, nor
-between the dots of room to write in."""
+between the dots of room to write in, nor between a link, a wheel or a guide and its number."""
 EQUAL = "(?<= =) "
 """Blanks behind =, at which a line of what is equal ends where nothing else will do."""
 WORDS = "[^ ]+(?: [^ ]+)* ?"

@@ -7,8 +7,11 @@ import re
 import pytest
 import shapely
 
-from graphkin.documents.signs import round_below
+from graphkin.construction.result_tables import turning_links
+from graphkin.documents.signs import mechanism_signs, round_below, sign_of
+from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
+from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
 from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import VARIANTS, drawn, kind_of, kinds_of, outline
@@ -50,6 +53,61 @@ def test_a_sense_touches_nothing(name, n, kind):
                 assert not disc.intersects(shapely.box(*reach(mark))), mark
             elif isinstance(mark, LineMark) and kind_of(mark) in ("link", kind):
                 assert not disc.intersects(outline(mark)), mark
+
+
+@pytest.mark.parametrize(("name", "n", "kind"), SHEETS)
+def test_the_sense_of_each_link_that_the_table_has_is_on_the_mechanism(name, n, kind):
+    """By its own arrow, by its driver's, or in words at the foot of the field."""
+    page = drawn(name, n, kind)
+    marks = [mark for mark in page.marks["mechanism"] if isinstance(mark, Text)]
+    told = {text.markup for _, text in senses(page)}
+    told |= {m.markup for m in marks if m.name.startswith("omega") and kind == "velocity"}
+    told |= {each.partition(":")[0] for m in marks if m.name == "senses" for each in parts(m)}
+    wanted = {name for name, rate in turning_links(page.drawing) if rate}
+    assert told >= {symbol(f"{page.drawing.rate.letter}_{link}") for link in wanted}
+
+
+def parts(mark):
+    """What is said of each link in a line."""
+    return mark.markup.split("; ")
+
+
+@pytest.mark.parametrize(
+    ("lanes", "told"), [(12.0, {""}), (5.0, {"senses"})], ids=["arrows", "words"]
+)
+def test_a_sense_that_finds_no_room_is_told_at_the_foot(lanes, told):
+    """A field full of lines, so many mm apart: arrows between them, or words in the last lane."""
+    page = drawn("four-bar-crank-rocker", None, "velocity")
+    left, top, right, low = page.layout.mechanism.rect
+    count = int((low - top - 8) / lanes)
+    lines = [
+        LineMark(left, top + i * lanes, right, top + i * lanes, "link") for i in range(count + 1)
+    ]
+    texts = [
+        mark
+        for mark in mechanism_signs(page.drawing, page.layout.mechanism, lines)
+        if isinstance(mark, Text)
+    ]
+    assert {mark.name for mark in texts} == told
+    for mark in texts:
+        assert not any(shapely.box(*reach(mark)).intersects(outline(line)) for line in lines)
+    if told == {"senses"}:
+        (said,) = texts
+        assert plain(said.markup) == "ω2: clockwise; ω3: counter-clockwise"
+
+
+def test_a_long_letter_stands_beside_an_arrow_that_is_small():
+    """Its box is then not so high as the circle about it; that of a short letter stays one."""
+    page = drawn("four-bar-crank-rocker", None, "velocity")
+    short, long = (sign_of(page.drawing, name) for name in ("2", "connectingrod"))
+    assert short.aside == short
+    assert long.aside.half[1] < long.half[1] / 3
+    space = Space([], (0, 0, 100, 100))
+    arc, _, text = long.aside.put(space, (50, 50), 1.0)
+    (wide, high), (start, above, end, below) = long.aside.half, reach(text)
+    assert arc.cx - arc.r == pytest.approx(50 - wide)
+    assert arc.cx + arc.r < start and end <= 50 + wide + 0.01
+    assert 50 - high - 0.5 < above and below < 50 + high + 0.5
 
 
 def test_most_links_of_a_plain_mechanism_show_their_sense():

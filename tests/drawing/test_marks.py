@@ -2,7 +2,9 @@ import math
 import random
 
 import pytest
+import shapely
 
+from graphkin.drawing.label import NUMBER, Label
 from graphkin.drawing.marks import (
     Arc,
     CircleMark,
@@ -16,6 +18,7 @@ from graphkin.drawing.marks import (
     polygon,
     reach,
 )
+from graphkin.drawing.placement import Spot
 from graphkin.text.errors import PageError
 
 
@@ -124,3 +127,24 @@ def test_the_reach_of_an_arc_counts_the_quarter_points_it_passes():
         (50 - 10 / 2**0.5, 40, 50 + 10 / 2**0.5, 50 - 10 / 2**0.5)
     )
     assert reach(Arc(50, 50, 10, 90, -90, "angle")) == pytest.approx((50, 40, 60, 60))
+
+
+@pytest.mark.parametrize("name", ["1", "12", "m", "arm", "bucket", "connectingrod"])
+def test_the_circle_about_a_number_is_drawn_out_for_a_name(name):
+    """All stand in one look: every place of the frame is one radius from a middle line, and the
+    name's ink is inside."""
+    label = Label(name, "", (0.0, 0.0), ring=True)
+    frame = label.balloon(Spot(20.0, 10.0, None, True))
+    width, height = label.size()
+    assert height == 2 * NUMBER
+    if isinstance(frame, CircleMark):
+        assert width == height and frame.r == NUMBER
+        outline = shapely.Point(frame.cx, frame.cy).buffer(frame.r)
+    else:
+        half = width / 2 - NUMBER
+        middle = shapely.LineString([(20 - half, 10), (20 + half, 10)])
+        for place in frame.points:
+            assert middle.distance(shapely.Point(place)) == pytest.approx(NUMBER, abs=1e-9)
+        outline = shapely.Polygon(frame.points)
+        assert outline.is_valid
+    assert outline.contains(shapely.box(*label.area(Spot(20.0, 10.0, None, True))))

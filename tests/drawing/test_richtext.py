@@ -1,7 +1,11 @@
+import re
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import graphkin.text
 from graphkin.drawing.glyphs import advance, capital, measures
 from graphkin.drawing.richtext import extent, flowed, runs, spaced_runs, words_of
 from graphkin.text.errors import PageError
@@ -106,6 +110,26 @@ def test_lines_do_not_end_after_a_sign_of_division_or_in_the_room_to_write_in():
         "in",
         "m",
     ]
+
+
+def test_lines_do_not_end_between_a_link_a_wheel_or_a_guide_and_its_number():
+    markup = "wheel 3 of the link 12 meets gear B; guide of *AB* on links 2 and 3, in 1.5 m"
+    assert words_of(markup) == [
+        *("wheel 3", "of", "the", "link 12", "meets", "gear B;", "guide", "of", "*AB*", "on"),
+        *("links 2", "and", "3,", "in", "1.5 m"),
+    ]
+
+
+STEMS = r"link|wheel|gear|guide|element|roat|roț|ghidaj|membr|ruot|guid"
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_every_link_wheel_and_guide_that_the_texts_number_keeps_its_number(language):
+    text = (Path(graphkin.text.__file__).parent / f"{language}.toml").read_text("utf-8")
+    said = set(re.findall(rf"\b((?:{STEMS})\w*) \{{(?:k|g|link|other)\}}", text))
+    assert len(said) >= 4
+    for word in said:
+        assert words_of(f"x {word} 7 y") == ["x", f"{word} 7", "y"]
 
 
 PIECES = st.sampled_from(
