@@ -309,6 +309,18 @@ def test_every_problem_is_told_at_once(problems: Finders) -> None:
     assert str(found[0]) == "links.6.A-B: -40; expected a number above 0"
 
 
+def test_a_law_of_time_without_a_time_is_told_with_the_speed_beside_it(problems: Finders) -> None:
+    """What is wrong beside a law does not wait for the time that the law lacks."""
+    found = problems('"30 + 2*n"', '"30*t"\nacceleration = 0')
+    assert [str(problem).partition("; ")[0] for problem in found] == [
+        'drivers[0].angle: "30*t" uses the time t, and the scene has no time',
+        "drivers[0].speed: speed beside a law of time",
+        "drivers[0].acceleration: acceleration beside a law of time",
+    ]
+    mixed = problems('"30 + 2*n"', '"30*t + m"')
+    assert [problem.place for problem in mixed] == ["drivers[0].angle"] * 2 + ["drivers[0].speed"]
+
+
 def test_what_is_wrong_with_the_links_is_told_beside_what_is_asked(problems: Finders) -> None:
     """A link that hangs loose is told with an unknown branch; not so where a length is unread."""
     found = problems("[ask]", 'Q = "left of A-B"\n[links.9]\nA-X = 10\n[ask]')
