@@ -18,6 +18,7 @@ from graphkin.construction.core.solution import gathered
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
+from graphkin.documents.scaling import scales, stated
 from graphkin.mechanism import Mechanism
 from graphkin.scene.known_names import named
 from graphkin.scene.model import Cam, Scene
@@ -58,6 +59,7 @@ class Checking:
             yield from labelled("note", fallen_together(scene, trace))
             self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
+            self.scale_factors()
         except GraphkinError as error:
             self.problems += error.problems
 
@@ -106,6 +108,14 @@ class Checking:
         if not verdict.agrees:
             self.doubts.append("the independent route does not agree with the construction")
         return verdict_words(verdict, self.mechanism.scene)
+
+    def scale_factors(self) -> None:
+        """Raise GraphkinError for scale factors that [sheet] states and no sheet can keep.
+
+        A mechanism of which no sheet is handed out anyway is not asked for them.
+        """
+        if not self.doubts and stated(self.mechanism).keys:
+            scales(self.mechanism)
 
 
 def title(scene: Scene) -> list[str]:
