@@ -18,7 +18,6 @@ from graphkin.construction.core.solution import gathered
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
-from graphkin.documents.scaling import scales, stated
 from graphkin.mechanism import Mechanism
 from graphkin.scene.known_names import named
 from graphkin.scene.model import Cam, Scene
@@ -114,7 +113,11 @@ class Checking:
 
         A mechanism of which no sheet is handed out anyway is not asked for them.
         """
-        if not self.doubts and stated(self.mechanism).keys:
+        sheet = self.mechanism.scene.sheet
+        states = sheet.scale or sheet.enlarge or sheet.ka or sheet.rule == "lab"
+        if states and not self.doubts:
+            from graphkin.documents.scaling import scales
+
             scales(self.mechanism)
 
 
