@@ -174,3 +174,10 @@ def test_what_a_driver_gives_along_a_guide_that_turns_is_told_as_given(
         entry = certified["slides"][block]
         assert tuple(map(float, list(entry.values())[:3])) == (position, speed, acceleration)
     assert not [path for path in certified["undecided"] if path.endswith(".acceleration")]
+
+
+def test_every_setting_that_is_none_is_told(run: Run) -> None:
+    result = run("solve", "pump", "--set", "m", "--set", "n=7", "--set", "n=8", "--set", "q=")
+    assert result.exit_code == 2
+    for told in ("--set m: write NAME=VALUE", "--set n: is set twice", "--set q=: write NAME"):
+        assert told in result.stderr
