@@ -7,7 +7,7 @@ from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.text.errors import Problem, SceneError
-from graphkin.web.step_page import Form, step_page, task_page
+from graphkin.web.step_page import Form, Tell, silent, step_page, task_page
 from graphkin.web.your_turn import TurnOwner
 
 
@@ -18,23 +18,25 @@ def hand_out_page(
     view: str = "key",
     language: str | None = None,
     ink: Ink = "colour",
+    tell: Tell = silent,
 ) -> str:
     """The page of a scene; ``name`` is that of its lab or file, ``stem`` begins that of its files.
 
-    The task of a lab holds the form for answers. Raises as hand_out does, and SceneError for an
-    overlay, which is laid on paper.
+    ``tell`` hears what is asked and cannot be read off. The task of a lab holds the form for
+    answers. Raises as hand_out does, and SceneError for an overlay, which is laid on paper.
     """
     if view == "overlay":
         raise SceneError(
             Problem(
                 "--view overlay",
-                "is laid over a drawing on paper, and so no page for a screen",
-                "svg or pdf, or another view",
+                "is laid over a drawing on paper, and html is a page for a screen",
+                "--format svg, pdf or dxf",
+                "leave html out of --format, or write another --view; nothing is written",
             )
         )
     if view != "task":
-        return step_page(mechanism, language, ink, TurnOwner(stem))
-    return task_page(mechanism, language, ink, answer_form(mechanism, name, stem, language))
+        return step_page(mechanism, language, ink, TurnOwner(stem), tell)
+    return task_page(mechanism, language, ink, answer_form(mechanism, name, stem, language), tell)
 
 
 def answer_form(mechanism: Mechanism, name: str, stem: str, language: str | None) -> Form | None:

@@ -87,7 +87,7 @@ def sheet(
     if "html" in kinds:
         from graphkin.classroom.page_documents import hand_out_page
 
-        page = hand_out_page(mechanism, name, stem, view, lang, ink)
+        page = hand_out_page(mechanism, name, stem, view, lang, ink, notes.append)
         files[f"{stem}-{view}.html"] = page.encode("utf-8")
     if "pmks" in kinds:
         from graphkin.documents.pmks_file import pmks_file
@@ -96,6 +96,7 @@ def sheet(
     if {*kinds} - {"html", "pmks"}:
         from graphkin.documents.sheet_documents import hand_out
 
+        notes.clear()  # those of the paper are the same
         for part in hand_out(mechanism, view=view, language=lang):
             notes += part.unread
             files |= rendered(

@@ -101,13 +101,16 @@ def scales_of(mechanism: Mechanism) -> Scales:
 def pairs_of(settings: tuple[str, ...]) -> dict[str, str]:
     """Each NAME=VALUE in its two parts; a name may be set once."""
     found: dict[str, str] = {}
+    wrong: list[str] = []
     for setting in settings:
         name, equals, value = (part.strip() for part in setting.partition("="))
         if not (name and equals and value):
-            raise click.UsageError(f"--set {setting}: write NAME=VALUE, such as n=7", current())
-        if name in found:
-            raise click.UsageError(f"--set {name}: is set twice", current())
+            wrong.append(f"--set {setting}: write NAME=VALUE, such as n=7")
+        elif name in found:
+            wrong.append(f"--set {name}: is set twice; write it once")
         found[name] = value
+    if wrong:
+        raise click.UsageError("; ".join(wrong), current())
     return found
 
 

@@ -163,7 +163,9 @@ def drawing(
 
 
 LEAST = 5.0
-"""Length in mm below which a mechanism, or the longest vector of a plan, is no drawing."""
+"""Length in mm below which the longest vector of a plan is no drawing."""
+LEAST_ACROSS = 15.0
+"""Length in mm below which a mechanism is none: its pins and letters hide its bars."""
 
 
 def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]) -> None:
@@ -173,14 +175,15 @@ def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]
     which all is nought is no fault.
     """
     across = min(1000 * sheet.reach / scales.kL for sheet in sheets)
-    if across < LEAST and "scale" in stated:
-        most = scales.kL * across / LEAST
+    if across < LEAST_ACROSS and "scale" in stated:
+        most = scales.kL * across / LEAST_ACROSS
         found = f"at 1:{digits(scales.kL)} the mechanism is drawn {across:.2g} mm across"
-        raise dot("scale", found, f"a smaller scale, {digits(not_above(most))} or less")
-    if across < LEAST and "enlarge" in stated:
+        smaller = f"a smaller scale, {digits(not_above(most))} or less"
+        raise dot("scale", found, smaller, LEAST_ACROSS)
+    if across < LEAST_ACROSS and "enlarge" in stated:
         times = digits(scales.of_bar("velocity"))
         found = f"at {times} times the mechanism is drawn {across:.2g} mm across"
-        raise dot("enlarge", found, "a smaller enlarge")
+        raise dot("enlarge", found, "a smaller enlarge", LEAST_ACROSS)
     for sheet in sheets:
         longest = 1000 * abs(sheet.at_scale(sheet.plane, sheet.largest)) / scales.kL
         if longest >= LEAST or not sheet.settled(sheet.largest):
@@ -197,10 +200,10 @@ def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]
             raise dot("enlarge", f"at {digits(own)} times {found}", "a larger enlarge")
 
 
-def dot(key: str, found: str, what: str) -> PageError:
+def dot(key: str, found: str, what: str, least: float = LEAST) -> PageError:
     """What is wrong with a scale factor that is too coarse, and what to write."""
     hint = f"write {what}, or leave it out"
-    return PageError(Problem(f"sheet.{key}", found, f"{LEAST:g} mm or more", hint))
+    return PageError(Problem(f"sheet.{key}", found, f"{least:g} mm or more", hint))
 
 
 def not_above(number: float) -> float:

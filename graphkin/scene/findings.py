@@ -49,6 +49,11 @@ class Findings:
             raise SceneError(self.problems)
 
 
+WHOLE = ("graphkin", "title", "time", "module")
+"""Keys of a whole scene that hold no table: below a heading they are keys of that."""
+ABOVE = "it belongs at the top of the file, above the first heading in brackets"
+
+
 class Table:
     """A table of the file whose keys are taken one by one; what is left over is unknown."""
 
@@ -94,7 +99,8 @@ class Table:
         """Note each key that nobody asked for, with the nearest known one."""
         for key in self.raw:
             if key not in self.known:
-                hint = nearest(key, self.known)
+                misplaced = self.place and key in WHOLE
+                hint = ABOVE if misplaced else nearest(key, self.known)
                 self.findings.add(self.at(key), "unknown key", listed(self.known), hint)
 
 

@@ -70,12 +70,18 @@ def read_key(sketch: LinkKeys, key: str, raw: object, place: str, measures: Meas
         sketch.angles[first, vertex, last] = measures.angle(place, raw)
 
 
+POLAR = ("from", "length", "angle")
+"""The keys of a point by its length and angle from another."""
+
+
 def misspelt(key: str, raw: object, place: str, findings: Findings) -> bool:
     """Whether a key that looks like a point holds a guide, a track or a wheel; it is noted."""
     if "-" in key:
         return False
     held = raw[0] if isinstance(raw, list) and raw else raw
     if not isinstance(held, dict) or ("from" in held and held is raw):
+        return False
+    if held is raw and sum(bool(nearest(each, POLAR)) for each in raw) > 1:
         return False
     expected = f"a point by {{from, length, angle}}, or {', '.join(sorted(KEYWORDS))}"
     findings.add(place, "unknown table", expected, nearest(key, KEYWORDS))
@@ -149,7 +155,7 @@ def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, H
     """What one point lacks: found, expected and hint; empty when it only waits for another."""
     polar, words = sketch.polars.get(point), sketch.words.get(point)
     if polar is not None:
-        return unknown(sketch, "from", [polar.start])
+        return unknown(sketch, "from", [polar.start], point)
     if words is not None:
         return missing_lengths(sketch, point, placed)
     bare = bare_turn(sketch, point, placed) or bare_base(sketch, point, placed)
@@ -213,13 +219,14 @@ def missing_lengths(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str
 
 
 def unknown(
-    sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str]
+    sketch: LinkKeys, what: str, ends: tuple[str, ...] | list[str], itself: str = ""
 ) -> tuple[str, str, Hint]:
-    """A point named in a placing that this link does not have."""
+    """A point named in a placing that this link does not have; none is placed by ``itself``."""
+    others = [point for point in sketch.points if point != itself]
     for end in ends:
         if end not in sketch.points:
-            hint = nearest(end, sketch.points)
-            return (f"{what} names {end}, no point of this link", listed(sketch.points), hint)
+            hint = nearest(end, others)
+            return (f"{what} names {end}, no point of this link", listed(others), hint)
     return ("", "", "")
 
 

@@ -96,7 +96,8 @@ def line_words(place: str, raw: object, findings: Findings) -> tuple[str, str] |
     ends = line(phrase(raw)[0]) if isinstance(raw, str) and len(phrase(raw)) == 1 else None
     if ends is not None:
         return ends
-    findings.add(place, shown(raw), 'two points with a dash, such as "A-B"')
+    found = "is missing" if raw is None else shown(raw)
+    findings.add(place, found, 'two points with a dash, such as "A-B"')
     return None
 
 

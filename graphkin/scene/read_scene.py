@@ -10,11 +10,11 @@ from typing import Any, get_args
 from msgspec.structs import replace
 
 from graphkin.scene.check import check_scene
-from graphkin.scene.expression import TIME
+from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.link_names import read_names
-from graphkin.scene.measures import Measures
+from graphkin.scene.measures import Measures, quantity
 from graphkin.scene.model import FRAME, Ask, Driver, DriverKind, Link, Scene
 from graphkin.scene.parameters import read_parameters, set_values
 from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name, line_words, link_name
@@ -326,9 +326,13 @@ def read_motion(
     if kind != "turn":
         key, unit = "position", measures.units["length"]
         speed, acceleration = f"{unit}/s", f"{unit}/s²"
+    law = table.raw.get(key)
     position = read_position(table, key, unit, measures)
     if TIME in position.uses():
         return derivatives(table, position, measures)
+    if is_law(law):
+        refuse_beside_law(table, measures)
+        return position, exact(0), exact(0)
     raw = table.take("speed")
     if raw is None and not measures.findings.inside(position.place):
         measures.findings.add(table.place, "no speed", f"speed = … in {speed}, 0 if it stands")
@@ -359,10 +363,7 @@ def derivatives(
     table: Table, position: Quantity, measures: Measures
 ) -> tuple[Quantity, Quantity, Quantity]:
     """A law of time with its first and second derivative."""
-    for key in ("speed", "acceleration"):
-        if table.take(key) is not None:
-            found = f"{key} beside a law of time"
-            measures.findings.add(table.at(key), found, "none: it is the derivative of the law")
+    refuse_beside_law(table, measures)
     try:
         speed = position.derivative(TIME)
         acceleration = speed.derivative(TIME)
@@ -372,3 +373,19 @@ def derivatives(
     if measures.exists(speed, hint=DERIVED):
         measures.exists(acceleration, hint=DERIVED)
     return position, speed, acceleration
+
+
+def is_law(raw: object) -> bool:
+    """Whether a text is an expression in the time, though the scene may not give it."""
+    try:
+        return TIME in quantity(raw, "", "").uses()
+    except UnreadableError:
+        return False
+
+
+def refuse_beside_law(table: Table, measures: Measures) -> None:
+    """Note a speed and an acceleration that stand beside a law of time."""
+    for key in ("speed", "acceleration"):
+        if table.take(key) is not None:
+            found = f"{key} beside a law of time"
+            measures.findings.add(table.at(key), found, "none: it is the derivative of the law")

@@ -7,7 +7,7 @@ from datetime import date, datetime
 from fractions import Fraction
 from itertools import combinations
 
-from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
+from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, plain_text, shown
 from graphkin.scene.known_names import known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
@@ -219,7 +219,10 @@ def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity,
     if len(pair) not in (1, 2):
         measures.findings.add(place, shown(raw), "a number, or one for each of the two plans")
         return ()
-    found = [measures.number(place, each, positive=True) for each in pair]
+    found = [
+        measures.number(numbered(place, index, len(pair)), each, positive=True)
+        for index, each in enumerate(pair)
+    ]
     return tuple(each for each in found if each is not None)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from math import degrees
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ from msgspec import Struct
 from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import called, scale_of
 from graphkin.construction.core.program import Part
+from graphkin.construction.result_tables import unread
 from graphkin.documents.captions import HEADING, apart
 from graphkin.documents.sheet import asked, title_of
 from graphkin.drawing.areas import Rect
@@ -64,6 +65,14 @@ class Form(Struct, frozen=True):
     script: str
 
 
+Tell = Callable[[str], None]
+"""Who hears what is to be told aside of a page."""
+
+
+def silent(note: str) -> None:
+    """Tell nobody."""
+
+
 @contextmanager
 def all_kept() -> Iterator[None]:
     """No search for garbage: a page makes many small records at once, all of which are needed.
@@ -86,16 +95,19 @@ def step_page(
     language: str | None = None,
     ink: Ink = "colour",
     owner: TurnOwner = NOBODY,
+    tell: Tell = silent,
 ) -> str:
     """The page of a scene that draws itself; ``language`` is the scene's own if None.
 
-    ``owner`` is whose the score sheet is that a turn on it ends with.
+    ``owner`` is whose the score sheet is that a turn on it ends with; ``tell`` hears what is asked
+    and cannot be read off it.
 
     Raises WitnessError when the independent route disagrees, PageError where a drawing does not
     fit.
     """
     mechanism = mechanism.spoken(language)
     sheets = screen_sheets(mechanism, language)
+    tell_unread(sheets, tell)
     told = telling(sheets)
     moves = slider(mechanism, sheets)
     turn = your_turn(sheets, told)
@@ -146,10 +158,15 @@ def task_page(
     language: str | None = None,
     ink: Ink = "colour",
     form: Form | None = None,
+    tell: Tell = silent,
 ) -> str:
-    """The page of a scene as a task: what is given and what is asked, and nothing of the key."""
+    """The page of a scene as a task: what is given and what is asked, and nothing of the key.
+
+    ``tell`` hears what is asked and cannot be read off a drawing of it.
+    """
     mechanism = mechanism if form else mechanism.spoken(language)  # answers go by the scene's names
     sheets = screen_sheets(mechanism, language, "task")
+    tell_unread(sheets, tell)
     body = filled(
         "web/templates/task.html",
         **common(sheets),
@@ -162,6 +179,13 @@ def task_page(
     )
     styles, scripts = ([form.style], [form.script]) if form else ([], [])
     return written(sheets, body, ink, styles, scripts)
+
+
+def tell_unread(sheets: Sequence[ScreenSheet], tell: Tell) -> None:
+    """Tell what is asked of sheets and cannot be read off them, as paper's are told."""
+    for sheet in sheets:
+        for note in unread(sheet.drawing):
+            tell(note)
 
 
 def written(

@@ -277,3 +277,50 @@ def test_the_closures_of_a_rope_are_told_by_where_it_leaves_the_drum() -> None:
     for place in (one, other):
         tangent = (points["A"].position - place) * (place - points["O"].position).conjugate()
         assert tangent.real == pytest.approx(0, abs=1e-12)
+
+
+# --- what [sheet] states of scale factors --------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("scale = 0.01", "sheet.scale: does not fit: at 100:1 the drawing leaves its fields"),
+        ("scale = 1000", "sheet.scale: at 1:1000 the mechanism is drawn"),
+        ("enlarge = [100, 100]", "sheet.enlarge: at 100 times the mechanism is drawn"),
+        ("enlarge = 0.001", "sheet.enlarge: at 0.001 times the longest velocity is drawn"),
+        ("ka = 0.0001", "sheet.ka: does not fit: at 0.0001 (m/s²)/mm the acceleration plan"),
+        ("ka = 1000", "sheet.ka: at 1000 (m/s²)/mm the longest acceleration is drawn"),
+    ],
+)
+def test_a_scale_factor_that_no_sheet_can_keep_is_told_as_sheet_tells_it(
+    run: Run, tmp_path: Path, line: str, told: str
+) -> None:
+    path = tmp_path / "scaled.toml"
+    text = (ROOT / "examples" / "scenes" / "crank-rocker.toml").read_text(encoding="utf-8")
+    path.write_text(f"{text}\n[sheet]\n{line}\n", encoding="utf-8")
+    checked, drawn = run("check", path), run("sheet", path, "-o", tmp_path / "out")
+    assert checked.exit_code == drawn.exit_code == 2
+    assert checked.stderr == drawn.stderr
+    assert told in checked.stderr
+    assert "witness" in checked.stdout
+
+
+@pytest.mark.parametrize("line", ["scale = 2", "enlarge = [1, 0.5]", 'rule = "lab"', "ka = 0.2"])
+def test_a_scale_factor_that_sheets_keep_is_none_of_checks_business(
+    run: Run, tmp_path: Path, line: str
+) -> None:
+    path = tmp_path / "scaled.toml"
+    text = (ROOT / "examples" / "scenes" / "crank-rocker.toml").read_text(encoding="utf-8")
+    path.write_text(f"{text}\n[sheet]\n{line}\n", encoding="utf-8")
+    result = run("check", path)
+    assert (result.exit_code, result.stderr) == (0, "")
+
+
+def test_enlarge_without_a_crank_is_told_by_check(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "scaled.toml"
+    text = (ROOT / "examples" / "scenes" / "cylinders-two.toml").read_text(encoding="utf-8")
+    path.write_text(f"{text}\n[sheet]\nenlarge = 2\n", encoding="utf-8")
+    result = run("check", path)
+    assert result.exit_code == 2
+    assert "sheet.enlarge: the plans of this mechanism are not drawn by one crank" in result.stderr

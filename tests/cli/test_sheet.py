@@ -125,6 +125,21 @@ def test_an_unknown_format_is_refused(run: Run, tmp_path: Path, formats: str) ->
     assert "svg,pdf" in result.stderr
 
 
+@pytest.mark.parametrize("formats", ["html", "pdf,html", "html,pmks"])
+def test_an_overlay_as_a_page_says_what_to_leave_out_and_writes_nothing(
+    run: Run, tmp_path: Path, formats: str
+) -> None:
+    out = tmp_path / "out"
+    result = run("sheet", "pump", "-o", out, "--format", formats, "--view", "overlay")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr == (
+        "graphkin: pump: --view overlay: is laid over a drawing on paper, and html is a page for a "
+        "screen; expected --format svg, pdf or dxf; leave html out of --format, or write another "
+        "--view; nothing is written\n"
+    )
+    assert not out.exists()
+
+
 @pytest.mark.parametrize(
     ("language", "told"),
     [
@@ -133,31 +148,38 @@ def test_an_unknown_format_is_refused(run: Run, tmp_path: Path, formats: str) ->
         ("it", "Poligono delle velocità: zero, nulla da leggere: v_S, ω_2"),
     ],
 )
+@pytest.mark.parametrize(
+    ("formats", "view"), [("svg", "key"), ("html", "key"), ("html", "task"), ("html,svg", "key")]
+)
 def test_what_is_asked_and_stands_still_is_told_aside(
-    run: Run, tmp_path: Path, language: str, told: str
+    run: Run, tmp_path: Path, language: str, told: str, formats: str, view: str
 ) -> None:
+    """On paper and on a page for a browser alike, and once where both are written."""
     scene = FOLDER / "geneva-dwell.toml"
-    result = run("sheet", scene, "-o", tmp_path, "--lang", language, "--format", "svg")
+    how = ("--lang", language, "--format", formats, "--view", view)
+    result = run("sheet", scene, "-o", tmp_path, *how)
     assert result.exit_code == 0
-    assert f"graphkin: {told}\n" in result.stderr
+    assert result.stderr.count(f"graphkin: {told}\n") == 1
     assert told not in result.stdout
 
 
+@pytest.mark.parametrize("formats", ["svg", "html"])
 def test_a_vector_that_is_asked_and_drawn_shorter_than_two_millimetres_is_told(
-    run: Run, tmp_path: Path
+    run: Run, tmp_path: Path, formats: str
 ) -> None:
     """A piston on the line of its crank has its dead point at 0°."""
     scene = tmp_path / "near.toml"
     text = (FOLDER / "slider-crank.toml").read_text(encoding="utf-8")
     text = text.replace('angle = "angle"', "angle = 0.2").replace(", offset = 30", "")
     scene.write_text(text, encoding="utf-8")
-    result = run("sheet", scene, "-o", tmp_path, "--lang", "en", "--format", "svg")
+    result = run("sheet", scene, "-o", tmp_path, "--lang", "en", "--format", formats)
     assert result.exit_code == 0, result.stderr
     assert "Velocity plan: too short to be read off (less than 2 mm): v_B (" in result.stderr
 
 
+@pytest.mark.parametrize("formats", ["svg", "html"])
 def test_a_sheet_on_which_all_that_is_asked_can_be_read_off_says_nothing(
-    run: Run, tmp_path: Path
+    run: Run, tmp_path: Path, formats: str
 ) -> None:
-    result = run("sheet", "pump", "--set", "n=7", "-o", tmp_path, "--format", "svg")
+    result = run("sheet", "pump", "--set", "n=7", "-o", tmp_path, "--format", formats)
     assert (result.exit_code, result.stderr) == (0, "")

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tests.chosen import FOLDER
 from tests.running import ROOT, Run
 from tests.scene_files import scene_text
 
@@ -140,3 +141,43 @@ def test_an_open_chain_of_which_no_velocity_is_asked_is_solved(run: Run, tmp_pat
     path.write_text(text.replace(asked, ""), encoding="utf-8")
     result = run("solve", path)
     assert result.exit_code == 0, result.stderr
+
+
+# --- what drivers give ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("platform-3rpr", {"2": (0.18, 0.1, 0), "4": (0.17, -0.06, 0.04), "6": (0.19, 0.03, 0)}),
+        ("cylinders-two", {"2": (0.25, 0.1, 0), "4": (0.22, -0.06, 0.05)}),
+        ("rod-and-wheel", {"2": (0.21, 0.15, 0)}),
+    ],
+)
+def test_what_a_driver_gives_along_a_guide_that_turns_is_told_as_given(
+    run: Run, name: str, given: dict[str, tuple[float, float, float]]
+) -> None:
+    """A nought stands as 0, not as what rounding leaves: in JSON, table and proved digits."""
+    scene = FOLDER / f"{name}.toml"
+    found = json.loads(run("solve", scene, "--json").stdout)["slides"]
+    for block, motion in given.items():
+        told = tuple(found[block][key] for key in ("position", "speed", "acceleration"))
+        assert told == motion
+    table = run("solve", scene).stdout.partition("block  position")[2]
+    rows = {line.split()[0]: line.split()[1:4] for line in table.splitlines()[1:] if line}
+    for block, motion in given.items():
+        assert tuple(map(float, rows[block])) == motion
+        assert (rows[block][2] == "0") == (motion[2] == 0)
+    proved = run("solve", scene, "--digits", "30", "--json")
+    certified = json.loads(proved.stdout)
+    for block, (position, speed, acceleration) in given.items():
+        entry = certified["slides"][block]
+        assert tuple(map(float, list(entry.values())[:3])) == (position, speed, acceleration)
+    assert not [path for path in certified["undecided"] if path.endswith(".acceleration")]
+
+
+def test_every_setting_that_is_none_is_told(run: Run) -> None:
+    result = run("solve", "pump", "--set", "m", "--set", "n=7", "--set", "n=8", "--set", "q=")
+    assert result.exit_code == 2
+    for told in ("--set m: write NAME=VALUE", "--set n: is set twice", "--set q=: write NAME"):
+        assert told in result.stderr

@@ -292,6 +292,41 @@ def test_a_driver_along_the_wrong_guide(problem: Finder) -> None:
     assert "no straight track to roll on" in problem(old, "roll = 4\nposition = 1").found
 
 
+MISPLACED = [
+    ("turn = 1", "turn = 1\ntime = 0", "drivers[0].time: unknown key", "above the first heading"),
+    ("[ask]", "[ask]\nmodule = 2", "ask.module: unknown key", "above the first heading"),
+    ("[ask]", "[sheet]\nenlarge = [2, -1]\n[ask]", "sheet.enlarge[1]: -1", "a number above 0"),
+    (
+        "[links.2]",
+        "touches = { on = 3, radii = [4, 5] }\n[links.2]",
+        "links.1.touches.centres: is missing",
+        'two points with a dash, such as "A-B"',
+    ),
+    (
+        "[links.1]",
+        'Q = { from = "O9", length = 3, angle = 0 }\n[links.1]',
+        "frame.Q: from names O9, no point of this link",
+        "expected one of O1, O2;",
+    ),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "begins", "holds"), MISPLACED)
+def test_a_mistake_names_its_place_and_what_stands_there(
+    problems: Finders, old: str, new: str, begins: str, holds: str
+) -> None:
+    (said,) = [each for each in map(str, problems(old, new)) if each.startswith(begins)]
+    assert holds in said
+
+
+def test_every_misspelt_key_of_a_polar_point_is_told(problems: Finders) -> None:
+    found = problems("[links.1]", 'Q = { form = "O1", lenght = 3, angel = 0 }\n[links.1]')
+    told = {problem.place: str(problem.hint) for problem in found}
+    assert told["frame.Q.form"] == "did you mean from?"
+    assert told["frame.Q.lenght"] == "did you mean length?"
+    assert told["frame.Q.angel"] == "did you mean angle?"
+
+
 SEVERAL = scene_text("scene/several")
 
 
@@ -307,6 +342,18 @@ def test_every_problem_is_told_at_once(problems: Finders) -> None:
         "links.7",
     ]
     assert str(found[0]) == "links.6.A-B: -40; expected a number above 0"
+
+
+def test_a_law_of_time_without_a_time_is_told_with_the_speed_beside_it(problems: Finders) -> None:
+    """What is wrong beside a law does not wait for the time that the law lacks."""
+    found = problems('"30 + 2*n"', '"30*t"\nacceleration = 0')
+    assert [str(problem).partition("; ")[0] for problem in found] == [
+        'drivers[0].angle: "30*t" uses the time t, and the scene has no time',
+        "drivers[0].speed: speed beside a law of time",
+        "drivers[0].acceleration: acceleration beside a law of time",
+    ]
+    mixed = problems('"30 + 2*n"', '"30*t + m"')
+    assert [problem.place for problem in mixed] == ["drivers[0].angle"] * 2 + ["drivers[0].speed"]
 
 
 def test_what_is_wrong_with_the_links_is_told_beside_what_is_asked(problems: Finders) -> None:

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
 from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
-from graphkin.cli.report.solution_record import Record, motion_of
+from graphkin.cli.report.solution_record import Record, as_given, motion_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import (
     CENTRES,
@@ -38,6 +38,7 @@ from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.diagnosis.assembly_failure import not_found, why
 from graphkin.documents.centre_tables import carried, with_pole
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arithmetic import Kind
 from graphkin.numbers.kinds import ball_kind, sound_ball
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import ends_of
@@ -66,8 +67,9 @@ def certify(mechanism: Mechanism, found: Record, digits: int, targets: Any = Non
     certifier = Certifier.of(mechanism, targets)
     for bits, narrowed in precisions(digits):
         printer = Printer(mechanism.scene, certifier.run(bits, narrowed), digits)
-        with ball_kind(bits).working():
-            record = certified_record(found, printer)
+        kind = ball_kind(bits)
+        with kind.working():
+            record = certified_record(found, printer, kind)
         if not printer.undecided:
             break
     return record | {"digits": digits, "bits": bits, "undecided": printer.undecided}
@@ -160,9 +162,10 @@ def singular_words(scene: Scene, program: Program, failed: StepFailed) -> str:
 # --- the record ----------------------------------------------------------------------------------
 
 
-def certified_record(found: Record, printer: Printer) -> Record:
-    """A record with the digits of a run in balls in place of its numbers."""
+def certified_record(found: Record, printer: Printer, kind: Kind) -> Record:
+    """A record with the digits of a run in balls, of that kind, in place of its numbers."""
     solution = completed(printer.scene, gathered(printer.balls.trace, printer.scene.links))
+    solution = replace(solution, slides=as_given(printer.scene, solution.slides, kind))
     record = found | {
         "points": {n: point(n, found["points"][n], solution, printer) for n in found["points"]},
         "links": {n: link(n, found["links"][n], solution, printer) for n in found["links"]},

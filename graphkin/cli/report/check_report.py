@@ -58,6 +58,7 @@ class Checking:
             yield from labelled("note", fallen_together(scene, trace))
             self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
+            self.scale_factors()
         except GraphkinError as error:
             self.problems += error.problems
 
@@ -106,6 +107,18 @@ class Checking:
         if not verdict.agrees:
             self.doubts.append("the independent route does not agree with the construction")
         return verdict_words(verdict, self.mechanism.scene)
+
+    def scale_factors(self) -> None:
+        """Raise GraphkinError for scale factors that [sheet] states and no sheet can keep.
+
+        A mechanism of which no sheet is handed out anyway is not asked for them.
+        """
+        sheet = self.mechanism.scene.sheet
+        states = sheet.scale or sheet.enlarge or sheet.ka or sheet.rule == "lab"
+        if states and not self.doubts:
+            from graphkin.documents.scaling import scales
+
+            scales(self.mechanism)
 
 
 def title(scene: Scene) -> list[str]:

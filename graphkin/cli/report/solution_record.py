@@ -7,6 +7,8 @@ from fractions import Fraction
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import replace
+
 from graphkin.construction.core.quantities import (
     CENTRES,
     OF_POINTS,
@@ -26,6 +28,7 @@ from graphkin.construction.core.solution import (
     Verdict,
 )
 from graphkin.documents.centre_tables import breadth_of, completed, place_of
+from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import Scene
 
@@ -50,13 +53,14 @@ def record(
     Without ``scales`` there are none in it: they belong to a drawing, which nobody may have asked.
     """
     full, wanted = completed(scene, solution), wanted_of(scene, asked)
+    slides = as_given(scene, full.slides)
     return {
         "name": scene.name,
         "parameters": {name: plain(scene.values.get(name)) for name in scene.parameters},
         "points": named(point_names(scene, full), lambda n: point(n, motion_of(n, full), wanted)),
         "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
         **centres(scene, full),
-        "slides": named(blocks(scene, full), lambda n: slide(n, full.slides[n], wanted)),
+        "slides": named(blocks(scene, full), lambda n: slide(n, slides[n], wanted)),
         **drawn_at(scales, verdict),
         "witness": witness(verdict),
         "margin": real(solution.margin),
@@ -138,6 +142,29 @@ def centres(scene: Scene, solution: Solution) -> Record:
     known = [name for name in scene.ask.pairs if name in solution.centres]
     found = {name: pair(place_of(solution.centres[name], breadth)) for name in known}
     return {"centres": found} if found else {}
+
+
+def as_given(
+    scene: Scene, slides: Mapping[str, SlideMotion], kind: Kind = FLOAT
+) -> dict[str, SlideMotion]:
+    """Motions of blocks, what drivers give along their guides as it is given, in a number kind.
+
+    What a hand measures along the guide differs from it by rounding. What is not known stays so.
+    """
+    found, values = dict(slides), scene.values if kind is FLOAT else scene.values_in(kind)
+    for driver in scene.drivers:
+        own = found.get(driver.link)
+        if driver.kind != "slide" or own is None:
+            continue
+        if driver.against != scene.links[driver.link].slides[0].on:
+            continue
+        given = {
+            key: getattr(driver, key).si(values, kind)
+            for key in ("position", "speed", "acceleration")
+            if (value := getattr(own, key)) is not None and kind.sound(value)
+        }
+        found[driver.link] = replace(own, **given)
+    return found
 
 
 def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
