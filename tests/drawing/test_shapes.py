@@ -52,7 +52,9 @@ def test_tiny_lines_in_a_row_are_taken_for_one_two_by_two_in_three_rounds(count,
         for (x0, y0, x1, y1), room in zip(found, clear, strict=True):
             chord = LineString([(x0, y0), (x1, y1)])
             within = (x >= x0 - 1e-9) & (x <= x1 + 1e-9)
-            off = max(chord.distance(Point(*each)) for each in zip(x[within], y[within], strict=True))
+            off = max(
+                chord.distance(Point(*each)) for each in zip(x[within], y[within], strict=True)
+            )
             assert off - 1e-12 <= room - 0.3 <= 4 * bend + 1e-12
 
 
