@@ -483,7 +483,12 @@ def test_each_scene_from_its_first_step_in_any_order(opened: Opened, pages: Path
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_axe_finds_nothing_against_the_turn(opened: Opened, pages: Path, shape: str):
+    """While an action is chosen, and while the page says why: a phone shows one or the other."""
     page = begun(opened, pages, "pump", 6, **(DESKTOP if shape == "desktop" else PHONE))
     take(page, "cut")
+    page.evaluate("Promise.allSettled(document.getAnimations().map((each) => each.finished))")
+    assert not barred(page)
+    page.locator("#draw-it").click()
+    assert page.locator("#turn-sentence").is_visible() and why(page)
     page.evaluate("Promise.allSettled(document.getAnimations().map((each) => each.finished))")
     assert not barred(page)

@@ -7,7 +7,7 @@ import shapely
 
 from graphkin.construction.result_tables import slide_rows, tables, turning_rows, vector_rows
 from graphkin.drawing.areas import TABLES
-from graphkin.drawing.columns import ColumnTable, Row, laid_out
+from graphkin.drawing.columns import HEIGHT, PAD, SMALL, ColumnTable, Look, Row, laid_out
 from graphkin.drawing.marks import LineMark, Mark, Text, reach
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import PageError
@@ -58,3 +58,12 @@ def test_a_name_too_long_for_every_table_is_told():
     rows = (Row((f"*v*_{{{name}}}", "", "1,00", "2,000"), f"v_{name}"),)
     with pytest.raises(PageError, match=r"does not fit: v_Q+ is [0-9]+ mm long in the smallest"):
         laid_out([ColumnTable((13, 13, 13, 13), Row(("a", "b", "mm", "m/s")), rows)], TABLES)
+
+
+@pytest.mark.parametrize("spare", [0.0, 0.2, -0.2])
+def test_letters_are_large_where_the_widest_text_fits_its_column(spare):
+    """With 0.7 mm to both sides and no more; where there is less they are small."""
+    for text in ("3,8", "12,345", "*v*_{D}", "1·10^{–3}"):
+        table = ColumnTable((1.0,), Row(("a",)), rows := (Row((text,)),), rows)
+        width = table.breadth(0, HEIGHT) + PAD + spare
+        assert table.letters(Look(9.0, 3.0, 1.0), [width]) == (HEIGHT if spare >= 0 else SMALL)

@@ -11,8 +11,10 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import boards
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.drawing.style import OWN_LINES, style_of
 from graphkin.drawing.symbol_markup import symbol
@@ -28,6 +30,7 @@ from tests.documents.sheet_tools import (
     both,
     calculations,
     collisions,
+    drawing_of,
     drawings,
     drawn,
     is_label,
@@ -145,8 +148,12 @@ def named_marks(page: Drawn, field: str) -> list[Mark]:
 
 def taken_up(mark: Mark) -> BaseGeometry:
     """The middle line of a mark's stroke; of a plate all of it, for its number stands inside."""
-    is_plate = isinstance(mark, Polyline) and kind_of(mark) == "plate"
-    return shapely.Polygon(mark.points) if is_plate else outline(mark)
+    return shapely.Polygon(mark.points) if is_plate(mark) else outline(mark)
+
+
+def is_plate(mark: Mark) -> bool:
+    """True for the plate of a link."""
+    return isinstance(mark, Polyline) and kind_of(mark) == "plate"
 
 
 def test_the_number_of_a_plate_stands_inside_where_a_clear_place_is(page):
@@ -160,6 +167,22 @@ def test_the_number_of_a_plate_stands_inside_where_a_clear_place_is(page):
             body = plates[label.text.name]
             clear = body.buffer(-3.2) - shapely.union_all(shapely.buffer(lines, 3.2))
             assert clear.is_empty or body.contains(label.ink()), label.text
+
+
+def test_the_numbers_of_plates_are_set_before_other_labels_seek_places():
+    """None waits for a place that is left; each stands 0.8 mm clear of all that is drawn."""
+    drawing = drawing_of("platform-3rpr", None, "velocity")
+    board = boards(drawing, lay_out(drawing), "key")[0]
+    plates = {mark.name: shapely.Polygon(mark.points) for mark in board.marks if is_plate(mark)}
+    assert plates and not {label.name for label in board.labels if label.ring} & plates.keys()
+    lines = shapely.union_all([outline(mark) for mark in board.marks if isinstance(mark, LineMark)])
+    rings = [mark for mark in board.marks if mark.cls.startswith("number") and mark.name in plates]
+    assert {ring.name for ring in rings} == plates.keys()
+    for ring in rings:
+        middle, body = shapely.Point(ring.cx, ring.cy), plates[ring.name]
+        assert body.contains(middle)
+        assert middle.distance(body.exterior) > ring.r + 0.79
+        assert middle.distance(lines) > ring.r + 0.79
 
 
 def names_of(page: Drawn, mark: Mark) -> set[str]:

@@ -16,7 +16,7 @@ from graphkin.drawing.chords import SAGITTA, segments
 from graphkin.drawing.clashes import BESIDE, PAD, Clashes, OpenPlaces
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Text, reach
-from graphkin.drawing.shapes import NOWHERE, meeting
+from graphkin.drawing.shapes import NOWHERE, meeting, merged
 
 spots = st.tuples(st.floats(0, 80), st.floats(0, 60))
 halves = st.tuples(st.floats(0.1, 6), st.floats(0.1, 3))
@@ -36,6 +36,26 @@ def test_boxes_that_meet_are_all_found_and_no_others(one, other):
         gap = max(*(a[:2, i] - b[2:, j]), *(b[:2, j] - a[2:, i]))
         assert (i, j) in found or gap > 0
         assert (i, j) not in found or gap < 0.01
+
+
+@pytest.mark.parametrize(("count", "left"), [(2, 1), (3, 1), (8, 1), (9, 2)])
+def test_tiny_lines_in_a_row_are_taken_for_one_two_by_two_in_three_rounds(count, left):
+    """Eight become one from the first to the last, straight ones without more clearance, bent ones
+    with as much as the chord misses them by."""
+    for bend in (0.0, 0.001):
+        x = 0.1 * np.arange(count + 1)
+        y = bend * np.sin(9 * x)
+        found, clear = merged(np.column_stack([x[:-1], y[:-1], x[1:], y[1:]]), np.full(count, 0.3))
+        assert len(found) == left
+        assert found[0, :2] == pytest.approx((0.0, 0.0))
+        assert found[-1, 2:] == pytest.approx((x[-1], y[-1]))
+        for (x0, y0, x1, y1), room in zip(found, clear, strict=True):
+            chord = LineString([(x0, y0), (x1, y1)])
+            within = (x >= x0 - 1e-9) & (x <= x1 + 1e-9)
+            off = max(
+                chord.distance(Point(*each)) for each in zip(x[within], y[within], strict=True)
+            )
+            assert off - 1e-12 <= room - 0.3 <= 4 * bend + 1e-12
 
 
 @given(spots, st.floats(0.2, 200), st.floats(0, 360), st.floats(1, 359))

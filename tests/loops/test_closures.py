@@ -14,6 +14,7 @@ from graphkin.loops.assemble import assembled
 from graphkin.loops.branch_closures import closures, moved_by, settled_of
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
+from graphkin.loops.newton import newton
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
@@ -129,6 +130,18 @@ def test_a_nearly_closed_position_is_led_on_to_the_closure(off, read):
     pushed = found + off * moving * np.cos(np.arange(found.size)).reshape(found.shape)
     assert len(found) > 1
     assert settled_of(part, pushed, moving) == pytest.approx(found, abs=1e-9)
+
+
+def test_each_of_many_starts_goes_its_own_way(read):
+    """Each comes as far in four steps of Newton's method as it does alone, the first as any."""
+    scene = read(RAPID_RETURN)
+    loops = equations(scene)
+    thrown = np.random.default_rng(3).uniform(-3, 3, (6, loops.unknown_count))
+    found, _ = newton(loops, thrown, most=4)
+    assert np.abs(found - thrown).max(axis=1).min() > 0.1
+    for start, end in zip(thrown, found, strict=True):
+        alone, _ = newton(loops, start[None], most=4)
+        assert end == pytest.approx(alone[0], abs=1e-6)
 
 
 STRETCHED = """

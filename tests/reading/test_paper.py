@@ -26,6 +26,7 @@ from graphkin.reading.line_crossings import (
 from graphkin.reading.paper_map import (
     BENDS,
     COUNT,
+    HALF,
     LENS,
     MIDDLE,
     PLAIN,
@@ -39,9 +40,11 @@ from graphkin.reading.printed_crosses import crosses_off
 from graphkin.reading.registration import (
     MeasuredLines,
     PrintedLines,
+    SheetSearch,
     least_stretch,
     peaks,
     printed_lines,
+    profiles,
     square_of,
     ticks_found,
 )
@@ -327,6 +330,50 @@ def test_a_cross_is_found_where_it_is_printed_unless_a_line_hides_it():
     found, share = crosses_off(picture, over, at)
     assert share == 0.75 and found.off == pytest.approx(np.tile(off, 3), abs=0.04)
     assert crosses_off(np.full_like(picture, 220), over, at)[1] == 0.0
+
+
+def from_above(*marks: LineMark) -> tuple[np.ndarray, PaperMap]:
+    """Lines of 0.5 mm on white paper, seen straight from above at 4 pixels a mm; the map."""
+    picture = np.full((1188, 1680), 230, np.uint8)
+    for each in marks:
+        ends = np.rint(4 * np.array([[each.x1, each.y1], [each.x2, each.y2]]) - 0.5).astype(int)
+        cv2.line(picture, *ends, color=40, thickness=2)
+    scale = 4 * HALF / (np.hypot(*picture.shape) / 2)
+    return picture, PaperMap(1680, 1188, (scale, 0, 0, 0, scale, 0, *[0.0] * (COUNT - 6)))
+
+
+def test_a_sheet_with_lines_of_another_and_some_more_is_not_taken_for_it(monkeypatch):
+    """All lines of the lesser are found on the picture of either: on the other's, so are those that
+    it lacks."""
+    lines = [LineMark(x, 60, x, 200, "panel") for x in (100, 160, 220, 280)]
+    less, whole = (Page(420, 297, tuple(some)) for some in (lines[:2], lines))
+    for seen, other, likely in ((whole, less, 0.0), (less, whole, 0.5)):
+        picture, over = from_above(*seen.marks)
+        search = SheetSearch(picture, None)
+        monkeypatch.setattr(search, "frame", lambda page, bent, over=over: over)
+        assert search.likeness(seen, [other]) == pytest.approx(1.0, abs=0.02)
+        assert search.likeness(other, [seen]) == pytest.approx(likely, abs=0.02)
+
+
+def test_a_profile_is_the_mean_over_a_mm_to_both_sides_of_its_place():
+    """A line that begins 1.3 mm farther on is not in it, of one that begins at the place half is,
+    and one that passes by is in it whole."""
+    _, over = from_above()
+    x, y = np.meshgrid(np.arange(1680) / 4, np.arange(1188) / 4)
+    across = np.arange(-2.0, 2.05, 0.1)
+    for turned in (False, True):
+        along, aside = (y - 148.5, x - 210.0) if turned else (x - 210.0, y - 148.5)
+        normal = (1.0, 0.0) if turned else (0.0, 1.0)
+        one = PrintedLines(
+            np.array([MIDDLE]), np.array([normal]), np.ones(1), np.ones(1, bool), np.ones(1)
+        )
+        darkest = []
+        for begins in (-2.0, 0.15, 1.3):
+            ink = (abs(aside) < 0.5) & (along > begins)
+            dark, inside = profiles(np.where(ink, 50, 200).astype(np.uint8), over, one, across)
+            assert inside.all()
+            darkest.append(dark.max())
+        assert darkest == pytest.approx([0.75, 0.75 * 2 / 5, 0.0], abs=0.05)
 
 
 def test_a_ray_goes_on_over_a_gap_that_is_shorter_than_a_break():

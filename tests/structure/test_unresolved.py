@@ -1,11 +1,14 @@
 """Groups that no construction takes are refused, each by its own limit."""
 
 import math
+from types import SimpleNamespace
 
 import pytest
 
+from graphkin.construction.core.bases import CLOSING, HELD, no_construction
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from graphkin.structure.groups import Unresolved
 from graphkin.text.errors import StructureError
 from tests.examples.scenes import mechanism
 
@@ -81,6 +84,42 @@ def test_a_plank_on_rollers_of_one_size_is_told_to_slide():
     found = "hold link 3, a straight track, by wheels and pins alone"
     assert [problem.found for problem in error.value.problems] == [found]
     assert "wheels of one size on one track keep it parallel" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("limit", "found", "expected"),
+    [
+        (
+            {
+                "driven": (
+                    SimpleNamespace(link="3", against="0"),
+                    SimpleNamespace(link="5", against="4"),
+                )
+            },
+            "close only with 2 drivers at once: link 3 on 0, link 5 on 4",
+            "one driver within a group that is tried",
+        ),
+        (
+            {"tracks": ("3", "5")},
+            "hold link 3, 5, a straight track, by wheels and pins alone",
+            HELD,
+        ),
+        (
+            {"wedged": ("7", "8")},
+            "hold wheels 7, 8 between two tracks that are not parallel",
+            "parallel tracks",
+        ),
+        (
+            {"wedged": ("7",)},
+            "hold wheel 7 between two tracks that are not parallel",
+            "parallel tracks",
+        ),
+        ({}, "do not close after four of them are tried at once", CLOSING),
+    ],
+)
+def test_links_without_a_construction_are_told_their_limit(limit, found, expected):
+    (problem,) = no_construction(Unresolved(("3", "4"), **limit)).problems
+    assert (problem.place, problem.found, problem.expected) == ("links.3, 4", found, expected)
 
 
 BAR = (

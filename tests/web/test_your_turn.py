@@ -128,6 +128,19 @@ def test_what_a_move_is_drawn_from_can_be_picked(name):
     assert len(set(named)) == len(named)
 
 
+def test_what_a_hand_draws_otherwise_than_it_is_computed_is_drawn_so():
+    """Points of links and centres where lines cross, poles of accelerations by equal angles."""
+    sheets, _, turn = turn_of("pump")
+    steps = sheets[0].drawing.trace.program.steps
+    found = {
+        steps[number].name: move.action
+        for number, move in turn.moves.items()
+        if steps[number].by_hand is not None and steps[number].plane is not Plane.NUMBERS
+    }
+    cut = dict.fromkeys(("C", "c", "c′", "I3"), "cut")
+    assert found == {**cut, "J3": "pole", "J4": "pole"}
+
+
 @pytest.mark.parametrize("name", ["pump", "slotted-lever", "gears-ring", "stephenson-3-crank"])
 def test_all_that_the_sheets_draw_comes_of_moves(name):
     """What is drawn by a sentence is a move, or comes along with moves or from what is given."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 import openpyxl
 import pytest
 
@@ -52,6 +54,27 @@ def test_numbers_are_read_with_point_or_comma_and_unit(text, item, value):
     answer = read_answer(text, item)
     assert answer.value == pytest.approx(value, rel=1e-15)
     assert not answer.problem
+
+
+@pytest.mark.parametrize(
+    ("text", "what", "value"),
+    [
+        ("2 in", "mm", 50.8),
+        ("2 in", "m", 0.0508),
+        ("2 in/s", "m/s", 0.0508),
+        ("2 in/s2", "m/s²", 0.0508),
+        ("180 deg/s", "rad/s", pi),
+        ("180 °/s", "rad/s", pi),
+        ("30 rpm", "rad/s", pi),
+        ("30 rot/min", "rad/s", pi),
+        ("30 rev/min", "rad/s", pi),
+        ("30 giri/min", "rad/s", pi),
+        ("180 deg/s2", "rad/s²", pi),
+    ],
+)
+def test_inches_degrees_and_turns_are_read_in_the_unit_of_the_field(text, what, value):
+    """An inch is 25.4 mm; half a turn is π rad, which 30 turns a minute make in a second."""
+    assert read_answer(text, Item("x", "value", "x", what, "", "x")).value == pytest.approx(value)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations
-from math import comb, exp, pi, sqrt
+from math import comb, exp, log, pi, sqrt
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,7 +17,7 @@ import pytest
 
 from graphkin.classroom.grading.graded import Answer, Graded, Taker
 from graphkin.classroom.grading.keys import Keys, distinct
-from graphkin.classroom.grading.likelihood import Key, scattered
+from graphkin.classroom.grading.likelihood import MISTAKES, PENCILS, Key, drawn, noise_of, scattered
 from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.same_digits import (
     FEW,
@@ -222,6 +222,26 @@ def test_of_a_hundred_careful_drawings_five_are_taken_for_more_than_one(count):
     assert not is_one_drawing(off + 9 * np.sqrt(np.diag(key.spread)), rounded, key).any()
     few = Key(None, np.eye(1), np.ones(1), None, None)
     assert not is_one_drawing(np.zeros((4, 1)), np.ones(1), few).any()
+
+
+@pytest.mark.parametrize("computed", [1e-3, 0.2])
+def test_answers_are_as_likely_as_the_normal_law_of_each_pencil_has_them(computed):
+    """The mean of its densities over all pencils, by the determinant and the inverse; what is
+    written to many digits is as sure as these are."""
+    rng = np.random.default_rng(5)
+    way, cranks = rng.normal(size=(4, 4)) + 1, rng.normal(size=(1, 4)) * 0.01
+    rounding, sizes = np.full(4, computed), np.full(4, 50.0)
+    key = Key(sizes, way @ way.T * 1e-4, np.full(4, computed), cranks, np.zeros(4, dtype=bool))
+    noise = noise_of(rounding, key)
+    off, fits = rng.normal(size=4) * computed, np.array([True, True, False, True])
+    densities = []
+    for pencil in PENCILS:
+        spread = (pencil**2 * key.spread + noise)[np.ix_(fits, fits)]
+        far = off[fits] @ np.linalg.inv(spread) @ off[fits]
+        densities.append(exp(-far / 2) / sqrt(np.linalg.det(2 * pi * spread)))
+    lost = log(MISTAKES) + scattered(sizes + off, key)[2]
+    expected = log(np.mean(densities)) + 3 * log(1 - MISTAKES) + lost
+    assert drawn(sizes + off, rounding, key, fits) == pytest.approx(expected, abs=1e-5)
 
 
 def test_mistakes_are_spread_so_that_half_lie_within_a_factor_of_two_or_10_mm():
