@@ -65,6 +65,8 @@ WHICH = tuple(
         )
     )
 )
+WIDTH, HEIGHT = 420, 297
+"""Of a sheet, in mm."""
 LIMIT = 0.01
 """Millimetres within which a page draws as Python does."""
 TEETH = ("gear", "gear-disc")
@@ -149,6 +151,13 @@ def is_nothing(at: Sequence[float]) -> bool:
     return len(at) == 4 and hypot(at[2] - at[0], at[3] - at[1]) < 1e-6
 
 
+def is_nowhere(key: Any, at: Sequence[float]) -> bool:
+    """Whether a mark has no length, or lies beyond one edge of the sheet."""
+    ends = [*at[:2], *at[6:]] if key[2] == "Arc" else at
+    (left, right), (top, bottom) = ((min(some), max(some)) for some in (ends[::2], ends[1::2]))
+    return is_nothing(at) or right < 0 or left > WIDTH or bottom < 0 or top > HEIGHT
+
+
 def is_of_one_position(mark: Mark, drawing: Drawing) -> bool:
     """Whether a mark follows from the position alone; labels are placed by what is about them,
     curves are of the whole motion, teeth mesh by a law of their own, auxiliary circles may leave
@@ -209,11 +218,11 @@ def differences(
     for key in {*mine, *wanted}:
         a, b = mine.get(key, []), wanted.get(key, [])
         off = off_by(*key[2:4])
-        for at in (each for each in a if not is_nothing(each)):
+        for at in (each for each in a if not is_nowhere(key, each)):
             if min((off(at, other) for other in b), default=9.0) > LIMIT:
                 yield f"at {x:g} {key}: {at} is not drawn by Python, which has {b}"
         if drawn[key] >= len(b):
-            for at in (each for each in b if not is_nothing(each)):
+            for at in (each for each in b if not is_nowhere(key, each)):
                 if min((off(at, other) for other in a), default=9.0) > LIMIT:
                     yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
 
