@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
-from math import floor, isclose, log, log10, sqrt
+from math import log, sqrt
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -31,8 +31,6 @@ SHORTER = (0.5, 0.25, *(digit * 10.0**-power for power in range(1, 15) for digit
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
 LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
 """The same where they are short."""
-FIRST_DIGITS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5)
-"""First digits of how many times as long as the crank a plan draws the vectors of its pin."""
 NARROW = LEAST_FIELD - 2 * MARGIN
 """Width that mechanism and plan have at least, in mm, so that captions have room above them."""
 LADDER, MOST = 6, 90
@@ -171,7 +169,7 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
         return Scales(1.0, times / crank, of_crank=times, triangles=triangles)
 
     def tried(times: float, needs: Needs) -> Attempt | None:
-        composition = largest(needs, stated, times / crank, plain_times(stated, times))
+        composition = largest(needs, stated, times / crank, times_of(stated, TIMES, times))
         return Attempt(composition, draft(times)) if composition else None
 
     needs = yield draft(1.0)
@@ -189,8 +187,6 @@ def by_crank(stated: Stated, crank: float, triangles: bool) -> Best:
         for times in LONGER:
             if not found.composition.lack and not is_short(needs, found.composition.kL):
                 break
-            if not all(plain_times(stated, times)[kind] for kind in needs.plans):
-                continue
             needs = yield draft(times)
             more = tried(times, needs)
             if more is None or more.size < size - LOSS:
@@ -238,22 +234,6 @@ def times_of(stated: Stated, ladder: Sequence[float], of_crank: float) -> Ladder
     """How many times as large as on the mechanism each plan may be, the largest first."""
     own = {"velocity": of_crank, "acceleration": of_crank**2}
     return {kind: [times / own[kind]] if times else ladder for kind, times in stated.times.items()}
-
-
-def plain_times(stated: Stated, of_crank: float) -> Ladders:
-    """The same where a crank says how long: only what is plain both as times the mechanism's
-    vectors and as times the crank, for the sentences say both."""
-
-    def is_plain(times: float) -> bool:
-        first = times / 10.0 ** floor(log10(times) + NOISE)
-        return any(isclose(first, digit) for digit in FIRST_DIGITS)
-
-    own = {"velocity": of_crank, "acceleration": of_crank**2}
-    every = times_of(stated, TIMES, of_crank)
-    return {
-        kind: ladder if stated.times[kind] else [t for t in ladder if is_plain(t * own[kind])]
-        for kind, ladder in every.items()
-    }
 
 
 def lengths(needs: Needs, stated: Stated) -> Iterator[float]:
