@@ -46,7 +46,7 @@ from tests.chosen import CHOSEN, FOLDER
 from tests.documents.test_words import RARE, rare
 
 LABS = ("pump", "slotted-lever")
-MORE = ("belts-arm", "oscillating-slide", "rapid-return", "stephenson-2-binary")
+MORE = ("belts-arm", "cam-plate", "oscillating-slide", "rapid-return", "stephenson-2-binary")
 """Scenes that draw what those do not that stand for all."""
 TESTS = Path(__file__).parents[1]
 OWN = {
@@ -239,6 +239,7 @@ SHOWS = {
     "CoriolisComponent.laid_alone": ("rapid-return", 1),
     "CoriolisComponent.picked_from": ("slider-driven-along-a-turning-arm", 7),
     "CoriolisComponent.shown_between": ("slider-driven-along-a-turning-arm", 7),
+    "CurvatureCentre.laid_from": ("cam-plate", 3),
     "InflectionCircle.around": ("four-bar with more of each", 6),
     "InstantCentre.marks": ("roller-plates", 2),
     "LaidOff.index_at": ("rapid-return", 1),
