@@ -34,3 +34,11 @@ def unit(angle: Any) -> Any:
     """A unit vector at an angle."""
     sine, cosine = angle.sin_cos()
     return acb(cosine, sine)
+
+
+def angle_of(vector: Any) -> Any:
+    """The angle of a vector; a ball about the negative axis would have every half turn."""
+    if vector.real < 0:
+        half = arb.pi() if vector.imag.mid() >= 0 else -arb.pi()
+        return (-vector).arg() + half
+    return vector.arg()

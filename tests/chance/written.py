@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import acb, arb
 
-from tests.chance.many_digits import in_many_digits, radians, real, unit
+from tests.chance.many_digits import angle_of, in_many_digits, radians, real, unit
 from tests.chance.records import (
     FRAME,
     Body,
@@ -218,7 +218,7 @@ class Written:
             where = radians(where)
             if drive.of:
                 p, q = (self.exact[drive.body][point] for point in drive.of)
-                where -= (q - p).arg()
+                where -= angle_of(q - p)
         given = drive.speed, drive.acceleration
         turned = drive.kind == "turn"
         name = drive.body if drive.body.isdigit() else f'"{drive.body}"'

@@ -36,6 +36,7 @@ SEEN = {
     1736: "a wheel of two rims on the racks of a roller, one of which moves more",
     1900: "a closure and a way that would stand under one name",
     1994: "a bar on a roller beside three driven cylinders of a group that is tried",
+    2006: "a driver to a line along the negative axis",
     2155: "a wheel that rolls, and a block on its guide that counts its turns by itself",
     2515: "a rack that moves more, on a block that pins alone turn",
     2536: "a wheel on a bar driven against a block, whose guides add up to more than half a turn",
