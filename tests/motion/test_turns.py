@@ -82,7 +82,8 @@ def test_no_point_moves_farther_than_its_speed_allows(name):
     many = few.along(np.unique([*few.at, *(few.at[1:] + few.at[:-1]) / 2]))
     found = steps_of(few), steps_of(many)
     assert max(over / largest for largest, over in found) < 1e-3
-    assert 0.35 * found[0][0] < found[1][0] < 0.65 * found[0][0]
+    most = 0.65 if name == "gears-sun-and-planet" else 0.6  # whose planet's rod nearly stands
+    assert 0.4 * found[0][0] < found[1][0] < most * found[0][0]
 
 
 @pytest.mark.parametrize("name", [name for name in OWN if not name.startswith("gear-drives")])

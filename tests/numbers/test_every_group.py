@@ -30,13 +30,13 @@ MOVES = 6
 """Runs with moved numbers; the largest move of an answer counts."""
 ROUNDINGS = 4
 """Units of its moves by which an answer may be off: a step rounds more than once."""
-NARROW = {False: 3e4, True: 3e7}
+NARROW = {False: 1e4, True: 1e7}
 """Units of its moves by which a ball may be wide, without and with trials.
 
 It adds up what may cancel, in a trial twice: in what is tried and in what is drawn from it.
 """
-NESTED = {"plates-ring": 30}
-"""How many times wider it may be where trials are tried within trials."""
+WIDER = {"plates-ring": 1e3, "plates-coupled": 3, "platform-six": 3, "wheel-in-ring-rod": 3}
+"""How many times wider it may be where trials are tried within trials, or much is added up."""
 NOUGHT = 1e-35
 """A number and its moves below which it is nought but for the rounding of the reference."""
 ENDLESS = 1e9
@@ -204,7 +204,7 @@ def test_a_mechanism_in_balls_contains_the_values_and_is_narrow(name, bits, monk
     reference, moves = owed(name)
     if not of_higher_class(name):
         monkeypatch.setitem(sys.modules, "numpy", None)
-    kind, widest = ball_kind(bits), NARROW[has_trials(name)] * NESTED.get(name, 1)
+    kind, widest = ball_kind(bits), NARROW[has_trials(name)] * WIDER.get(name, 1)
     found = nk.by_one(work(name), kind, {})
     monkeypatch.undo()
     with kind.working():
