@@ -142,9 +142,8 @@ def start_before(reference: Reference, scene: Scene, before: Values) -> Reals:
     keep = [program.targets[target] for target in positions]
     with np.errstate(all="ignore"):
         trace = BatchRunner(program).run(needed, before, keep, way="steps")
-    return started(scene, counted_in_order(equations(scene, before)), gathered(trace, scene.links))[
-        0
-    ]
+    loops = counted_in_order(equations(scene, before))
+    return started(scene, loops, gathered(trace, scene.links))[0]
 
 
 def columns_of(motion: Motion | Rounding, reference: Reference) -> dict[Target, Any]:
