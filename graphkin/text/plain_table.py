@@ -26,9 +26,7 @@ def cleaned(value: float, largest: float) -> float:
 def table(heads: Sequence[str], rows: Iterable[Sequence[Cell]]) -> list[str]:
     """Lines of a table: numbers aligned at their decimal points, texts at the left."""
     body = [tuple(row) for row in rows]
-    columns = [
-        column(head, [row[i] for row in body]) for i, head in enumerate(heads) if head is not None
-    ]
+    columns = [column(head, [row[i] for row in body]) for i, head in enumerate(heads)]
     return ["  ".join(cells).rstrip() for cells in zip(*columns, strict=True)]
 
 

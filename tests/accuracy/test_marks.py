@@ -54,6 +54,17 @@ def test_an_arrow_that_is_laid_off_errs_across_itself_in_proportion_to_its_lengt
     assert np.abs(long) == pytest.approx(7, rel=1e-12)
 
 
+def test_an_arrow_errs_in_place_and_in_direction_independently():
+    place, turn, both = (
+        marked(PencilMark.ARROW, 7 + 0j, 0j, errors(PencilMark.ARROW), pencil, MM) - 7
+        for pencil in (Pencil(20.0, line=0.0), Pencil(0.0, line=0.5), Pencil(20.0, line=0.5))
+    )
+    assert np.corrcoef([place.real, place.imag, turn.imag]) == pytest.approx(np.eye(3), abs=0.02)
+    assert np.std(both.imag) == pytest.approx(
+        np.hypot(np.std(place.imag), np.std(turn.imag)), rel=0.01
+    )
+
+
 def test_a_line_has_a_degree_for_each_millimetre_of_the_point():
     assert Pencil(0.5).degrees == 0.5
     assert Pencil(0.5, line=0.1).degrees == 0.1

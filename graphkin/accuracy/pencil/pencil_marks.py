@@ -16,23 +16,17 @@ from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 
 class PencilMark(Enum):
-    """The kinds of marks a hand makes; the value is the number of their errors."""
+    """The kinds of marks a hand makes, each with the number of its independent errors."""
 
-    POINT = "a point, pricked or crossed"
-    ARROW = "a point laid off from another, along a line that is not drawn by itself"
-    LINE = "a line through a point"
-    ARC = "an opening of the compass"
-    WAY = "a direction"
-    CLOSING = "the place where a locus closes a group"
+    POINT = "a point, pricked or crossed", 2
+    ARROW = "a point laid off from another, along a line that is not drawn by itself", 3
+    LINE = "a line through a point", 1
+    ARC = "an opening of the compass", 1
+    WAY = "a direction", 1
+    CLOSING = "the place where a locus closes a group", 1
 
-    @property
-    def errors(self) -> int:
-        """How many independent errors it has."""
-        return COUNT[self]
-
-
-COUNT = {PencilMark.POINT: 2, PencilMark.ARROW: 3}
-COUNT |= dict.fromkeys((PencilMark.LINE, PencilMark.ARC, PencilMark.WAY, PencilMark.CLOSING), 1)
+    def __init__(self, drawn: str, errors: int) -> None:
+        self.drawn, self.errors = drawn, errors
 
 
 def mark_of(step: Step, value: Any) -> PencilMark | None:
