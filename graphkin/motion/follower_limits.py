@@ -40,8 +40,8 @@ class Follower(Struct, frozen=True):
 
     ``low`` and ``high`` are its extreme places, at a limit or at the end of the range; ``line`` is
     the line (from, to) whose angle is meant; ``full`` tells that a link turns all the way round.
-    ``time_ratio`` is the slower over the faster stroke of a driver that turns evenly, where there
-    are just two limits in a whole turn.
+    ``rising`` is the angle (degrees, u growing) that the driver takes from the low to the high
+    limit, where there are just two in a whole turn.
     """
 
     name: str
@@ -50,7 +50,15 @@ class Follower(Struct, frozen=True):
     low: Limit
     high: Limit
     full: bool
-    time_ratio: float | None
+    rising: float | None
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The slower over the faster stroke of a driver that turns evenly."""
+        if self.rising is None:
+            return None
+        strokes = self.rising, TURN - self.rising
+        return max(strokes) / min(strokes)
 
     @property
     def extent(self) -> float:
@@ -165,7 +173,7 @@ def follower(
         low,
         high,
         full,
-        time_ratio(limits) if again and not full else None,
+        (high.at - low.at) % TURN if again and not full and len(limits) == 2 else None,
     )
 
 
@@ -270,11 +278,3 @@ def changing(at: Reals, rate: Reals, most: float) -> tuple[Reals, Reals]:
     kept = np.flatnonzero(np.isfinite(moving) & (moving != 0))
     turned = np.flatnonzero(np.sign(moving[kept[1:]]) != np.sign(moving[kept[:-1]]))
     return at[kept[turned]], at[kept[turned + 1]]
-
-
-def time_ratio(limits: tuple[Limit, ...]) -> float | None:
-    """Angle of the driver for the slower stroke over that for the faster one."""
-    if len(limits) != 2:
-        return None
-    first = (limits[1].at - limits[0].at) % TURN
-    return max(first, TURN - first) / min(first, TURN - first)

@@ -67,6 +67,11 @@ class Sweep(Struct, frozen=True, eq=False):
         return None if self.number is None else self.original.drivers[self.number - 1]
 
     @property
+    def runs_backwards(self) -> bool:
+        """Whether u falls as time goes on."""
+        return self.driver is not None and self.driver.speed.si(self.original.values) < 0
+
+    @property
     def stands(self) -> float:
         """The u at which the scene is drawn: its start, or the time that it states."""
         time = self.original.time

@@ -137,8 +137,10 @@ def dash(number: int) -> Any:
 
 
 def subscripted(letter: str, name: str) -> str:
-    """A letter with a name below: v with B."""
-    return f"${letter}_{{\\mathrm{{{name.replace('_', chr(92) + '_')}}}}}$"
+    """A letter with a name below: v with B, or with B₃ for B@3."""
+    point, _, link = name.replace("_", r"\_").partition("@")
+    below = f"{point}_{{{link}}}" if link else point
+    return rf"${letter}_{{\mathrm{{{below}}}}}$"
 
 
 def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:

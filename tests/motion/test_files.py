@@ -106,8 +106,12 @@ def test_a_mechanism_that_never_closes_is_a_message(run: Run, tmp_path: Path):
                 "every angle of the driver: it turns fully",
                 "it is a crank-rocker",
                 "link 3 (line O2-B) swings 70.553°: 81.787° (at φ = 32.204°)",
-                "time ratio of its two strokes 1.0971",
+                "time ratio of its two strokes 1.0971: 188.3° of the driver to 152.340°, 171.7° to",
             ],
+        ),
+        (
+            four_bar(40, 90, 70, 100, speed=-1),
+            ["time ratio of its two strokes 1.0971: 171.7° of the driver to 152.340°, 188.3° to"],
         ),
         (
             four_bar(2, 4, 2, 4),

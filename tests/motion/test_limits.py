@@ -40,6 +40,7 @@ def test_a_rocker_turns_round_where_crank_and_coupler_are_in_line(lengths):
     turned = back - out
     ratio = max(turned, 360 - turned) / min(turned, 360 - turned)
     assert only.time_ratio == pytest.approx(ratio, rel=1e-9)
+    assert only.rising == pytest.approx(turned, abs=EXACT)  # from far, where it is low, to near
     assert only.line == ("O2", "B")
 
 

@@ -171,8 +171,12 @@ def follower_words(cycle: Cycle, found: Follower, steady: bool) -> list[str]:
     if others:
         also = listed(limit_words(cycle, found, each) for each in others)
         lines.append(f"  it turns round also at {also}")
-    if found.time_ratio is not None:
-        lines.append(f"  time ratio of its two strokes {found.time_ratio:.4f}")
+    if found.rising is not None:
+        backwards = cycle.sweep.runs_backwards
+        up = 360 - found.rising if backwards else found.rising
+        high, low = (value_words(cycle, found, end.value) for end in (found.high, found.low))
+        strokes = f"{up:.1f}° of the driver to {high}, {360 - up:.1f}° to {low}"
+        lines.append(f"  time ratio of its two strokes {found.time_ratio:.4f}: {strokes}")
     return lines
 
 

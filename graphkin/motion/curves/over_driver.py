@@ -42,6 +42,9 @@ LINE = 84
 """Letters above a panel that lie on one line."""
 NAMED = 11
 """What the stroke and the name of a curve take of it, in letters."""
+WORDS_WIDE, LETTER_TALL, NARROW = 0.03, 0.027, 0.01
+"""Words along a line: their breadth as a share of the axis, a letter and the room beside them as
+shares of a panel's height."""
 TURNS = (15, 30, 45, 60, 90, 180, 360)
 """Steps of an axis of angles in degrees."""
 TICKS = 13
@@ -101,7 +104,7 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
                 (f"{subscripted(letter, name)} along x", value.real, COLOURS[0], DASHES[1]),
                 (f"{subscripted(letter, name)} along y", value.imag, COLOURS[1], DASHES[2]),
             ]
-        panels.append((f"Point {name}", unit, curves))
+        panels.append((f"Point {name.replace('@', ' of link ')}", unit, curves))
     return stacked(found, title + more, panels)
 
 
@@ -231,11 +234,12 @@ def driver_axis(found: Sampled, ax: Axes) -> None:
             ticks = np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
             ax.set_xticks(ticks * step)
         name = found.scene.drivers[(sweep.number or 1) - 1].link
-        ax.set_xlabel(f"driver's angle φ of link {name}, deg")
+        words = f"driver's angle φ of link {name}, deg"
     elif sweep.what == "time":
-        ax.set_xlabel("time t, s")
+        words = "time t, s"
     else:
-        ax.set_xlabel(f"driver's coordinate s, {found.length_unit}")
+        words = f"driver's coordinate s, {found.length_unit}"
+    ax.set_xlabel(words + (": time runs from right to left" if sweep.runs_backwards else ""))
     factor = axis_factor(found)
     room = 0.0 if found.cycle.path.whole else 0.02 * (high - low)
     ax.set_xlim((low - room) * factor, (high + room) * factor)
@@ -269,18 +273,22 @@ def tell_lines(found: Sampled, ax: Axes, curves: Sequence[np.ndarray]) -> None:
     bottom, top = ax.get_ylim()
     for at, words, ink in marked(found):
         late = at > low + 0.97 * (high - low)
-        near = [curve[np.abs(found.at - at).argmin()] for curve in curves]
-        heights = [(value - bottom) / (top - bottom) for value in near if np.isfinite(value)]
-        above = 1 - max(heights, default=0.0) >= min(heights, default=0.0)
+        beside = (at - found.at if late else found.at - at) / (high - low)
+        near = (beside > -NARROW) & (beside < WORDS_WIDE)
+        heights = np.concatenate([(curve[near] - bottom) / (top - bottom) for curve in curves])
+        tall = LETTER_TALL * len(words)
+        starts = sorted(np.arange(0.02, 1 - tall, 0.04), key=lambda y: abs(y + tall / 2 - 0.5))
+        clear = {y: np.abs(heights - y - tall / 2).min(initial=1) - tall / 2 for y in starts}
+        free = [y for y in starts if clear[y] > NARROW]
         ax.annotate(
             words,
-            (at * axis_factor(found), 0.98 if above else 0.02),
+            (at * axis_factor(found), free[-1] if free else max(starts, key=clear.__getitem__)),
             xycoords=("data", "axes fraction"),
             xytext=(-2 if late else 2, 0),
             textcoords="offset points",
             rotation=90,
             ha="right" if late else "left",
-            va="top" if above else "bottom",
+            va="bottom",
             fontsize=6.5,
             color=ink,
         )
