@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.crossings import LOCI, Determined
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
@@ -73,12 +73,13 @@ def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Probl
     """The problem of two loci that miss each other, or touch and do not cross."""
     if found.lost:
         return lost(scene, program, number, found)
-    hint = DEAD
+    hint, expected, kind = DEAD, LOCI, program.steps[number].of
     if found.apart:
+        expected = kind.reaching if isinstance(kind, Determined) else LOCI
         known = closings(scene)
         alone = found.missed < TOUCH * found.size and not any(each.ranges for each in known)
         hint = ALONE if alone else closes_where(scene, known)
-    return not_found(program, number, why_not(scene, program, number, found), hint)
+    return not_found(program, number, why_not(scene, program, number, found), hint, expected)
 
 
 def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
@@ -95,14 +96,16 @@ def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem
     )
 
 
-def not_found(program: Program, number: int, reason: str, hint: str) -> Problem:
+def not_found(
+    program: Program, number: int, reason: str, hint: str, expected: str = LOCI
+) -> Problem:
     """The problem of a step that finds nothing, for some reason."""
     step = program.steps[number]
     what = " of ".join(part for part in (step.part.value, sought(program, number)) if part)
     kind = construction(step)
     turned = f"how link {kind.found_link} stands" if kind and kind.found_link else ""
     found = f"{step.name or turned or 'a value'} cannot be found: {reason}"
-    return Problem(what, found, "loci that cross", hint)
+    return Problem(what, found, expected, hint)
 
 
 def sought(program: Program, number: int) -> str:
@@ -131,7 +134,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
     links = ", ".join(closed_by(failed.step))
     if not error.ways:
         found = f"links {links} do not close{least_miss(scene, failed)}"
-        return Problem("position", found, "loci that cross", where_it_closes(scene))
+        return Problem("position", found, LOCI, where_it_closes(scene))
     elsewhere = ""
     known = closings(scene)
     if any(each.ranges for each in known):

@@ -109,13 +109,22 @@ class Placer:
         first, unit = self.sketch.points[0], self.layout.unit
         place = f"{self.sketch.place}.{first}"
         if first in self.sketch.words or first in self.sketch.polars:
-            if not refuse_circle(self.sketch, [first], self.findings):
-                others = "the link begins with it, and its first point is the origin"
-                self.findings.add(place, others, "a length or coordinates above it")
+            if self.is_placed_by_itself(first):
+                others = [point for point in self.sketch.points if point != first]
+                line = f'"on {"-".join(others[:2])}"' if others[1:] else "a second point before it"
+                self.findings.add(place, f"{first} is placed by itself", line)
+            elif not refuse_circle(self.sketch, [first], self.findings):
+                found = f"the link's first key begins with {first}, which makes {first} its origin"
+                self.findings.add(place, found, f"a length between two other points above {first}")
             self.sketch.broken = True
         nought = exact(0, unit, place)
         self.placings[first] = At(first, nought, nought)
         self.layout.add(self.placings[first], self.sketch.between)
+
+    def is_placed_by_itself(self, point: str) -> bool:
+        """Whether the line on which or beside which a point lies begins or ends with it."""
+        words = self.sketch.words.get(point)
+        return words is not None and point in (words.first, words.second)
 
     def placing(self, point: str) -> Placing | None:
         """The placing of a point by what is placed so far, None while it must wait."""

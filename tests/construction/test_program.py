@@ -399,7 +399,7 @@ def refusal(text: str) -> str:
 def test_a_rod_too_short_for_the_guide_misses_it_by_so_much():
     assert refusal(slider(0.05, 0.03, 90)) == (
         "position of B: B cannot be found: the arc misses the guide by 0.02 m; "
-        "expected loci that cross; it closes for driver angles "
+        "expected a bar AB that reaches its guide; it closes for driver angles "
         "-36.87° to 36.87°, 143.13° to 216.87°"
     )
 

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from graphkin.text.errors import Problem
 
 
+LOCI = "loci that cross"
+"""What a point needs that is found where two loci cross."""
+
+
 class Determined(Construction, frozen=True):
     """A point or a direction that two loci determine.
 
@@ -33,6 +37,11 @@ class Determined(Construction, frozen=True):
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """What lies in line or perpendicular where it fails; ``nearly`` is put before, if flat."""
         return ""
+
+    @property
+    def reaching(self) -> str:
+        """What is needed where its loci miss each other."""
+        return LOCI
 
     def failing(self) -> str:
         """Words for what hinders it where its loci do not meet; nothing where lines say it."""

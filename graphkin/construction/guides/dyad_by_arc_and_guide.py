@@ -78,6 +78,11 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
         side = drawing.words(f"page.{heading(along)}")
         return {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
 
+    @property
+    def reaching(self) -> str:
+        """A bar that is long enough."""
+        return f"a bar {self.centre}{self.name} that reaches its guide"
+
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """The bar and the guide."""
         guide = lies_along(steps[self.path]) or "its guide"

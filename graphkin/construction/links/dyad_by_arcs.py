@@ -143,6 +143,11 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         side = side_words(drawing, self.pin, (self.left, self.right))
         return {"name": symbol(self.name), "side": side}
 
+    @property
+    def reaching(self) -> str:
+        """Bars whose ends come together."""
+        return f"bars {self.left}{self.name} and {self.right}{self.name} that can meet"
+
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """The two bars."""
         return f"{self.left}{self.name} and {self.right}{self.name} are {nearly}in line"
