@@ -115,7 +115,9 @@ class Placer:
                 self.findings.add(place, f"{first} is placed by itself", line)
             elif not refuse_circle(self.sketch, [first], self.findings):
                 found = f"the link's first key begins with {first}, which makes {first} its origin"
-                self.findings.add(place, found, f"a length between two other points above {first}")
+                self.findings.add(
+                    place, found, f"a length or coordinates of other points above {first}"
+                )
             self.sketch.broken = True
         nought = exact(0, unit, place)
         self.placings[first] = At(first, nought, nought)

@@ -31,7 +31,7 @@ CASES = [
         'A-B = 40\nA = "on B-C"',
         "links.3.A",
         "begins with A",
-        "two other points above A",
+        "of other points above A",
     ),
     ("A-B = 40", f"A-B = {'1' * 300}", "links.3.A-B", "too many digits", ""),
     ("A-B = 40", 'A-B = "9**9**9"', "links.3.A-B", "an exponent above 64", ""),

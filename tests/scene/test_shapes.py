@@ -121,7 +121,11 @@ BROKEN = {
     'O-A1 = 40\nO-B = 30\nA1-B = 30\nB = "left of O-A2"': ("B", "names A2", "did you mean A1?"),
     'O-A = 40\nO-B = 30\nA-B = 30\nB = "leftish of O-A"': ("B", '"leftish of O-A"', "left of"),
     'O-A = 40\nB = { from = "X", length = 3, angle = 0 }': ("B", "from names X", ""),
-    'B = { from = "O", length = 3, angle = 0 }\nO-A = 3': ("B", "first point is the origin", ""),
+    'B = { from = "O", length = 3, angle = 0 }\nO-A = 3': (
+        "B",
+        "first key begins with",
+        "of other points",
+    ),
     'A = { from = "O", length = 3, angle = 0 }\nO = { from = "A", length = 3, angle = 9 }': (
         "A",
         "A, O are placed from one another, in a circle",
@@ -133,7 +137,11 @@ BROKEN = {
         "coordinates of one point",
     ),
     'A = { from = "A", length = 3, angle = 0 }': ("A", "A is placed from itself", "A = [0, 0]"),
-    'C = "left of O-A"\nO-A = 3\nO-C = 3\nA-C = 3': ("C", "first point is the origin", ""),
+    'C = "left of O-A"\nO-A = 3\nO-C = 3\nA-C = 3': (
+        "C",
+        "first key begins with",
+        "of other points",
+    ),
     "O-A = 40\nA-O = 40": ("A-O", "the length O-A is written above", ""),
     "O-A = 40\nA-B = 3\nO-A-B = 3\nB-A-O = 3": ("B-A-O", "the angle O-A-B is written above", ""),
     "O-A = 40\nA-B = 3\nO-A-B = 3\nO-B = 3": ("O-B", "one measure too many", ""),
