@@ -310,7 +310,12 @@ def spoken(
     """The sentences of one sheet, on which the steps ``shown`` have marks."""
     steps = drawing.trace.program.steps
     parts = [{steps[number].part for number in sentence.all_steps} for sentence in own]
-    last = {part: stage for stage, found in enumerate(parts) for part in found}
+    last = {
+        part: stage
+        for stage, found in enumerate(parts)
+        for part in found
+        if own[stage].name != SET_ON
+    }
     lines = crossings_on(drawing)
     for stage, sentence in enumerate(own):
         fresh = [step for step, at in staged.items() if at == stage]

@@ -11,7 +11,7 @@ from html import unescape
 
 import pytest
 
-from graphkin.construction.core.program import Part
+from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.result_tables import turning_rows, vector_rows
 from graphkin.documents.captions import HEADING
 from graphkin.documents.sentences import TURNING, sentences
@@ -281,6 +281,15 @@ def test_every_sentence_belongs_to_a_part_of_its_sheet(name):
     firsts, lasts = zip(*places, strict=True)
     assert firsts == (1, *(last + 1 for last in lasts[:-1]))
     assert {told.bounds(place)[1] for place in range(len(sheets_of(name)))} <= {*lasts}
+
+
+@pytest.mark.parametrize("name", [*FEW, "rapid-return-slider"])
+def test_the_button_of_the_velocities_leads_to_the_velocity_plan(name):
+    """Vectors that are transferred at the end do not carry the part along with them."""
+    told = told_of(name)
+    steps = sheets_of(name)[0].drawing.trace.program.steps
+    drawn = [at for step, at in told.at.items() if steps[step].plane is Plane.VELOCITIES and at]
+    assert min(drawn) in {first for first, _, part in told.stops() if part is Part.VELOCITY}
 
 
 @pytest.mark.parametrize("name", FEW)
