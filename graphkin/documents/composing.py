@@ -29,7 +29,7 @@ STILL_LARGER = (10.0, 8.0, 6.0, *TIMES)
 """The same of acceleration plans there."""
 SHORTER = (0.5, 0.25, *(digit * 10.0**-power for power in range(1, 15) for digit in (2, 1, 0.5)))
 """How many times as long as the crank vectors are set on a mechanism that they outgrow."""
-LONGER = (1.5, 2.0, 3.0, 4.0, 5.0)
+LONGER = (2.0, 4.0, 5.0)
 """The same where they are short."""
 NARROW = LEAST_FIELD - 2 * MARGIN
 """Width that mechanism and plan have at least, in mm, so that captions have room above them."""

@@ -102,6 +102,16 @@ def test_every_drawing_fits_and_the_next_larger_plan_would_not(name):
             assert wide * larger > room or high * larger > HEIGHT
 
 
+@pytest.mark.parametrize("name", ["slotted-lever", "cam-lever", "cam-rocker", "plank-axle"])
+def test_longer_vectors_are_plain_multiples_of_the_cranks_scale(name):
+    """k_v = ω·k_L/m and k_a = ω²·k_L/m′ for the whole of m and m′: no hand sets 6.75."""
+    for n in (7, 19, 21, 22) if name == "slotted-lever" else (0,):
+        found = scales(mechanism_named(name, n) if n else mechanism_named(name))
+        assert found.of_crank > 1 or n
+        for times in (found.of_crank * found.larger, found.of_crank**2 * found.larger_still):
+            assert (2 * times).is_integer()
+
+
 def test_the_labs_own_rule_draws_vectors_as_long_as_the_crank():
     found = scales(scene('rule = "lab"'))
     assert (found.larger, found.larger_still, found.of_crank) == (1, 1, 1)
