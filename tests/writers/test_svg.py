@@ -7,7 +7,7 @@ import pytest
 
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Page, Polyline, Text, polygon
 from graphkin.text.errors import PageError
-from graphkin.writers.svg import write_svg
+from graphkin.writers.svg import number, write_svg
 
 NS = "{http://www.w3.org/2000/svg}"
 MARKS = (
@@ -31,6 +31,19 @@ def test_lines_come_back_to_a_ten_thousandth_of_a_millimetre():
     found = [float(line.get(key)) for key in ("x1", "y1", "x2", "y2")]
     assert found == pytest.approx([10.12345, 20, 30.5, 40.00004], abs=1e-4)
     assert line.get("y1") == "20"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(-0.00001, "0"), (-0.0, "0"), (-1.5, "-1.5"), (20.0, "20")]
+)
+def test_numbers_have_no_needless_zeros_and_zero_no_sign(value, text):
+    assert number(value) == text
+
+
+def test_what_has_no_width_is_not_stroked():
+    assert "circle.qr{fill:#000000;stroke:none}" in write_svg(
+        Page(9, 9, (CircleMark(4, 4, 1, "qr"),))
+    )
 
 
 def test_every_run_has_its_own_place_and_the_words_can_be_searched():
@@ -59,7 +72,7 @@ def test_two_processes_write_the_same_bytes():
     code = (
         "from graphkin.drawing.frame import *\n"
         "from graphkin.drawing.marks import *\n"
-        "from graphkin.writers.svg import write_svg\n"
+        "from graphkin.writers.svg import number, write_svg\n"
         "marks = sheet_frame(TitleBlock(title='Mecanism'))\n"
         "marks += (Text(50, 50, '*a*_{BA}^{ν}', 'label velocity', name='a'),)\n"
         "print(write_svg(Page(420, 297, marks, 't', 'ro')))\n"

@@ -92,17 +92,17 @@ def numpy_source(graph: Graph, outputs: Sequence[int]) -> tuple[str, int]:
     ``x`` are the inputs by name, ``y`` the arrays to be filled with the outputs.
     """
     order = graph.needed(outputs)
-    rooms = Rooms(graph, order, outputs)
-    body = [line for number in order for line in rooms.written(number)]
-    opening = [f"t{room} = t[{room}]" for room in range(rooms.count)]
+    scratch = ScratchArrays(graph, order, outputs)
+    body = [line for number in order for line in scratch.written(number)]
+    opening = [f"t{number} = t[{number}]" for number in range(scratch.count)]
     opening += [f"y{place} = y[{place}]" for place in range(len(outputs))]
-    constants = [f"{name} = array({value})" for value, name in rooms.constants.items()]
+    constants = [f"{name} = array({value})" for value, name in scratch.constants.items()]
     lines = ["def block(x, y, t):", *(f"    {line}" for line in (*opening, *body, "return"))]
     lines = [*constants, *lines]
-    return "\n".join(lines) + "\n", rooms.count
+    return "\n".join(lines) + "\n", scratch.count
 
 
-class Rooms:
+class ScratchArrays:
     """Scratch arrays, each given to another node when the node in it has died."""
 
     def __init__(self, graph: Graph, order: Sequence[int], outputs: Sequence[int]) -> None:
@@ -155,10 +155,10 @@ class Rooms:
             function, letter = (TRUTHS[node.op], "c") if node.op in TRUTHS else ("where", "w")
             self.name[number] = f"{letter}{number}"
             return f"{letter}{number} = {function}({', '.join(args)})"
-        self.name[number] = room = self.take(number)
+        self.name[number] = array = self.take(number)
         if node.op == "over":
             args.insert(0, self.constant("1.0"))
-        return f"{ARRAYS[node.op]}({', '.join(args)}, out={room})"
+        return f"{ARRAYS[node.op]}({', '.join(args)}, out={array})"
 
 
 # --- a loop over single numbers ------------------------------------------------------------------

@@ -15,7 +15,7 @@ from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.solution import smallest_margin
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.tape.batch_runner import EMITTED_FROM, BatchRunner
-from graphkin.construction.tape.emit import loop_source
+from graphkin.construction.tape.emit import loop_source, numpy_source
 from graphkin.construction.tape.emitted import BLOCK, loop_names, sin45
 from graphkin.construction.tape.graph import COMMUTING, Graph
 from graphkin.construction.tape.traced import TracedNumber, UntraceableError
@@ -282,6 +282,16 @@ def rule(expression) -> str:
 )
 def test_what_is_reckoned_is_put_down_in_its_simplest_form(expression, plainest):
     assert rule(expression) == plainest
+
+
+def test_what_is_no_longer_needed_makes_room_for_what_comes():
+    """However long a chain, two values of it at a time are kept."""
+    graph = Graph()
+    value = x = TracedNumber(graph, graph.input("x"))
+    for _ in range(40):
+        value = np.cos(value) * x
+    _, scratch = numpy_source(graph, [value.node])
+    assert scratch <= 2
 
 
 def test_a_root_that_need_not_exist_keeps_its_nan():
