@@ -293,7 +293,7 @@ def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: F
     can = [quoted(each.name) for each in scene.links.values() if each.slides]
     found = f"link {link.name} has no guide to slide along"
     expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
-    findings.add(f"{place}.slide", found, expected)
+    findings.add(f"{place}.slide", found, expected, changes=tuple(map(Written, can[:3])))
 
 
 def check_repeated(scene: Scene, findings: Findings) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.text.errors import MOST, Change, Hint, Mend, Problem, SceneError
+from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, SceneError
 
 LISTED = 12
 
@@ -23,7 +23,7 @@ class Findings:
         expected: str = "",
         hint: Hint = "",
         changes: tuple[Change, ...] = (),
-        about: tuple[tuple[str, ...], ...] = (),
+        about: tuple[About, ...] = (),
     ) -> None:
         """Note one problem."""
         self.extend([Problem(place, found, expected, hint, changes, about)])

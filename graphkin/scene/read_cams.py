@@ -22,6 +22,7 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
+from graphkin.text.errors import Written
 
 TIPS = ("roller", "knife", "flat")
 MOST_PIECES = 24
@@ -114,7 +115,8 @@ def read_cam(
     if tip == "roller" and raw is None:
         findings.add(table.at("roller"), "is missing", "the radius of the roller")
     elif tip != "roller" and raw is not None:
-        findings.add(table.at("roller"), f"a roller on a {tip} follower", 'tip = "roller"')
+        said, change = f"a roller on a {tip} follower", Written('"roller"', "tip")
+        findings.add(table.at("roller"), said, 'tip = "roller"', changes=(change,))
     if tip == "roller" and raw is not None:
         roller = measures.length(table.at("roller"), raw, positive=True)
     else:
@@ -219,7 +221,8 @@ def lever_of(
     side = choice(table, "side", tuple(SIDES))
     raw = table.take("face")
     if raw is not None and tip != "flat":
-        findings.add(table.at("face"), f"a face on a {tip} follower", 'tip = "flat"')
+        found, change = f"a face on a {tip} follower", Written('"flat"', "tip")
+        findings.add(table.at("face"), found, 'tip = "flat"', changes=(change,))
     face = measures.length(table.at("face"), 0 if raw is None else raw)
     return tips[0], CamLever(pins[0], SIDES[side], face)
 
