@@ -78,9 +78,10 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
     kinds = formats_of(formats, (*FORMATS, "html", "dxf", "pmks"))
-    from graphkin.writers.files import file_stem, rendered, write_all
+    from graphkin.writers.files import file_stem, refuse_folder, rendered, write_all
 
     mechanism = mechanism_of(name, settings)
+    refuse_folder(folder)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     files: dict[str, bytes] = {}
     notes: list[str] = []
@@ -176,11 +177,11 @@ def cycle(
     from graphkin.motion.cycle import cycle as moved
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.web.animation import animation_files
-    from graphkin.writers.files import file_stem, refuse_existing, write_all
+    from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    refuse_existing(folder, [folder / f"{stem}-cycle.csv"], force)
+    refuse_folder(folder, [f"{stem}-cycle.csv"], force=force)
     first, last = bounds_in_si(mechanism.scene, driver, low, high)
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
     tell(cycle_lines(found))
@@ -231,11 +232,11 @@ def accuracy(
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_files import picture_files
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
-    from graphkin.writers.files import file_stem, refuse_existing, write_all
+    from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    refuse_existing(folder, [folder / f"{stem}-accuracy.csv"], force)
+    refuse_folder(folder, [f"{stem}-accuracy.csv"], force=force)
     effort = QUICK if quick else Effort()
     say = progress()
     found = study(mechanism, scales_if_any(mechanism), effort, say=say)

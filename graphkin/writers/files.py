@@ -115,6 +115,23 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
         raise FileError(problems)
 
 
+def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = False) -> None:
+    """Raise PageError, before anything is worked out, where no file can be written into a folder.
+
+    A file without a name is written into it, or into the folder in which it is to be made; what
+    ``names`` would replace is told as by ``refuse_existing``.
+    """
+    from tempfile import TemporaryFile
+
+    refuse_existing(folder, [folder / name for name in names], force)
+    try:
+        there = next(path for path in (folder, *folder.parents) if path.exists())
+        with TemporaryFile(dir=there):
+            pass
+    except OSError as error:
+        raise cannot_write(str(folder), error) from error
+
+
 def in_the_way(there: Sequence[Path]) -> Problem:
     """The problem of files that exist: all of them in one line, the first by name."""
     if len(there) == 1:
