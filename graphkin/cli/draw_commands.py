@@ -78,36 +78,13 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
     kinds = formats_of(formats, (*FORMATS, "html", "dxf", "pmks"))
-    from graphkin.writers.files import file_stem, refuse_folder, rendered, write_all
+    from graphkin.classroom.sheet_files import sheet_files
+    from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
     refuse_folder(folder)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    files: dict[str, bytes] = {}
-    notes: list[str] = []
-    if "html" in kinds:
-        from graphkin.classroom.page_documents import hand_out_page
-
-        page = hand_out_page(mechanism, name, stem, view, lang, ink, notes.append)
-        files[f"{stem}-{view}.html"] = page.encode("utf-8")
-    if "pmks" in kinds:
-        from graphkin.documents.pmks_file import pmks_file
-
-        files[f"{stem}.pmks"] = pmks_file(mechanism)
-    if {*kinds} - {"html", "pmks"}:
-        from graphkin.documents.sheet_documents import hand_out
-
-        notes.clear()  # those of the paper are the same
-        for part in hand_out(mechanism, view=view, language=lang):
-            notes += part.unread
-            files |= rendered(
-                f"{stem}-{part.kind}-{view}",
-                part.kind,
-                part.pages,
-                kinds,
-                ink,
-                steps=view == "steps",
-            )
+    files, notes = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
     tell(str(path) for path in write_all(folder, files, force))
     for note in notes:
         complain(note)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
@@ -51,7 +51,7 @@ def rendered(
     stem: str,
     kind: str,
     pages: Sequence[Page],
-    formats: Sequence[str],
+    formats: Collection[str],
     ink: Ink = "colour",
     *,
     steps: bool = False,
