@@ -58,36 +58,28 @@ def entered(value: Any, kind: Kind) -> Any:
 
 
 def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
-    """Sum, difference, product, quotient or power of two numbers."""
+    """Sum, difference, product, quotient, rest or power of two numbers, exact where both are."""
     if sign == "**":
         return power(left, right, kind)
-    if isinstance(left, Fraction) and isinstance(right, Fraction):
-        return bounded(exactly(sign, left, right))
-    if sign == "mod":
-        raise EvaluationError(
-            "the rest of a number that is not rational", "whole numbers, decimals or fractions"
-        )
-    left, right = inexact(left, kind), inexact(right, kind)
-    if sign == "+":
-        return left + right
-    if sign == "-":
-        return left - right
-    if sign == "*":
-        return left * right
-    return quotient(left, right)
-
-
-def exactly(sign: str, left: Fraction, right: Fraction) -> Fraction:
-    """Sum, difference, product, quotient or rest of two exact numbers."""
-    if sign == "+":
-        return left + right
-    if sign == "-":
-        return left - right
-    if sign == "*":
-        return left * right
-    if sign == "mod":
-        return left - right * (Fraction(quotient(left, right)) // 1)
-    return Fraction(quotient(left, right))
+    exact = isinstance(left, Fraction) and isinstance(right, Fraction)
+    if not exact:
+        left, right = inexact(left, kind), inexact(right, kind)
+    match sign:
+        case "+":
+            found = left + right
+        case "-":
+            found = left - right
+        case "*":
+            found = left * right
+        case "/":
+            found = quotient(left, right)
+        case _ if exact:
+            found = left - right * (quotient(left, right) // 1)
+        case _:
+            raise EvaluationError(
+                "the rest of a number that is not rational", "whole numbers, decimals or fractions"
+            )
+    return bounded(found) if exact else found
 
 
 def inexact(value: Any, kind: Kind) -> Any:

@@ -17,9 +17,9 @@ from msgspec.structs import replace
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
 from graphkin.scene.findings import Table, listed, nearest, numbered, shown
-from graphkin.scene.known_names import named, next_name
+from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide
+from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide, link_words
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
 from graphkin.text.errors import Written
@@ -106,7 +106,7 @@ def read_cam(
     swings = on is None or is_lever(follower, on, links)
     seat = seat_of(follower, on, table, links) if on is not None else None
     slides = seat is not None and seat.slides
-    tip = choice(table, "tip", TIPS)
+    tip = table.choice("tip", TIPS)
     if tip == "flat" and slides:
         hint = "a plate lifts a roller or a knife; a straight flank under a face is a guide on it"
         findings.add(table.at("tip"), "a flat face on a plate that slides", listed(TIPS[:2]), hint)
@@ -185,17 +185,6 @@ def conjugate_of(
     return Conjugate(at, roller)
 
 
-def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:
-    """One of some words."""
-    raw = table.take(key)
-    if isinstance(raw, str) and raw in choices:
-        return raw
-    found = "is missing" if raw is None else shown(raw)
-    hint = nearest(raw, choices) if isinstance(raw, str) else ""
-    table.findings.add(table.at(key), found, listed(choices), hint)
-    return choices[0]
-
-
 def lever_of(
     follower: str,
     tip: str,
@@ -213,12 +202,12 @@ def lever_of(
         table.take("side"), table.take("face")
         return None
     if len(pins) != 1 or not tips:
-        found = f"link {follower} has {len(pins)} pins on {named(seat.carrier)}"
+        found = f"link {follower} has {len(pins)} pins on {link_words(seat.carrier)}"
         expected = "one, and the tip as another of its points"
         findings.add(table.place, found, expected)
         table.take("side"), table.take("face")
         return None
-    side = choice(table, "side", tuple(SIDES))
+    side = table.choice("side", tuple(SIDES))
     raw = table.take("face")
     if raw is not None and tip != "flat":
         found, change = f"a face on a {tip} follower", Written('"flat"', "tip")
@@ -280,12 +269,12 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
     for name in carriers:
         if seat := seated(on, name, links):
             return seat
-    who = " or ".join(map(named, carriers))
+    who = " or ".join(map(link_words, carriers))
     if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
         hint = "let the plate slide and the follower's guide stand still: both move alike"
         findings.add(table.at("on"), f"a plate at rest along which {who} slides", CARRIED, hint)
         return None
-    found = f"{named(on)} has not one pin on {who}, which carries link {follower}"
+    found = f"{link_words(on)} has not one pin on {who}, which carries link {follower}"
     findings.add(table.at("on"), found, CARRIED, OTHER_CAMS)
     return None
 

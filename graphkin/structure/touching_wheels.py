@@ -279,7 +279,7 @@ def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
 
     What keeps its wheel where it rolls was not put in, unless a name asks for it.
     """
-    whose = "the frame" if wheel == FRAME else f"link {wheel}"
+    whose = link_words(wheel)
     moving = [name for name in links if name != FRAME]
     return (
         f"if a pin and the wheel of {whose} alone hold link {track}, "
