@@ -11,14 +11,13 @@ import click
 from graphkin.cli.console import FAILED, complain
 from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
-    FORMATS,
     force_option,
-    formats_of,
     formats_option,
     ink_option,
     language_option,
     leave,
     mechanism_of,
+    named,
     pairs_of,
     scales_of,
     scene_argument,
@@ -77,7 +76,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
-    kinds = formats_of(formats, (*FORMATS, "html", "dxf", "pmks"))
+    kinds = named("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
     from graphkin.classroom.sheet_files import sheet_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 
@@ -146,7 +145,7 @@ def cycle(
       graphkin cycle mine.toml -o cycles --steps 720 --format png
       graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
-    kinds = formats_of(formats, ("svg", "png", "gif", "html"))
+    kinds = named("--format", formats, ("svg", "png", "gif", "html"))
     from graphkin.cli.report.cycle_report import agrees, cycle_lines
     from graphkin.cli.report.cycle_table import cycle_table
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
@@ -204,7 +203,7 @@ def accuracy(
       graphkin accuracy pump -o accuracy
       graphkin accuracy mine.toml -o accuracy --quick
     """
-    kinds = formats_of(formats, ("svg", "png"))
+    kinds = named("--format", formats, ("svg", "png"))
     from graphkin.accuracy.stopwatch import QUICK, Effort
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_files import picture_files
