@@ -47,21 +47,25 @@ def test_the_numbers_are_those_of_the_solution():
     assert found["verdict"]["agrees"]
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_what_is_asked_and_cannot_be_read_off_is_told_as_sheets_tell_it(language):
-    """A piston on the line of its crank near its dead point, and a wheel that dwells."""
-    crank = (FOLDER / "slider-crank.toml").read_text(encoding="utf-8")
-    near = crank.replace('angle = "angle"', "angle = 0.2").replace(", offset = 30", "")
-    for text in (near, (FOLDER / "geneva-dwell.toml").read_text(encoding="utf-8"), PUMP):
-        told = [
-            unescape(re.sub(r"<[^>]+>", "", note)).replace("_", "")
-            for note in re.findall(
-                '<p class="note">(.*)</p>', seen(text, language=language)["results"]
-            )
-        ]
-        sheets = hand_out(Mechanism(read_text(text, "scene")), language=language)
-        assert told == [note.replace("_", "") for part in sheets for note in part.unread]
-        assert bool(told) == (text is not PUMP)
+CRANK, WHEEL = (
+    (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    for name in ("slider-crank", "geneva-dwell")
+)
+NEAR = CRANK.replace('angle = "angle"', "angle = 0.2").replace(", offset = 30", "")
+"""A piston on the line of its crank, near its dead point; the wheel dwells."""
+
+
+@pytest.mark.parametrize(
+    ("language", "text"), [("ro", NEAR), ("en", WHEEL), ("it", PUMP)], ids=["near", "wheel", "pump"]
+)
+def test_what_is_asked_and_cannot_be_read_off_is_told_as_sheets_tell_it(language, text):
+    told = [
+        unescape(re.sub(r"<[^>]+>", "", note)).replace("_", "")
+        for note in re.findall('<p class="note">(.*)</p>', seen(text, language=language)["results"])
+    ]
+    sheets = hand_out(Mechanism(read_text(text, "scene")), language=language)
+    assert told == [note.replace("_", "") for part in sheets for note in part.unread]
+    assert bool(told) == (text is not PUMP)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
