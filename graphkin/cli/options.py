@@ -49,11 +49,13 @@ def jobs_option(
     return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
 
 
-language_option = click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language of the pages; the scene's by default.",
-)
+def lang_option(help: str, default: str | None = None) -> Option:
+    """--lang, a language of pages."""
+    kinds = click.Choice(["ro", "en", "it"])
+    return click.option("--lang", type=kinds, default=default, help=help)
+
+
+language_option = lang_option("Language of the pages; the scene's by default.")
 """The language of pages."""
 ink_option = click.option(
     "--ink",

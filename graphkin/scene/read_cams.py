@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
-from graphkin.scene.findings import Table, listed, nearest, numbered, shown
+from graphkin.scene.findings import Table, listed, numbered, shown
 from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide, link_words
@@ -62,18 +62,10 @@ def with_cams(
             continue
         count += 1
         own = Table(table.at("cam"), raw, measures.findings)
-        letter = centre_letter(found, f"K{count}" if many else "K")
-        cam = read_cam(name, own, found, measures, letter)
+        cam = read_cam(name, own, found, measures, f"K{count}" if many else "K")
         if cam is not None:
             join(found, name, cam, measures)
     return found.pop(FRAME), found
-
-
-def centre_letter(links: Mapping[str, Link], usual: str) -> str:
-    """A name for a centre of curvature that is not written: the usual one, or another not taken."""
-    taken = {point for link in links.values() for point in link.points}
-    letters = (usual, *(f"K{number}" for number in range(1, len(taken) + 2)))
-    return next(letter for letter in letters if letter not in taken)
 
 
 def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:
@@ -314,17 +306,13 @@ def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> 
     """One piece, ``{ to, rise, motion }``; without a rise it is a dwell, a lever's is an angle."""
     ending = measures.length if slides else measures.angle
     to = ending(table.at("to"), table.take("to"))
-    raw, motion = table.take("rise"), table.take("motion")
+    raw, dwells = table.take("rise"), table.take("motion") is None
     reading = measures.angle if swings else measures.length
     rise = reading(table.at("rise"), 0 if raw is None else raw)
     table.finish()
-    if raw is None and motion is None:
+    if raw is None and dwells:
         return CamPiece(to, rise, "uniform")
-    if not isinstance(motion, str) or motion not in MOTIONS:
-        found = "is missing" if motion is None else shown(motion)
-        hint = nearest(motion, MOTIONS) if isinstance(motion, str) else ""
-        table.findings.add(table.at("motion"), found, listed(MOTIONS), hint)
-        motion = "uniform"
+    motion = table.choice("motion", tuple(MOTIONS))
     if raw is None:
         hint = "a dwell has neither rise nor motion"
         table.findings.add(table.at("rise"), "is missing", "how far it lifts", hint)

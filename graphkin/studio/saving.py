@@ -11,6 +11,7 @@ from pathlib import Path
 
 from msgspec import Struct
 
+from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.sheet_files import sheet_files
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -19,7 +20,6 @@ from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
-from graphkin.studio.sliders import written
 from graphkin.text.errors import SceneError
 from graphkin.writers.files import file_stem, write_all
 
@@ -140,7 +140,9 @@ def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
 def values_of(scene: Scene) -> dict[str, str]:
     """The value of each parameter, as it is set from outside."""
     return {
-        name: written(Fraction(str(value))) for name, value in scene.values.items() if name != TIME
+        name: exact_text(Fraction(str(value)))
+        for name, value in scene.values.items()
+        if name != TIME
     }
 
 
