@@ -30,7 +30,7 @@ from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import CoupledTrain, Group, Higher
-from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.errors import GraphkinError, Problem, SceneError, Setting
 from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
@@ -370,6 +370,7 @@ def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:
             if outside.size:
                 found = f"{outside.size} values outside the range, such as {outside.flat[0]:g}"
                 words = f"at {'least' if is_low else 'most'} {limit:g}"
-                problems.append(Problem(f"parameter {name}", found, words))
+                place = f"parameter {name}"
+                problems.append(Problem(place, found, words, about=(Setting(name),)))
     if problems:
         raise SceneError(problems)

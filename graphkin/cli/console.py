@@ -14,6 +14,7 @@ from typing import Any, ClassVar, NoReturn
 
 import click
 from click.exceptions import Exit
+from msgspec.structs import replace
 
 from graphkin.text.errors import (
     ClosureError,
@@ -97,10 +98,7 @@ class CommandGroup(click.Group):
 
 def of_scene(scene: str, problem: Problem) -> Problem:
     """A problem with the scene before its place, unless the place is the scene's file itself."""
-    if problem.place == scene:
-        return problem
-    place = f"{scene}: {problem.place}" if problem.place else scene
-    return Problem(place, problem.found, problem.expected, problem.hint)
+    return problem if problem.place == scene else replace(problem, file=scene)
 
 
 def nearest(name: str, names: list[str]) -> str:

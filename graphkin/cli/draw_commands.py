@@ -11,14 +11,13 @@ import click
 from graphkin.cli.console import FAILED, complain
 from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
-    FORMATS,
     force_option,
-    formats_of,
     formats_option,
     ink_option,
     language_option,
     leave,
     mechanism_of,
+    named,
     pairs_of,
     scales_of,
     scene_argument,
@@ -77,36 +76,14 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
-    kinds = formats_of(formats, (*FORMATS, "html", "dxf", "pmks"))
-    from graphkin.writers.files import file_stem, rendered, write_all
+    kinds = named("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
+    from graphkin.classroom.sheet_files import sheet_files
+    from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
+    refuse_folder(folder)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    files: dict[str, bytes] = {}
-    notes: list[str] = []
-    if "html" in kinds:
-        from graphkin.classroom.page_documents import hand_out_page
-
-        page = hand_out_page(mechanism, name, stem, view, lang, ink, notes.append)
-        files[f"{stem}-{view}.html"] = page.encode("utf-8")
-    if "pmks" in kinds:
-        from graphkin.documents.pmks_file import pmks_file
-
-        files[f"{stem}.pmks"] = pmks_file(mechanism)
-    if {*kinds} - {"html", "pmks"}:
-        from graphkin.documents.sheet_documents import hand_out
-
-        notes.clear()  # those of the paper are the same
-        for part in hand_out(mechanism, view=view, language=lang):
-            notes += part.unread
-            files |= rendered(
-                f"{stem}-{part.kind}-{view}",
-                part.kind,
-                part.pages,
-                kinds,
-                ink,
-                steps=view == "steps",
-            )
+    files, notes = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
     tell(str(path) for path in write_all(folder, files, force))
     for note in notes:
         complain(note)
@@ -168,7 +145,7 @@ def cycle(
       graphkin cycle mine.toml -o cycles --steps 720 --format png
       graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
-    kinds = formats_of(formats, ("svg", "png", "gif", "html"))
+    kinds = named("--format", formats, ("svg", "png", "gif", "html"))
     from graphkin.cli.report.cycle_report import agrees, cycle_lines
     from graphkin.cli.report.cycle_table import cycle_table
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
@@ -176,11 +153,11 @@ def cycle(
     from graphkin.motion.cycle import cycle as moved
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.web.animation import animation_files
-    from graphkin.writers.files import file_stem, refuse_existing, write_all
+    from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    refuse_existing(folder, [folder / f"{stem}-cycle.csv"], force)
+    refuse_folder(folder, [f"{stem}-cycle.csv"], force=force)
     first, last = bounds_in_si(mechanism.scene, driver, low, high)
     found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
     tell(cycle_lines(found))
@@ -226,16 +203,16 @@ def accuracy(
       graphkin accuracy pump -o accuracy
       graphkin accuracy mine.toml -o accuracy --quick
     """
-    kinds = formats_of(formats, ("svg", "png"))
+    kinds = named("--format", formats, ("svg", "png"))
     from graphkin.accuracy.stopwatch import QUICK, Effort
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_files import picture_files
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
-    from graphkin.writers.files import file_stem, refuse_existing, write_all
+    from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
-    refuse_existing(folder, [folder / f"{stem}-accuracy.csv"], force)
+    refuse_folder(folder, [f"{stem}-accuracy.csv"], force=force)
     effort = QUICK if quick else Effort()
     say = progress()
     found = study(mechanism, scales_if_any(mechanism), effort, say=say)

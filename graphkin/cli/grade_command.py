@@ -11,7 +11,7 @@ import click
 
 from graphkin.cli.console import FAILED, complain, say
 from graphkin.cli.folder_options import class_argument
-from graphkin.cli.options import formats_option, jobs_option
+from graphkin.cli.options import formats_option, jobs_option, lang_option
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -43,11 +43,9 @@ SHOWN = 10
     type=click.Path(path_type=Path),
     help="Folder to write into, made if it is missing; DIR/report by default.",
 )
-@click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language of the report, and of the feedback to those for whom the class list names none"
-    " (language, limba, lingua); the scene's by default. The terminal speaks English.",
+@lang_option(
+    "Language of the report, and of the feedback to those for whom the class list names none"
+    " (language, limba, lingua); the scene's by default. The terminal speaks English."
 )
 @formats_option("html,pdf", "html,pdf", "Kinds of feedback page to write for each student.")
 @click.option(

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
     from graphkin.mechanism import Mechanism
 
-FORMATS = ("svg", "pdf")
 F = TypeVar("F", bound=Callable[..., Any] | click.Command)
 
 
@@ -50,11 +49,13 @@ def jobs_option(
     return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
 
 
-language_option = click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language of the pages; the scene's by default.",
-)
+def lang_option(help: str, default: str | None = None) -> Option:
+    """--lang, a language of pages."""
+    kinds = click.Choice(["ro", "en", "it"])
+    return click.option("--lang", type=kinds, default=default, help=help)
+
+
+language_option = lang_option("Language of the pages; the scene's by default.")
 """The language of pages."""
 ink_option = click.option(
     "--ink",
@@ -68,15 +69,14 @@ force_option = click.option("--force", is_flag=True, help="Replace files that ex
 """Leave to replace files."""
 
 
-def formats_of(text: str, known: tuple[str, ...] = FORMATS) -> tuple[str, ...]:
-    """The kinds of file named with commas between them."""
-    kinds = tuple(dict.fromkeys(kind.strip().lower() for kind in text.split(",") if kind.strip()))
-    wrong = [kind for kind in kinds if kind not in known]
-    if wrong or not kinds:
-        found, both = ", ".join(wrong) or "nothing", ",".join(known)
-        words = f"--format: {found} is not {', '.join(known)} or {both}"
-        raise click.UsageError(words, current())
-    return kinds
+def named(option: str, text: str, known: tuple[str, ...]) -> tuple[str, ...]:
+    """The words of an option with commas between them, in the order in which they are known."""
+    words = [word.strip().lower() for word in text.split(",") if word.strip()]
+    wrong = [word for word in words if word not in known]
+    if wrong or not words:
+        found = ", ".join(wrong) or "nothing"
+        raise click.UsageError(f"{option}: {found} is none of {', '.join(known)}", current())
+    return tuple(word for word in known if word in words)
 
 
 def mechanism_of(name: str, settings: tuple[str, ...]) -> Mechanism:

@@ -12,7 +12,13 @@ import click
 
 from graphkin.cli.console import FAILED, complain, say, say_aside
 from graphkin.cli.folder_options import class_argument
-from graphkin.cli.options import formats_option, ink_option, jobs_option, language_option
+from graphkin.cli.options import (
+    formats_option,
+    ink_option,
+    jobs_option,
+    language_option,
+    named,
+)
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.edition import Variant
@@ -87,8 +93,8 @@ def print_sheets(
     from graphkin.classroom.printing.print_work import VIEWS
     from graphkin.classroom.printing.workers import CLUSTER, cores
 
-    chosen = named(context, "--view", views, VIEWS)
-    kinds = named(context, "--format", formats, ("pdf", "svg", "html"))
+    chosen = named("--view", views, VIEWS)
+    kinds = named("--format", formats, ("pdf", "svg", "html"))
     if "html" in kinds and "overlay" in chosen:
         raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):
@@ -99,18 +105,6 @@ def print_sheets(
     report(outcome)
     if outcome.refused:
         context.exit(FAILED)
-
-
-def named(
-    context: click.Context, option: str, text: str, known: tuple[str, ...]
-) -> tuple[str, ...]:
-    """The words of an option with commas between them, in the order in which they are known."""
-    words = [word.strip().lower() for word in text.split(",") if word.strip()]
-    wrong = [word for word in words if word not in known]
-    if wrong or not words:
-        found = ", ".join(wrong) or "nothing"
-        raise click.UsageError(f"{option}: {found} is none of {', '.join(known)}", context)
-    return tuple(word for word in known if word in words)
 
 
 @contextmanager

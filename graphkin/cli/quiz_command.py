@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from graphkin.cli.console import complain, say
@@ -30,7 +32,7 @@ SHOWN = 5
 def quiz(
     context: click.Context,
     name: str,
-    folder: object,
+    folder: Path,
     lang: str | None,
     count: int,
     jobs: int | None,
@@ -50,8 +52,6 @@ def quiz(
     Example:
       graphkin quiz pump -o out --lang en
     """
-    from pathlib import Path
-
     from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.classroom.printing.print_work import PrintOrder
     from graphkin.classroom.printing.workers import cores
@@ -60,9 +60,10 @@ def quiz(
     from graphkin.mechanism import Mechanism
     from graphkin.scene.read_scene import read_text
     from graphkin.text.errors import Problem, SceneError
-    from graphkin.writers.files import write_all
+    from graphkin.writers.files import refuse_folder, write_all
 
     lab = read_lab(name)
+    refuse_folder(folder, [f"{lab.name}-moodle.xml"], force=force)
     if not lab.rubric.points:
         hint = "give points in [marks] of lab.toml"
         raise SceneError(Problem(lab.name, "no field earns marks", "a field that does", hint))
@@ -79,6 +80,6 @@ def quiz(
     order = PrintOrder(lab, scene, words.language, "colour")
     found = questions(order, fair, jobs or cores())
     file = {f"{lab.name}-moodle.xml": bank(lab.name, found)}
-    written = write_all(Path(str(folder)), file, force)
+    written = write_all(folder, file, force)
     say(f"{len(found)} questions, a category for each")
     tell(map(str, written))

@@ -38,8 +38,11 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
     from graphkin.classroom.lab.lab_model import Formula
     from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.text.plain_table import labelled
+    from graphkin.writers.files import refuse_folder, write_all
 
     lab = read_lab(name)
+    if folder is not None:
+        refuse_folder(folder)
     found = fair_ranges(lab)
     tell(range_lines(lab, found))
     if isinstance(lab.rule, Formula):
@@ -47,7 +50,6 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
     tell(["", *proposed(lab, found)])
     if folder is not None:
         from graphkin.classroom.lab.fair_ranges_pictures import pictures
-        from graphkin.writers.files import write_all
 
         files = dict(pictures(found, lab.name, lab.name))
         tell(["", *map(str, write_all(folder, files, force))])

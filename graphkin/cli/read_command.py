@@ -10,7 +10,7 @@ import click
 from graphkin.cli.console import FAILED
 from graphkin.cli.folder_options import folder_option
 from graphkin.cli.local_page import browser_option, port_option, refuse_without, show
-from graphkin.cli.options import jobs_option, tell
+from graphkin.cli.options import jobs_option, lang_option, tell
 from graphkin.cli.print_command import progress
 from graphkin.text.errors import PageError, Problem
 
@@ -127,9 +127,7 @@ def read_grid(path: Path | None) -> Grid:
 @click.argument("folder", metavar="READ", type=click.Path(path_type=Path))
 @port_option
 @browser_option
-@click.option(
-    "--lang", type=click.Choice(["ro", "en", "it"]), default="en", help="Language of the page."
-)
+@lang_option("Language of the page.", "en")
 def desk(folder: Path, port: int, no_browser: bool, lang: str) -> None:
     """Decide what graphkin read asks, in a browser.
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from graphkin.cli.local_page import browser_option, port_option, refuse_without, show
+from graphkin.cli.options import lang_option
 
 NEEDED = ("bottle", "tomlkit", "waitress")
 """The packages of the extra [studio]."""
@@ -17,11 +18,7 @@ NEEDED = ("bottle", "tomlkit", "waitress")
 @click.argument("name", metavar="[SCENE]", required=False, default="")
 @port_option
 @browser_option
-@click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language to begin with; the scene's by default. The page lets another be chosen.",
-)
+@lang_option("Language to begin with; the scene's by default. The page lets another be chosen.")
 def studio(name: str, port: int, no_browser: bool, lang: str | None) -> None:
     """Write, move and look at a scene in a browser.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, sense, way_of
@@ -40,10 +40,10 @@ def vectors(drawing: Drawing) -> list[tuple[str, str, OnPaper, float]]:
     return found
 
 
-def unread(drawing: Drawing) -> Iterator[str]:
+def unread(drawing: Drawing, named: Callable[[str], str] = str) -> Iterator[str]:
     """What is asked of a sheet and cannot be read off it: too short in the plan, or zero.
 
-    What the sheet itself says is computed counts as told.
+    What the sheet itself says is computed counts as told. ``named`` writes a name such as v_B.
     """
     words, ask = drawing.words, drawing.scene.ask
     targets = drawing.trace.program.targets
@@ -56,12 +56,12 @@ def unread(drawing: Drawing) -> Iterator[str]:
         size = drawing.settled(abs(value.tip - value.tail))
         length = drawn_in(drawing, drawing.plane, size)
         if size == 0:
-            still[vector.symbol] = vector.symbol
+            still[vector.symbol] = named(vector.symbol)
         elif length < LEGIBLE and symbol(vector.symbol) not in drawing.computed:
-            short[vector.symbol] = f"{vector.symbol} ({in_mm(words, length)} mm)"
+            short[vector.symbol] = f"{named(vector.symbol)} ({in_mm(words, length)} mm)"
     for link in getattr(ask, drawing.rate.target):
         if drawing.turning(link) == 0:
-            still[link] = f"{drawing.rate.letter}_{link}"
+            still[link] = named(f"{drawing.rate.letter}_{link}")
     sheet, least = words(f"sheet.{drawing.kind}"), words.decimal(f"{LEGIBLE:g}")
     for key, names in (("sheet.too_short", short), ("sheet.at_rest", still)):
         if names:

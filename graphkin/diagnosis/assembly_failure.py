@@ -22,7 +22,7 @@ from graphkin.diagnosis.singularity_words import closed_by, in_line
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS, shortest
-from graphkin.text.errors import ClosureError, Problem, Written
+from graphkin.text.errors import ClosureError, Problem, Sought, Written
 
 TOUCH = 1e-9
 """Share of its loci by which a crossing is missed beside a dead point."""
@@ -93,6 +93,7 @@ def lost(scene: Scene, program: Program, number: int, found: Meeting) -> Problem
         f"but the crossings before enlarge rounding to {measured(scene, moved)}",
         "crossings that are less flat, one after the other",
         "solve --digits finds it",
+        about=(Sought((step.name,)),),
     )
 
 
@@ -101,27 +102,25 @@ def not_found(
 ) -> Problem:
     """The problem of a step that finds nothing, for some reason."""
     step = program.steps[number]
-    what = " of ".join(part for part in (step.part.value, sought(program, number)) if part)
+    words, names = sought(step)
+    what = " of ".join(filter(None, (step.part.value, words)))
     kind = construction(step)
     turned = f"how link {kind.found_link} stands" if kind and kind.found_link else ""
     found = f"{step.name or turned or 'a value'} cannot be found: {reason}"
-    return Problem(what, found, expected, hint)
+    return Problem(what, found, expected, hint, about=(Sought(names),))
 
 
-def sought(program: Program, number: int) -> str:
-    """What a step was to find: its letter, else the points or the links that it is about."""
-    step = program.steps[number]
+def sought(step: Step) -> tuple[str, tuple[str, ...]]:
+    """What a step was to find, in words and by name: its letter, else the links or points."""
     if links := closed_by(step):
-        return f"links {', '.join(links)}"
+        return f"links {', '.join(links)}", links
     kind = construction(step)
     if step.name or kind is None:
-        return step.name
-    return words_of_link(kind.found_link) or "-".join(filter(None, kind.points))
-
-
-def words_of_link(link: str) -> str:
-    """Words for a link; nothing for none."""
-    return f"link {link}" if link else ""
+        return step.name, (step.name,) if step.name else ()
+    if kind.found_link:
+        return f"link {kind.found_link}", (kind.found_link,)
+    points = tuple(filter(None, kind.points))
+    return "-".join(points), points
 
 
 def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
@@ -134,7 +133,8 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
     links = ", ".join(closed_by(failed.step))
     if not error.ways:
         found = f"links {links} do not close{least_miss(scene, failed)}"
-        return Problem("position", found, LOCI, where_it_closes(scene))
+        hint = where_it_closes(scene)
+        return Problem("position", found, LOCI, hint, about=(Sought(),))
     elsewhere = ""
     known = closings(scene)
     if any(each.ranges for each in known):

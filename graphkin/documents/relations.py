@@ -39,6 +39,7 @@ from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.structure_relations import of_structure
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
+from graphkin.scene.model import lengths_of
 
 Section = tuple[str, list[Relation]]
 ROOM = ". . . . . . . ."
@@ -76,7 +77,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     """A length that is measured on the mechanism; None for one that the data tell."""
     scene = drawing.scene.bare
     links = (scene.frame, *scene.links.values())
-    lengths = (each for link in links for how in link.placings for each in how.lengths())
+    lengths = (each for link in links for how in link.placings for each in lengths_of(how))
     if {p, q} in ({start, end} for start, end, _ in lengths):
         return None
     mm = drawing.on_paper(length_of(drawing, p, q))

@@ -21,7 +21,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import curves_of
 from graphkin.scene.model import Scene
 from graphkin.text import LANGUAGES, Words, words
-from graphkin.text.errors import Problem, SceneError, WitnessError
+from graphkin.text.errors import Problem, SceneError, Sought, WitnessError
 
 if TYPE_CHECKING:
     from graphkin.drawing.marks import Page
@@ -159,11 +159,13 @@ def nearly_singular(mechanism: Mechanism) -> Problem:
     margins = mechanism.trace(targets or None).margins
     number = min(margins, key=lambda step: float(margins[step]))
     return Problem(
-        f"{mechanism.scene.name}: position",
+        "position",
         f"the lines at {letter_of(mechanism.program, number)} cross at a sine of "
         f"{float(margins[number]):.1e}, nearly singular",
         f"at least {FAIR:g}",
         beside_dead_point(mechanism.scene, mechanism.program, number),
+        about=(Sought(),),
+        file=mechanism.scene.name,
     )
 
 

@@ -21,7 +21,7 @@ from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, n
 from graphkin.loops.newton_start import Start
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
-from graphkin.text.errors import GraphkinError, Problem, StructureError, WitnessError
+from graphkin.text.errors import GraphkinError, Problem, Sought, StructureError, WitnessError
 
 TRIES = 64
 """Random starts from which some closed position is looked for."""
@@ -130,6 +130,7 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
                 words("link", group.links),
                 "they do not close" if len(group.links) > 1 else "it does not close",
                 "lengths and driver positions for which the mechanism can be assembled",
+                about=(Sought(tuple(group.links)),),
             )
         )
     holds = np.ones(len(found), dtype=np.bool_)

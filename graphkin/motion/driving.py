@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple, get_args
 
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import At, Driver, DriverKind, Scene
+from graphkin.scene.model import At, Driver, DriverKind, Scene, lengths_of
 from graphkin.scene.quantity import Quantity
 
 What = DriverKind | Literal["time"]
@@ -73,7 +73,7 @@ def reach_of(scene: Scene) -> float:
     places: list[tuple[str, Quantity, Quantity]] = []
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
-            lengths += [length for _, _, length in placing.lengths()]
+            lengths += [length for _, _, length in lengths_of(placing)]
             places += [(link.name, placing.x, placing.y)] if isinstance(placing, At) else []
         for slide in link.slides:
             lengths.append(slide.offset)

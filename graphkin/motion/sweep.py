@@ -158,7 +158,7 @@ def chosen(scene: Scene, driver: int | None) -> int | None:
         raise SceneError(Problem("drivers", "none", "a driver to be moved"))
     if driver is not None:
         if not 1 <= driver <= len(drivers):
-            expected = f"1 to {len(drivers)}"
+            expected = f"1 to {len(drivers)}" if len(drivers) > 1 else "1, the only driver"
             raise SceneError(Problem("--driver", f"there is no driver {driver}", expected))
         return driver
     return None if len(drivers) > 1 or law_of_time(scene) else 1

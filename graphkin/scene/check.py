@@ -12,12 +12,23 @@ from graphkin.scene.known_names import (
     check_guide,
     known_link,
     known_point,
-    named,
     place_of,
     quoted,
 )
 from graphkin.scene.link_names import check_names
-from graphkin.scene.model import FRAME, LEADING, At, Branch, Driver, Link, Scene, Side, Way
+from graphkin.scene.model import (
+    FRAME,
+    LEADING,
+    At,
+    Branch,
+    Driver,
+    Link,
+    Scene,
+    Side,
+    Way,
+    lengths_of,
+    link_words,
+)
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import check_profiles
 from graphkin.scene.requests import ANY_LINK
@@ -211,7 +222,7 @@ def check_locked(scene: Scene, link: Link, findings: Findings) -> None:
         shared = [point for point in link.points if point in scene.link(slide.on).points]
         if shared:
             found = (
-                f"link {link.name} slides on {named(slide.on)} and is pinned to it at "
+                f"link {link.name} slides on {link_words(slide.on)} and is pinned to it at "
                 f"{shared[0]}: it cannot move against it"
             )
             where = f"{numbered(place, index, len(link.slides))}.on"
@@ -283,7 +294,7 @@ def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: F
     if driver.against in guides:
         return
     if guides:
-        on, against = named(guides[0]), named(driver.against)
+        on, against = link_words(guides[0]), link_words(driver.against)
         findings.add(
             place,
             f"link {link.name} slides on {on}, not on {against}",
@@ -293,7 +304,7 @@ def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: F
     can = [quoted(each.name) for each in scene.links.values() if each.slides]
     found = f"link {link.name} has no guide to slide along"
     expected = f"slide = {' or '.join(can[:3])}" if can else "a link with slides = { … }"
-    findings.add(f"{place}.slide", found, expected)
+    findings.add(f"{place}.slide", found, expected, changes=tuple(map(Written, can[:3])))
 
 
 def check_repeated(scene: Scene, findings: Findings) -> None:
@@ -338,7 +349,7 @@ def bar_lengths(scene: Scene) -> Iterator[Quantity]:
     """Every length of a bar that the scene states."""
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
-            yield from (length for _, _, length in placing.lengths())
+            yield from (length for _, _, length in lengths_of(placing))
 
 
 def fixed_places(scene: Scene) -> Iterator[tuple[Quantity, Quantity]]:

@@ -27,7 +27,12 @@ TANGENTS = {0: 0, 45: 1, 135: -1}
 
 
 class EvaluationError(ArithmeticError):
-    """A value that does not exist or grows without bound."""
+    """A value that does not exist or grows without bound: what is found, and what expected."""
+
+
+BOUNDLESS = "a number that grows without bound", "a number between 1e-60 and 1e60"
+NO_QUOTIENT = "division by zero", "a divisor that is not 0"
+NO_ROOT = "the square root of a negative number", "0 or more under the root"
 
 
 def evaluate(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
@@ -53,34 +58,28 @@ def entered(value: Any, kind: Kind) -> Any:
 
 
 def joined(sign: str, left: Any, right: Any, kind: Kind) -> Any:
-    """Sum, difference, product, quotient or power of two numbers."""
+    """Sum, difference, product, quotient, rest or power of two numbers, exact where both are."""
     if sign == "**":
         return power(left, right, kind)
-    if isinstance(left, Fraction) and isinstance(right, Fraction):
-        return bounded(exactly(sign, left, right))
-    if sign == "mod":
-        raise EvaluationError("the rest of a number that is not rational")
-    left, right = inexact(left, kind), inexact(right, kind)
-    if sign == "+":
-        return left + right
-    if sign == "-":
-        return left - right
-    if sign == "*":
-        return left * right
-    return quotient(left, right)
-
-
-def exactly(sign: str, left: Fraction, right: Fraction) -> Fraction:
-    """Sum, difference, product, quotient or rest of two exact numbers."""
-    if sign == "+":
-        return left + right
-    if sign == "-":
-        return left - right
-    if sign == "*":
-        return left * right
-    if sign == "mod":
-        return left - right * (Fraction(quotient(left, right)) // 1)
-    return Fraction(quotient(left, right))
+    exact = isinstance(left, Fraction) and isinstance(right, Fraction)
+    if not exact:
+        left, right = inexact(left, kind), inexact(right, kind)
+    match sign:
+        case "+":
+            found = left + right
+        case "-":
+            found = left - right
+        case "*":
+            found = left * right
+        case "/":
+            found = quotient(left, right)
+        case _ if exact:
+            found = left - right * (quotient(left, right) // 1)
+        case _:
+            raise EvaluationError(
+                "the rest of a number that is not rational", "whole numbers, decimals or fractions"
+            )
+    return bounded(found) if exact else found
 
 
 def inexact(value: Any, kind: Kind) -> Any:
@@ -91,21 +90,22 @@ def inexact(value: Any, kind: Kind) -> Any:
 def quotient(left: Any, right: Any) -> Any:
     """Left over right; over nought it raises on one scene and is masked in a batch."""
     if not hasattr(right, "shape") and right == 0:
-        raise EvaluationError("division by zero")
+        raise EvaluationError(*NO_QUOTIENT)
     return left / right
 
 
 def bounded(value: Fraction) -> Fraction:
     """An exact number, refused when it has grown beyond sense."""
     if max(value.numerator.bit_length(), value.denominator.bit_length()) > WIDEST:
-        raise EvaluationError("a number that grows without bound")
+        raise EvaluationError(*BOUNDLESS)
     return value
 
 
 def power(base: Any, exponent: Any, kind: Kind) -> Any:
     """Base to an exponent of at most 64; whole powers of exact numbers stay exact."""
     if not hasattr(exponent, "shape") and abs(exponent) > LARGEST_POWER:
-        raise EvaluationError(f"an exponent above {LARGEST_POWER}")
+        expected = f"an exponent from -{LARGEST_POWER} to {LARGEST_POWER}"
+        raise EvaluationError(f"an exponent above {LARGEST_POWER}", expected)
     if isinstance(exponent, Fraction) and exponent.denominator == 1:
         whole = int(exponent)
         if whole < 0:
@@ -113,9 +113,11 @@ def power(base: Any, exponent: Any, kind: Kind) -> Any:
         return bounded(base**whole) if isinstance(base, Fraction) else base**whole
     if not hasattr(base, "shape") and not hasattr(exponent, "shape"):
         if base < 0:
-            raise EvaluationError("a broken power of a negative number")
+            raise EvaluationError(
+                "a broken power of a negative number", "a whole exponent, or a base of 0 or more"
+            )
         if base == 0 and exponent < 0:
-            raise EvaluationError("division by zero")
+            raise EvaluationError(*NO_QUOTIENT)
     return inexact(base, kind) ** inexact(exponent, kind)
 
 
@@ -145,7 +147,9 @@ def rational_ratio(function: str, degrees: Fraction) -> Fraction | None:
     whole = int(degrees)
     if function == "tan":
         if whole % 180 == 90:
-            raise EvaluationError("the tangent of a right angle")
+            raise EvaluationError(
+                "the tangent of a right angle", "an angle that is no odd multiple of 90°"
+            )
         tangent = TANGENTS.get(whole % 180)
         return None if tangent is None else Fraction(tangent)
     doubled = SINES.get((whole + 90 if function == "cos" else whole) % 360)
@@ -156,13 +160,13 @@ def root(value: Any, kind: Kind) -> Any:
     """Square root; exact for squares of rationals; of a negative number EvaluationError."""
     if isinstance(value, Fraction):
         if value < 0:
-            raise EvaluationError("the square root of a negative number")
+            raise EvaluationError(*NO_ROOT)
         above, below = isqrt(value.numerator), isqrt(value.denominator)
         if above * above == value.numerator and below * below == value.denominator:
             return Fraction(above, below)
         return kind.sqrt(kind.number(value))
     if not hasattr(value, "shape") and value < 0:
-        raise EvaluationError("the square root of a negative number")
+        raise EvaluationError(*NO_ROOT)
     return kind.sqrt(value)
 
 
@@ -205,7 +209,7 @@ def quotient_rule(left: Tree, right: Tree, name: str) -> Tree:
 def power_rule(base: Tree, exponent: Tree, name: str) -> Tree:
     """Derivative of a power whose exponent does not hold the name."""
     if name in names(exponent):
-        raise EvaluationError(f"an exponent that holds {name}")
+        raise EvaluationError(f"an exponent that holds {name}", f"an exponent without {name}")
     inner = differentiated(base, name)
     if NOUGHT in (exponent, inner):
         return NOUGHT

@@ -7,12 +7,13 @@ import tomllib
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from errno import EINVAL
 from stat import S_ISDIR, S_ISREG
+from typing import Any
 
 from graphkin.scene.expression import unit_hint
-from graphkin.scene.findings import visible
+from graphkin.scene.findings import Findings, visible
 from graphkin.scene.measures import FloatText
 from graphkin.text import paths
-from graphkin.text.errors import Hint, Mend, Problem, SceneError
+from graphkin.text.errors import Hint, InLine, Mend, Problem, SceneError
 
 LARGEST = 256 * 1024
 """Bytes of a scene file."""
@@ -54,13 +55,41 @@ def decoded(data: bytes) -> str:
             raise SceneError(Problem("", "the file is UTF-16", "a text saved as UTF-8")) from None
         line = data.count(b"\n", 0, error.start) + 1
         found = f"the byte 0x{data[error.start]:02x} is not UTF-8"
-        raise SceneError(Problem(f"line {line}", found, "a text saved as UTF-8")) from None
+        raise SceneError(in_line(InLine(line), found, "a text saved as UTF-8")) from None
 
 
-def tables_of(text: str) -> dict[str, object]:
-    """The tables of a TOML text; SceneError with the line where it is not TOML."""
+def in_line(at: InLine, found: str, expected: str = "", hint: Hint = "") -> Problem:
+    """The problem of a line that is not read on."""
+    return Problem(str(at), found, expected, hint, about=(at,))
+
+
+def tables_of(text: str, findings: Findings | None = None) -> dict[str, object]:
+    """The tables of a TOML text; SceneError with the line where it is not TOML.
+
+    What is written twice is noted in ``findings``, where these are given, and the text is read on.
+    """
     text = text.removeprefix("\ufeff")
     refuse_bombs(text)
+    try:
+        return parsed(text)
+    except SceneError:
+        from graphkin.scene.written_twice import read_once, written_twice
+
+        problems, renamed, again = written_twice(text)
+        if not problems:
+            raise
+    try:
+        tables = read_once(parsed(renamed), again)
+    except SceneError as other:
+        raise SceneError([*problems, *other.problems]) from None
+    if findings is None:
+        raise SceneError(problems)
+    findings.extend(problems)
+    return tables
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """The tables of a TOML text. Raises SceneError with the line where it is not TOML."""
     try:
         return tomllib.loads(text, parse_float=FloatText)
     except tomllib.TOMLDecodeError as error:
@@ -79,10 +108,10 @@ def refuse_bombs(text: str) -> None:
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > LONGEST_LINE:
             found = f"a line of {len(line)} characters"
-            raise SceneError(Problem(f"line {number}", found, f"at most {LONGEST_LINE}"))
+            raise SceneError(in_line(InLine(number), found, f"at most {LONGEST_LINE}"))
         if line.count(".") >= 16 and re.search(DOTTED, line):
             found = "a key of very many parts"
-            raise SceneError(Problem(f"line {number}", found, "at most 16 parts"))
+            raise SceneError(in_line(InLine(number), found, "at most 16 parts"))
 
 
 def syntax_problem(message: str, text: str) -> Problem:
@@ -90,25 +119,20 @@ def syntax_problem(message: str, text: str) -> Problem:
     where = re.search(WHERE, message)
     found = message[: where.start()] if where else message
     found = f"{found[:1].lower()}{found[1:160]}"
-    line = where[1] if where and where[1] else str(len(text.splitlines()) or 1)
-    twice = re.fullmatch(r"cannot declare \((.+?),?\) twice", found)
-    if twice:
-        name = visible(".".join(re.findall(r"'([^']*)'", twice[1])) or "a table")
-        return Problem(
-            f"line {line}", f"{name} is written twice", hint="write it under one heading"
-        )
+    line, column = len(text.splitlines()) or 1, 0
+    if where and where[1]:
+        line, column = int(where[1]), int(where[2])
     hint: Hint = ""
     if found.startswith("cannot overwrite") or "twice" in found:
         hint = "the same key or table is written above"
     lines = text.split("\n")
-    if int(line) <= len(lines):
-        column = int(where[2]) if where and where[2] else 0
-        written = lines[int(line) - 1]
+    if line <= len(lines):
+        written = lines[line - 1]
         known = hint or value_hint(written, column - 1)
         hint = advice(found, written, column - 1, known)
     if hint == OPEN:
         found = UNCLOSED
-    return Problem(f"line {line}", f"not TOML: {found}", hint=hint)
+    return in_line(InLine(line, column), f"not TOML: {found}", hint=hint)
 
 
 def value_hint(line: str, at: int) -> Hint:

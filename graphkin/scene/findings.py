@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.text.errors import MOST, Change, Hint, Mend, Problem, SceneError
+from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, SceneError
 
 LISTED = 12
 
@@ -23,7 +23,7 @@ class Findings:
         expected: str = "",
         hint: Hint = "",
         changes: tuple[Change, ...] = (),
-        about: tuple[tuple[str, ...], ...] = (),
+        about: tuple[About, ...] = (),
     ) -> None:
         """Note one problem."""
         self.extend([Problem(place, found, expected, hint, changes, about)])
@@ -87,6 +87,18 @@ class Table:
             return raw is True
         self.findings.add(self.at(key), shown(raw), "true or false")
         return False
+
+    def choice(self, key: str, words: tuple[str, ...], default: str = "") -> str:
+        """One of some words, the first where none can be read; it must be written without a
+        default."""
+        raw = self.take(key)
+        if isinstance(raw, str) and raw in words:
+            return raw
+        if raw is not None or not default:
+            hint = nearest(raw, words) if isinstance(raw, str) else ""
+            found = "is missing" if raw is None else shown(raw)
+            self.findings.add(self.at(key), found, listed(words), hint)
+        return default or words[0]
 
     def table(self, key: str) -> Table:
         """A table within this one, empty where it is not written."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from graphkin.scene.findings import Findings, listed, nearest
-from graphkin.scene.model import FRAME, GuideOrTrack, Link, Scene, Slide
+from graphkin.scene.model import FRAME, GuideOrTrack, Link, Scene, Slide, link_words
 
 
 def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
@@ -32,11 +32,6 @@ def place_of(name: str) -> str:
     return "frame" if name == FRAME else f"links.{name}"
 
 
-def named(link: str) -> str:
-    """A link in words."""
-    return "the frame" if link == FRAME else f"link {link}"
-
-
 def quoted(link: str) -> str:
     """The name of a link as a scene writes it as a value: 2, but "arm"."""
     return link if link.isdigit() else f'"{link}"'
@@ -52,7 +47,7 @@ def check_guide(
     on = known_link(scene, joint.on, f"{place}.on", findings)
     if on is None:
         return
-    where = named(joint.on)
+    where = link_words(joint.on)
     if isinstance(joint.through, str):
         known_point(joint.through, on.points, where, f"{place}.through", findings)
     if isinstance(joint, Slide) and joint.along:

@@ -46,10 +46,6 @@ class At(Struct, frozen=True):
     x: Quantity
     y: Quantity
 
-    def lengths(self) -> Lengths:
-        """The bars whose lengths it states."""
-        return ()
-
 
 class Polar(Struct, frozen=True):
     """``P = {from, length, angle}``: so far from a point, at an angle to the link's x axis."""
@@ -59,10 +55,6 @@ class Polar(Struct, frozen=True):
     length: Quantity
     angle: Quantity
 
-    def lengths(self) -> Lengths:
-        """The bars whose lengths it states."""
-        return ((self.start, self.point, self.length),)
-
 
 class Apart(Struct, frozen=True):
     """``P-Q = l`` for the link's first two points: Q at that distance along the x axis."""
@@ -70,10 +62,6 @@ class Apart(Struct, frozen=True):
     point: str
     start: str
     length: Quantity
-
-    def lengths(self) -> Lengths:
-        """The bars whose lengths it states."""
-        return ((self.start, self.point, self.length),)
 
 
 class Triangle(Struct, frozen=True):
@@ -85,13 +73,6 @@ class Triangle(Struct, frozen=True):
     from_first: Quantity
     from_second: Quantity
     side: int
-
-    def lengths(self) -> Lengths:
-        """The bars whose lengths it states."""
-        return (
-            (self.first, self.point, self.from_first),
-            (self.second, self.point, self.from_second),
-        )
 
 
 class OnLine(Struct, frozen=True):
@@ -107,10 +88,6 @@ class OnLine(Struct, frozen=True):
     length: Quantity
     sense: int
 
-    def lengths(self) -> Lengths:
-        """The bars whose lengths it states."""
-        return ((self.start, self.point, self.length),)
-
 
 class Angled(Struct, frozen=True):
     """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP."""
@@ -121,12 +98,20 @@ class Angled(Struct, frozen=True):
     length: Quantity
     angle: Quantity
 
-    def lengths(self) -> Lengths:
-        """The bars whose lengths it states."""
-        return ((self.vertex, self.point, self.length),)
-
 
 Placing = At | Polar | Apart | Triangle | OnLine | Angled
+
+
+def lengths_of(placing: Placing) -> Lengths:
+    """The bars whose lengths a placing states."""
+    match placing:
+        case At():
+            return ()
+        case Triangle(point, first, second, one, other):
+            return (first, point, one), (second, point, other)
+        case Angled(point, vertex, _, length):
+            return ((vertex, point, length),)
+    return ((placing.start, placing.point, placing.length),)
 
 
 class Slide(Struct, frozen=True):

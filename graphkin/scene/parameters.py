@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
+
+from msgspec.structs import replace
 
 from graphkin.scene.expression import RESERVED, Name, UnreadableError
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
@@ -11,7 +13,7 @@ from graphkin.scene.measures import quantity
 from graphkin.scene.model import Parameter
 from graphkin.scene.phrases import is_name
 from graphkin.scene.quantity import Quantity, exact, shortest
-from graphkin.text.errors import Mend, Problem, SceneError
+from graphkin.text.errors import Mend, Problem, SceneError, Setting
 
 MOST = 200
 
@@ -117,14 +119,18 @@ def set_values(
     """The exact value of each parameter: as written, or as set from outside within its range."""
     values = {name: plain(parameter.value) for name, parameter in parameters.items()}
     for name, raw in settings.items():
-        place = f"setting {name}"
+        wrong = Findings()
         if name not in parameters:
             expected = listed(parameters) or "no setting, for the scene has no parameters"
-            found = f"{shown(name)} is no parameter"
-            findings.add(place, found, expected, nearest(name, parameters))
-            continue
-        read = rational(place, raw, findings)
-        if read is not None:
+            wrong.add("", f"{shown(name)} is no parameter", expected, nearest(name, parameters))
+        elif (read := rational("", raw, wrong)) is not None:
             values[name] = plain(read)
-            findings.extend(out_of_range(parameters[name], values[name], place))
+            wrong.extend(out_of_range(parameters[name], values[name], ""))
+        findings.extend(of_setting(name, wrong.problems))
     return values
+
+
+def of_setting(name: str, problems: Iterable[Problem]) -> Iterator[Problem]:
+    """Problems of the value that a parameter is set to from outside."""
+    about = Setting(name)
+    return (replace(each, place=str(about), about=(about,)) for each in problems)

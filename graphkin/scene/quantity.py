@@ -11,7 +11,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real
-from graphkin.scene.evaluate import EvaluationError, differentiated, evaluate
+from graphkin.scene.evaluate import BOUNDLESS, EvaluationError, differentiated, evaluate
 from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Pair, Tree, names, parse, size
 from graphkin.scene.findings import shown
 from graphkin.text.errors import Problem, SceneError
@@ -81,13 +81,14 @@ class Quantity(Struct, frozen=True, eq=False):
         try:
             value = reckoned(self.tree, values, kind)
         except EvaluationError as error:
-            raise SceneError(self.problem(str(error), values)) from None
+            raise SceneError(self.problem(values, *error.args)) from None
         except OverflowError:
-            raise SceneError(self.problem("a number that grows without bound", values)) from None
+            raise SceneError(self.problem(values, *BOUNDLESS)) from None
         except KeyError as error:
-            raise SceneError(self.problem(f"no value for {error.args[0]}", values)) from None
+            found = f"no value for {error.args[0]}"
+            raise SceneError(self.problem(values, found, "a value of each name")) from None
         if isinstance(value, float) and not math.isfinite(value):
-            raise SceneError(self.problem("a number that grows without bound", values))
+            raise SceneError(self.problem(values, *BOUNDLESS))
         return value
 
     def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
@@ -118,11 +119,11 @@ class Quantity(Struct, frozen=True, eq=False):
     def derivative(self, name: str) -> Quantity:
         """The exact derivative by a name; by the time ``t`` its unit becomes per second."""
         if size(self.tree) > HEAVIEST:
-            raise SceneError(self.problem("a derivative of too many parts", {}))
+            raise SceneError(self.problem({}, "a derivative of too many parts", "a shorter law"))
         try:
             tree = differentiated(self.tree, name)
         except EvaluationError as error:
-            raise SceneError(self.problem(str(error), {})) from None
+            raise SceneError(self.problem({}, *error.args)) from None
         unit = per_second(self.unit) if name == TIME else self.unit
         return Quantity(f"d({self.text})/d{name}", tree, unit, self.place)
 
@@ -135,11 +136,11 @@ class Quantity(Struct, frozen=True, eq=False):
         tree = Pair("-", self.tree, Number(Fraction(number)))
         return Quantity(f"({self.text}) - {number}", tree, self.unit, self.place)
 
-    def problem(self, what: str, values: Mapping[str, Any]) -> Problem:
+    def problem(self, values: Mapping[str, Any], what: str, expected: str) -> Problem:
         """What is wrong with this number, with the parameters it was reckoned with."""
         known = [f"{name} = {values[name]}" for name in sorted(self.uses()) if name in values]
         given = f" with {', '.join(known)}" if known else ""
-        return Problem(self.place, f"{shown(self.text)} gives {what}{given}")
+        return Problem(self.place, f"{shown(self.text)} gives {what}{given}", expected)
 
 
 def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:

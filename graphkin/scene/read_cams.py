@@ -16,12 +16,13 @@ from msgspec.structs import replace
 
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.cam_tables import is_table, read_table
-from graphkin.scene.findings import Table, listed, nearest, numbered, shown
-from graphkin.scene.known_names import named, next_name
+from graphkin.scene.findings import Table, listed, numbered, shown
+from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide
+from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide, link_words
 from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
 from graphkin.scene.quantity import exact
+from graphkin.text.errors import Written
 
 TIPS = ("roller", "knife", "flat")
 MOST_PIECES = 24
@@ -61,18 +62,10 @@ def with_cams(
             continue
         count += 1
         own = Table(table.at("cam"), raw, measures.findings)
-        letter = centre_letter(found, f"K{count}" if many else "K")
-        cam = read_cam(name, own, found, measures, letter)
+        cam = read_cam(name, own, found, measures, f"K{count}" if many else "K")
         if cam is not None:
             join(found, name, cam, measures)
     return found.pop(FRAME), found
-
-
-def centre_letter(links: Mapping[str, Link], usual: str) -> str:
-    """A name for a centre of curvature that is not written: the usual one, or another not taken."""
-    taken = {point for link in links.values() for point in link.points}
-    letters = (usual, *(f"K{number}" for number in range(1, len(taken) + 2)))
-    return next(letter for letter in letters if letter not in taken)
 
 
 def join(links: dict[str, Link], follower: str, cam: Cam, measures: Measures) -> None:
@@ -105,7 +98,7 @@ def read_cam(
     swings = on is None or is_lever(follower, on, links)
     seat = seat_of(follower, on, table, links) if on is not None else None
     slides = seat is not None and seat.slides
-    tip = choice(table, "tip", TIPS)
+    tip = table.choice("tip", TIPS)
     if tip == "flat" and slides:
         hint = "a plate lifts a roller or a knife; a straight flank under a face is a guide on it"
         findings.add(table.at("tip"), "a flat face on a plate that slides", listed(TIPS[:2]), hint)
@@ -114,7 +107,8 @@ def read_cam(
     if tip == "roller" and raw is None:
         findings.add(table.at("roller"), "is missing", "the radius of the roller")
     elif tip != "roller" and raw is not None:
-        findings.add(table.at("roller"), f"a roller on a {tip} follower", 'tip = "roller"')
+        said, change = f"a roller on a {tip} follower", Written('"roller"', "tip")
+        findings.add(table.at("roller"), said, 'tip = "roller"', changes=(change,))
     if tip == "roller" and raw is not None:
         roller = measures.length(table.at("roller"), raw, positive=True)
     else:
@@ -183,17 +177,6 @@ def conjugate_of(
     return Conjugate(at, roller)
 
 
-def choice(table: Table, key: str, choices: tuple[str, ...]) -> str:
-    """One of some words."""
-    raw = table.take(key)
-    if isinstance(raw, str) and raw in choices:
-        return raw
-    found = "is missing" if raw is None else shown(raw)
-    hint = nearest(raw, choices) if isinstance(raw, str) else ""
-    table.findings.add(table.at(key), found, listed(choices), hint)
-    return choices[0]
-
-
 def lever_of(
     follower: str,
     tip: str,
@@ -211,15 +194,16 @@ def lever_of(
         table.take("side"), table.take("face")
         return None
     if len(pins) != 1 or not tips:
-        found = f"link {follower} has {len(pins)} pins on {named(seat.carrier)}"
+        found = f"link {follower} has {len(pins)} pins on {link_words(seat.carrier)}"
         expected = "one, and the tip as another of its points"
         findings.add(table.place, found, expected)
         table.take("side"), table.take("face")
         return None
-    side = choice(table, "side", tuple(SIDES))
+    side = table.choice("side", tuple(SIDES))
     raw = table.take("face")
     if raw is not None and tip != "flat":
-        findings.add(table.at("face"), f"a face on a {tip} follower", 'tip = "flat"')
+        found, change = f"a face on a {tip} follower", Written('"flat"', "tip")
+        findings.add(table.at("face"), found, 'tip = "flat"', changes=(change,))
     face = measures.length(table.at("face"), 0 if raw is None else raw)
     return tips[0], CamLever(pins[0], SIDES[side], face)
 
@@ -277,12 +261,12 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
     for name in carriers:
         if seat := seated(on, name, links):
             return seat
-    who = " or ".join(map(named, carriers))
+    who = " or ".join(map(link_words, carriers))
     if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
         hint = "let the plate slide and the follower's guide stand still: both move alike"
         findings.add(table.at("on"), f"a plate at rest along which {who} slides", CARRIED, hint)
         return None
-    found = f"{named(on)} has not one pin on {who}, which carries link {follower}"
+    found = f"{link_words(on)} has not one pin on {who}, which carries link {follower}"
     findings.add(table.at("on"), found, CARRIED, OTHER_CAMS)
     return None
 
@@ -322,17 +306,13 @@ def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> 
     """One piece, ``{ to, rise, motion }``; without a rise it is a dwell, a lever's is an angle."""
     ending = measures.length if slides else measures.angle
     to = ending(table.at("to"), table.take("to"))
-    raw, motion = table.take("rise"), table.take("motion")
+    raw, dwells = table.take("rise"), table.take("motion") is None
     reading = measures.angle if swings else measures.length
     rise = reading(table.at("rise"), 0 if raw is None else raw)
     table.finish()
-    if raw is None and motion is None:
+    if raw is None and dwells:
         return CamPiece(to, rise, "uniform")
-    if not isinstance(motion, str) or motion not in MOTIONS:
-        found = "is missing" if motion is None else shown(motion)
-        hint = nearest(motion, MOTIONS) if isinstance(motion, str) else ""
-        table.findings.add(table.at("motion"), found, listed(MOTIONS), hint)
-        motion = "uniform"
+    motion = table.choice("motion", tuple(MOTIONS))
     if raw is None:
         hint = "a dwell has neither rise nor motion"
         table.findings.add(table.at("rise"), "is missing", "how far it lifts", hint)

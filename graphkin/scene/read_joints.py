@@ -7,9 +7,9 @@ from __future__ import annotations
 from math import degrees
 
 from graphkin.scene.findings import Findings, Table, numbered, one_or_many, shown
-from graphkin.scene.known_names import known_point, named, place_of
+from graphkin.scene.known_names import known_point, place_of
 from graphkin.scene.measures import FloatText, Measures, Pair
-from graphkin.scene.model import FRAME, At, Link, Profile, Scene, Slide
+from graphkin.scene.model import FRAME, At, Link, Profile, Scene, Slide, link_words
 from graphkin.scene.phrases import line_words, link_name, point_name
 from graphkin.scene.quantity import Quantity
 
@@ -115,7 +115,7 @@ def check_profiles(scene: Scene, link: Link, findings: Findings) -> None:
         where = numbered(f"{place}.profiles", index, len(link.profiles))
         about, through = profile.about, profile.through
         if about:
-            known_point(about, link.points, named(link.name), f"{where}.about", findings)
+            known_point(about, link.points, link_words(link.name), f"{where}.about", findings)
         if through:
             known_point(through, points, "the mechanism", f"{where}.through", findings)
         if about and about == through:

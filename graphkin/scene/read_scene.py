@@ -83,7 +83,7 @@ def read_into(
     settings: Mapping[str, object] = NO_SETTINGS,
 ) -> Scene:
     """The scene in a text, its problems noted; SceneError where there are any."""
-    top = Table("", tables_of(text), findings)
+    top = Table("", tables_of(text, findings), findings)
     if not top.raw:
         found = "nothing but comments" if text.strip("\ufeff \t\r\n") else "the file is empty"
         raise SceneError(Problem("", found, f"a scene, its first line graphkin = {FORMAT}"))

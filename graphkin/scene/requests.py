@@ -7,7 +7,7 @@ from datetime import date, datetime
 from fractions import Fraction
 from itertools import combinations
 
-from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, plain_text, shown
+from graphkin.scene.findings import Findings, Table, numbered, plain_text, shown
 from graphkin.scene.known_names import known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
@@ -147,23 +147,10 @@ def link_pair(place: str, raw: str, findings: Findings, scene: Scene) -> list[st
 
 def read_sheet(table: Table, measures: Measures) -> Sheet:
     """The title block: owner, author, approved, date, number; the language, scales and sheets."""
-    findings = measures.findings
-    language = table.text("language", "en")
-    if language not in LANGUAGES:
-        hint = nearest(language, LANGUAGES)
-        findings.add(table.at("language"), shown(language), listed(LANGUAGES), hint)
-    method = table.text("method", METHODS[0])
-    if method not in METHODS:
-        findings.add(table.at("method"), shown(method), listed(METHODS), nearest(method, METHODS))
-    plan = table.text("plan", PLANS[0])
-    if plan not in PLANS:
-        findings.add(table.at("plan"), shown(plan), listed(PLANS), nearest(plan, PLANS))
-    rule = table.text("rule", RULES[0])
-    if rule not in RULES:
-        findings.add(table.at("rule"), shown(rule), listed(RULES), nearest(rule, RULES))
+    rule, ka = table.choice("rule", RULES, RULES[0]), table.take("ka")
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
-        findings.add(table.at("sheets"), shown(sheets), "1 or 2")
+        table.findings.add(table.at("sheets"), shown(sheets), "1 or 2")
         sheets = None
     sheet = Sheet(
         owner=table.text("owner"),
@@ -171,14 +158,14 @@ def read_sheet(table: Table, measures: Measures) -> Sheet:
         approved=table.text("approved"),
         date=lenient_text(table, "date"),
         number=lenient_text(table, "number"),
-        language=language,
+        language=table.choice("language", LANGUAGES, "en"),
         scale=read_scale(table, measures),
         sheets=2 if not isinstance(sheets, int) else sheets,
         rule=rule,
         enlarge=read_enlarge(table, measures, rule),
-        ka=read_positive(table, measures, "ka"),
-        method=method,
-        plan=plan,
+        ka=None if ka is None else measures.number(table.at("ka"), ka, positive=True),
+        method=table.choice("method", METHODS, METHODS[0]),
+        plan=table.choice("plan", PLANS, PLANS[0]),
     )
     table.finish()
     return sheet
@@ -224,12 +211,6 @@ def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity,
         for index, each in enumerate(pair)
     ]
     return tuple(each for each in found if each is not None)
-
-
-def read_positive(table: Table, measures: Measures, key: str) -> Quantity | None:
-    """A number above nought, None where it is not written."""
-    raw = table.take(key)
-    return None if raw is None else measures.number(table.at(key), raw, positive=True)
 
 
 def read_languages(table: Table, findings: Findings) -> dict[str, str]:

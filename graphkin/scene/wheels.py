@@ -11,9 +11,9 @@ from msgspec.structs import replace
 from graphkin.scene.expression import Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Findings, Table, numbered, shown
-from graphkin.scene.known_names import check_guide, known_link, known_point, named, quoted
+from graphkin.scene.known_names import check_guide, known_link, known_point, quoted
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Belt, Driver, Link, Rolling, Scene, Wheel
+from graphkin.scene.model import FRAME, Belt, Driver, Link, Rolling, Scene, Wheel, link_words
 from graphkin.scene.phrases import SIDES, link_name, point_name
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import MOST, read_line, tables
@@ -183,7 +183,7 @@ def check_rolling(
         findings.add(place, f"link {link.name} has no wheel", expected)
     elif rolling.through is not None and rolling.belt is None and link.rim.inside:
         expected = "a rim outside; of a hoop: wheels = [{ …, inside = true }, { … }]"
-        findings.add(place, f"the ring of {named(link.name)} on a straight track", expected)
+        findings.add(place, f"the ring of {link_words(link.name)} on a straight track", expected)
     on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if rolling.through is None and on is not None and not on.wheels and on is not link:
         expected = "a wheel there, or through and angle for a straight track"
@@ -195,7 +195,7 @@ def check_rolling(
             hint = Mend(f"on = {quoted(rolling.on)}", f"on = {quoted(wheels[0])}")
         findings.add(
             place,
-            f"{named(rolling.on)} has no wheel to {'run' if rolling.belt else 'roll'} on",
+            f"{link_words(rolling.on)} has no wheel to {'run' if rolling.belt else 'roll'} on",
             expected,
             hint,
         )
@@ -215,10 +215,10 @@ def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings:
         return
     for each, index in zip((link, on), rolling.belt.wheels, strict=True):
         if each.wheels and index >= len(each.wheels):
-            found = f"wheel {index + 1} of {named(each.name)}, which has {len(each.wheels)}"
+            found = f"wheel {index + 1} of {link_words(each.name)}, which has {len(each.wheels)}"
             findings.add(f"{place}.wheels", found, f"a number up to {len(each.wheels)}")
         elif each.wheels and each.wheels[index].inside:
-            found = f"the wheel of {named(each.name)} is a ring"
+            found = f"the wheel of {link_words(each.name)} is a ring"
             findings.add(place, found, "a wheel with a rim outside, for a belt to run on")
 
 
@@ -228,7 +228,7 @@ def check_driven(driver: Driver, link: Link, place: str, findings: Findings) -> 
     if driver.against in tracks:
         return
     if tracks:
-        on, against = named(tracks[0]), named(driver.against)
+        on, against = link_words(tracks[0]), link_words(driver.against)
         found = f"link {link.name} rolls straight on {on}, not on {against}"
         findings.add(place, found, f"against = {quoted(tracks[0])}")
     elif link.rolls:

@@ -10,8 +10,8 @@ from typing import NamedTuple
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.scene.known_names import named, quoted
-from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide
+from graphkin.scene.known_names import quoted
+from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide, link_words
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
     CoupledTrain,
@@ -204,8 +204,8 @@ def same_pins(scene: Scene) -> str:
         both = [point for point in one.points if point in other.points]
         if len(both) > 1:
             return (
-                f"{named(one.name)} and link {other.name} share the pins {both[0]} and {both[1]}, "
-                "so that they are one body"
+                f"{link_words(one.name)} and link {other.name} share the pins {both[0]} and "
+                f"{both[1]}, so that they are one body"
             )
     return ""
 

@@ -11,7 +11,7 @@ from graphkin.scene.model import FRAME, Scene, Slide, link_words
 from graphkin.structure.link_axes import guide_line, metres
 from graphkin.structure.touching_wheels import lone_wheels
 from graphkin.structure.turning import LEVEL
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, Written
 
 APART = 1e-9
 """Distance of parallel guides (m) below which they are one line."""
@@ -76,12 +76,13 @@ def unturnable(scene: Scene) -> Iterator[Problem]:
     """Drivers that turn a link against another to which slides hold its direction."""
     for index, driver in enumerate(scene.drivers):
         if driver.kind == "turn" and driver.against in turning_with(scene, driver.link):
-            link = scene.link(driver.link)
+            link, own = scene.link(driver.link), quoted(driver.link)
             yield Problem(
                 f"drivers[{index}].turn",
                 f"link {driver.link} cannot turn against {link_words(driver.against)}: slides "
                 "join them",
-                f"slide = {quoted(driver.link)}" if link.slides else "a link that a pin joins",
+                f"slide = {own}" if link.slides else "a link that a pin joins",
+                changes=(Written(own, "slide", "turn"),) if link.slides else (),
             )
 
 

@@ -12,7 +12,7 @@ from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words,
 from graphkin.scene.quantity import SI
 from graphkin.structure.link_axes import body, metres, through, unit
 from graphkin.structure.turning import LEVEL, stands
-from graphkin.text.errors import Problem, StructureError
+from graphkin.text.errors import Problem, StructureError, WrittenInto
 
 TOUCH = 1e-9
 """Gap between wheels that touch, as a share of their distance, that rounding may leave."""
@@ -191,8 +191,11 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Proble
             f"centre {apart.wheel.centre} {shown(scene, abs(apart.distance))} to the {lies} of it"
         )
         side = "left" if rolling.side > 0 else "right"
-        hint = f'write side = "{lies}"' if apart.distance < 0 else ""
-        return Problem(place, found, f"{shown(scene, apart.needed)} to the {side}", hint)
+        expected = f"{shown(scene, apart.needed)} to the {side}"
+        if apart.distance >= 0:
+            return Problem(place, found, expected)
+        line = f'side = "{lies}"'
+        return Problem(place, found, expected, f"write {line}", (WrittenInto(line),))
     other = shown(scene, radius(scene, apart.track))
     centres = f"{apart.track.centre}-{apart.wheel.centre}"
     found = (
@@ -276,7 +279,7 @@ def keeper_asked(links: Collection[str], wheel: str, track: str) -> str:
 
     What keeps its wheel where it rolls was not put in, unless a name asks for it.
     """
-    whose = "the frame" if wheel == FRAME else f"link {wheel}"
+    whose = link_words(wheel)
     moving = [name for name in links if name != FRAME]
     return (
         f"if a pin and the wheel of {whose} alone hold link {track}, "

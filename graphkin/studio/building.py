@@ -14,7 +14,7 @@ from msgspec import Struct
 from tomlkit.exceptions import TOMLKitError
 
 from graphkin.scene.file_limits import tables_of
-from graphkin.scene.model import FRAME, KEYWORDS
+from graphkin.scene.model import FRAME, KEYWORDS, link_words
 from graphkin.studio.drawn_closure import drawn_closed
 from graphkin.studio.names_in_text import forget, named_anew, raw, renamed, says
 from graphkin.studio.sketch import (
@@ -202,8 +202,8 @@ def refuse_bar(work: Builder, start: str, end: str) -> None:
         raise SceneError(Problem(line, "begins and ends at one pin", "two pins"))
     for name, points in {FRAME: work.fixed, **work.links}.items():
         if start in points and end in points:
-            whole = "the frame" if name == FRAME else f"link {name}"
-            raise SceneError(Problem(line, f"both pins belong to {whole}", "pins of two links"))
+            found = f"both pins belong to {link_words(name)}"
+            raise SceneError(Problem(line, found, "pins of two links"))
 
 
 def plate(work: Builder, act: Act) -> None:
@@ -401,16 +401,14 @@ def refuse_join(work: Builder, first: str, second: str) -> None:
     bodies = {FRAME: work.fixed, **work.links}
     for name, points in bodies.items():
         if first in points and second in points:
-            whole = "the frame" if name == FRAME else f"link {name}"
-            raise SceneError(Problem(both, f"belong both to {whole}", "pins of two links"))
+            found = f"belong both to {link_words(name)}"
+            raise SceneError(Problem(both, found, "pins of two links"))
     tables = links_of(work.document)
     ones = [name for name, points in bodies.items() if first in points]
     others = [name for name, points in bodies.items() if second in points]
     for one, other in product(ones, others):
-        names = " and ".join(
-            "the frame" if each == FRAME else f"link {each}" for each in (one, other)
-        )
         if {*bodies[one]} & {*bodies[other]}:
+            names = f"{link_words(one)} and {link_words(other)}"
             found = f"{names} would share two pins and be one body"
             raise SceneError(Problem(both, found, "links that share one pin"))
         for block, guide in ((one, other), (other, one)):

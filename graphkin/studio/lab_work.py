@@ -13,7 +13,6 @@ from threading import Lock
 from typing import Any, TypeVar
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges
 from graphkin.classroom.lab.lab_model import Formula, Lab
@@ -87,18 +86,8 @@ def answered(texts: LabTexts, work: Callable[[Lab], Found]) -> Found | LabProble
         with texts.lab() as lab:
             return work(lab)
     except GraphkinError as error:
-        parts = [(*split(problem.place), problem) for problem in error.problems]
-        own = [replace(problem, place=place) for file, place, problem in parts if file == LAB]
-        other = [replace(problem, place=place) for file, place, problem in parts if file != LAB]
-        return LabProblems(tuple(own), tuple(other))
-
-
-def split(place: str) -> tuple[str, str]:
-    """The file that a place names, and the place within it."""
-    file, colon, rest = place.partition(": ")
-    if colon and file in (LAB, SCENE):
-        return file, rest
-    return (place, "") if place in (LAB, SCENE) else ("", place)
+        own = tuple(each for each in error.problems if each.file == LAB)
+        return LabProblems(own, tuple(each for each in error.problems if each.file != LAB))
 
 
 def beside(work: Callable[[LabTexts], Any], texts: LabTexts, go_on: Callable[[], None]) -> Any:

@@ -15,14 +15,14 @@ from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import DRIVEN, JOINED, KEYWORDS, Scene
 from graphkin.scene.read_scene import known_keys, read_text
+from graphkin.scene.toml_spans import Span, spans
 from graphkin.studio.mends import units
 from graphkin.studio.panels import Memory, panels, style
 from graphkin.studio.problem_places import MarkedProblem, marked
 from graphkin.studio.result_panel import margins, results, verdict_words
 from graphkin.studio.sliders import sliders
-from graphkin.studio.toml_spans import Span, spans
 from graphkin.text import Words, words
-from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.errors import GraphkinError, Problem, Setting, Sought
 from graphkin.text.markup import as_text
 from graphkin.text.problems import spoken
 
@@ -94,11 +94,6 @@ def editing_help(text: str, name: str) -> EditingHelp:
     return EditingHelp(keys, [*points], [*links], [*parameters], spots)
 
 
-SETTING = "setting "
-"""What begins the place of a problem of a parameter that is set from outside."""
-STRANGER = "is no parameter"
-
-
 class Sight(Struct, frozen=True):
     """What is to be looked at: a text, the values of its sliders, and how it is shown.
 
@@ -136,23 +131,9 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
 
 def read(sight: Sight) -> Scene:
     """The scene of a text; values of sliders that it has no longer are dropped."""
-    try:
-        return read_text(sight.text, sight.name, None, sight.settings)
-    except SceneError as error:
-        gone = strangers(error.problems)
-        if not gone:
-            raise
-    settings = {name: value for name, value in sight.settings.items() if name not in gone}
-    return read_text(sight.text, sight.name, None, settings)
-
-
-def strangers(problems: Iterable[Problem]) -> set[str]:
-    """The settings that are no parameters of the scene."""
-    return {
-        problem.place.removeprefix(SETTING)
-        for problem in problems
-        if problem.place.startswith(SETTING) and problem.found.endswith(STRANGER)
-    }
+    found = spans(sight.text) if sight.settings else {}
+    own = {name: set_ for name, set_ in sight.settings.items() if ("parameters", name) in found}
+    return read_text(sight.text, sight.name, None, own)
 
 
 def drawn(
@@ -194,7 +175,10 @@ def doubts(margin: float, verdict: Verdict) -> list[Problem]:
         return found
     flattest = f"the flattest crossing has a sine of {margin:.1e}"
     hint = "the position is nearly singular: choose another driver angle"
-    return [Problem("position", flattest, f"at least {FAIR:g}", hint), *found]
+    return [
+        Problem("position", flattest, f"at least {FAIR:g}", hint, about=(Sought(),)),
+        *found,
+    ]
 
 
 def told_in(problems: Iterable[Problem], text: str, language: str) -> list[dict[str, Any]]:
@@ -204,7 +188,8 @@ def told_in(problems: Iterable[Problem], text: str, language: str) -> list[dict[
 
 def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
     """A problem as a record, with its line and what to select; the setting it is about, if any."""
-    place, said = mark.problem.place, spoken(mark.problem, language)
+    said = spoken(mark.problem, language)
+    setting = next((each.name for each in mark.problem.about if isinstance(each, Setting)), "")
     return {
         "place": said.place,
         "found": said.found,
@@ -215,7 +200,7 @@ def told(mark: MarkedProblem, language: str) -> dict[str, Any]:
         "column": mark.column,
         "start": mark.start,
         "end": mark.end,
-        "setting": place.removeprefix(SETTING) if place.startswith(SETTING) else "",
+        "setting": setting,
     }
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
 
-from graphkin.studio.toml_spans import Path, Span, parts, walked
+from graphkin.scene.toml_spans import Path, Span, parts, walked
 from graphkin.text.errors import (
     Change,
     DriverAdded,
@@ -18,14 +18,12 @@ from graphkin.text.errors import (
     Problem,
     TakenOut,
     Written,
+    WrittenInto,
 )
 
 MOST = 4
 """Mends that are offered for one mistake."""
 END_OF_LINE, END_OF_TABLE = re.compile(r"\n"), re.compile(r"\n\s*\[")
-LINE = r"[\w-]+ = (?:\"[^\"{]*\"|-?[\d.]+|true)"
-"""A key with its value, as messages write it."""
-INTO = re.compile(rf"write ({LINE})")
 
 
 class Edit(Struct, frozen=True):
@@ -54,7 +52,7 @@ def mends_of(problem: Problem, text: str, span: Span | None) -> list[Edit]:
     walk = walked(text)
     lines = Lines(text, walk.found, walk.values)
     made = (edit for change in problem.changes for edit in lines.changed_by(change, problem))
-    return list(dict.fromkeys([*made, *lines.keys(problem)]))[:MOST]
+    return list(dict.fromkeys(made))[:MOST]
 
 
 def corrected(hint: Mend, text: str, span: Span) -> Edit | None:
@@ -92,6 +90,8 @@ class Lines:
         match change:
             case Written():
                 yield from self.written(change, path)
+            case WrittenInto(line=line):
+                yield from self.put_into(line, (*path[:-1], *parts(str(path[-1]))))
             case TakenOut() if path in self.found:
                 yield self.without(self.found[path])
             case FirstLine(line=line):
@@ -135,30 +135,18 @@ class Lines:
                 yield self.changed(Span(start, start + len(str(path[2]))), whole)
                 return
 
-    def keys(self, problem: Problem) -> Iterator[Edit]:
-        """A line that is said to be expected in place of the one that is wrong, or to be written
-        into its table.
-        """
-        path = parted(problem.place)
-        expected = re.fullmatch(LINE, problem.expected)
-        into = INTO.fullmatch(str(problem.hint))
-        if expected and path in self.found and "[" not in str(path[-1]):
-            yield self.changed(self.found[path], expected[0])
-        elif into and self.text[: self.end(tuple(parts(problem.place)))].endswith("}"):
-            at = self.end(tuple(parts(problem.place))) - 1
-            at = len(self.text[:at].rstrip())
-            yield self.edit(Span(at, at), f", {into[1]}")
+    def put_into(self, line: str, path: Path) -> Iterator[Edit]:
+        """A key with its value as the last of a table in braces."""
+        span = self.values.get(path)
+        if span is not None and self.of(span).endswith("}"):
+            at = len(self.text[: span.end - 1].rstrip())
+            yield self.edit(Span(at, at), f", {line}")
 
     # --- edits ---------------------------------------------------------------------------------
 
     def of(self, span: Span) -> str:
         """What stands at a span."""
         return self.text[span.start : span.end]
-
-    def end(self, path: Path) -> int:
-        """Where the value of a key ends; 0 for a key that is not written."""
-        span = self.values.get(path)
-        return 0 if span is None else span.end
 
     def edit(self, span: Span, words: str, before: str = "") -> Edit:
         """An edit, counted as a browser does."""

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 
 from msgspec import Struct
 
-from graphkin.scene.file_limits import WHERE
+from graphkin.scene.toml_spans import Path, Span, parts, spans
 from graphkin.studio.mends import Edit, mends_of, units
-from graphkin.studio.toml_spans import Path, Span, parts, spans
-from graphkin.text.errors import Problem
+from graphkin.text.errors import InLine, Problem, Setting, Sought
 
-LINE = re.compile(r"line (\d+)")
-SETTING = re.compile(r"(?:setting|parameter) (\S+)")
-ABOUT = re.compile(r"[A-Za-z ]+ of (?:links? )?(.+)")
-POSITION = "position"
-"""The place of what is wrong with the position as a whole."""
 SOLID = ("frame", "links")
 """The tables whose keys hold points."""
 VERSION = ("graphkin",)
@@ -56,17 +48,15 @@ def mark_of(problem: Problem, text: str, span: Span | None) -> MarkedProblem:
     stop = text.find("\n", start)
     end = min(end, len(text) if stop < 0 else stop)
     line = text.count("\n", 0, start) + 1
-    told = LINE.fullmatch(problem.place)
-    column = failing(text, line) if told else None
-    column = 0 if column is None else column + 1
+    told = line_of(problem)
+    column = told.column if told else 0
     return MarkedProblem(problem, line, units(text[:start]), units(text[:end]), column, mends)
 
 
 def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | None:
     """What of the text a problem is about; the nearest heading where its key is not written."""
-    line = LINE.fullmatch(problem.place)
-    if line:
-        return span_of_line(text, int(line[1]))
+    if told := line_of(problem):
+        return span_of_line(text, told)
     if not problem.place:
         return found.get(VERSION, Span(0, 0))
     for path in paths(problem, found):
@@ -78,6 +68,11 @@ def span_of(problem: Problem, text: str, found: Mapping[Path, Span]) -> Span | N
     return None
 
 
+def line_of(problem: Problem) -> InLine | None:
+    """The line that a problem is about, if it is about one."""
+    return next((each for each in problem.about if isinstance(each, InLine)), None)
+
+
 def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
     """The paths that a problem may mean, the likeliest first.
 
@@ -85,24 +80,21 @@ def paths(problem: Problem, found: Mapping[Path, Span]) -> Iterator[Path]:
     longest is meant; what cannot be found by drawing is settled by a branch, else by a length
     there, else by where the drivers stand.
     """
-    place = problem.place
-    setting, about = SETTING.fullmatch(place), ABOUT.fullmatch(place)
-    yield from (path for path in problem.about if path in found or pinned(path, found))
-    if setting:
-        yield "parameters", setting[1]
-    elif about:
-        names = re.split(r"[,\s-]+", about[1])
-        tried = [(table, name) for name in names for table in ("branches", "links")]
-        yield from (path for path in tried if path in found)
-        yield from (path for name in names for path in holding(name, found))
-        yield DRIVERS
-    elif place == POSITION or place.endswith(f": {POSITION}"):
-        yield DRIVERS
-    else:
-        path = tuple(parts(place.partition(", ")[0]))
-        yield path
-        if path[0] == "branches":
-            yield from holding(str(path[-1]), found)
+    for about in problem.about:
+        match about:
+            case Setting(name=name):
+                yield "parameters", name
+            case Sought(names=names):
+                tried = [(table, name) for name in names for table in ("branches", "links")]
+                yield from (path for path in tried if path in found)
+                yield from (path for name in names for path in holding(name, found))
+                yield DRIVERS
+            case tuple() if about in found or pinned(about, found):
+                yield about
+    path = tuple(parts(problem.place))
+    yield path
+    if path[0] == "branches":
+        yield from holding(str(path[-1]), found)
 
 
 def pinned(path: Path, found: Mapping[Path, Span]) -> Span | None:
@@ -122,26 +114,14 @@ def holding(point: str, found: Mapping[Path, Span]) -> Iterator[Path]:
             yield path
 
 
-def span_of_line(text: str, number: int) -> Span:
+def span_of_line(text: str, told: InLine) -> Span:
     """A line without the blanks around it, from the sign at which it fails to be TOML."""
     lines = text.split("\n")
-    number = min(number, len(lines))
+    number, column = min(told.line, len(lines)), told.column - 1
     start = sum(len(line) + 1 for line in lines[: number - 1])
     line = lines[number - 1]
     first, last = len(line) - len(line.lstrip()), len(line.rstrip())
-    column = failing(text, number)
     heading = line.lstrip().startswith("[")
-    if column is not None and first < column < last and line[column] != "#" and not heading:
+    if first < column < last and line[column] != "#" and not heading:
         first = column
     return Span(start + first, start + last)
-
-
-def failing(text: str, number: int) -> int | None:
-    """The column, from 0, at which a text fails to be TOML on a line."""
-    try:
-        tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        where = re.search(WHERE, str(error))
-        if where and where[1] and int(where[1]) == number:
-            return int(where[2]) - 1
-    return None

@@ -14,7 +14,7 @@ from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import held
 from graphkin.construction.core.solution import Solution, Verdict
-from graphkin.construction.result_tables import slide_rows, turning_rows, vector_rows
+from graphkin.construction.result_tables import slide_rows, turning_rows, unread, vector_rows
 from graphkin.documents.centre_tables import breadth_of, completed, place_of
 from graphkin.documents.flattest import crossings_on
 from graphkin.drawing.columns import Row
@@ -40,8 +40,12 @@ WHERE = {
 
 
 def results(drawings: Sequence[Drawing], solution: Solution) -> str:
-    """What is read off the plans, the angular values, what slides, centres and poles."""
-    parts = [part for drawing in drawings for part in read_off(drawing, solution)]
+    """What is asked and cannot be read off; what is read off the plans, the angular values, what
+    slides, centres and poles.
+    """
+    notes = [note for drawing in drawings for note in unread(drawing, symbol)]
+    parts: list[str] = [filled("studio/web/notes.html", notes=notes)]
+    parts += [part for drawing in drawings for part in read_off(drawing, solution)]
     return "".join([*parts, *places(drawings[0].scene, solution, drawings[0].words)])
 
 

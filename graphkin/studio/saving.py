@@ -11,7 +11,8 @@ from pathlib import Path
 
 from msgspec import Struct
 
-from graphkin.documents.sheet_documents import hand_out
+from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.sheet_files import sheet_files
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
@@ -19,14 +20,12 @@ from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
-from graphkin.studio.sliders import written
 from graphkin.text.errors import SceneError
-from graphkin.writers.files import file_stem, rendered, write_all
+from graphkin.writers.files import file_stem, write_all
 
 VIEWS = ("key", "task", "steps", "overlay")
 PAGE = "html"
-PMKS = "pmks"
-FORMATS = ("svg", "pdf", PAGE, "dxf", PMKS)
+FORMATS = ("svg", "pdf", PAGE, "dxf", "pmks")
 MOST_LINES = 12
 """Lines that are shown of what saving would change in a file that is in the way."""
 
@@ -134,29 +133,16 @@ def sheets_of(folder: Folder, wanted: WantedSheets) -> dict[str, bytes]:
     text, language = wanted.text, wanted.language
     mechanism = Mechanism(read_text(text, stem_of(name), None, settings))
     stem = file_stem(mechanism.scene.name, values_of(mechanism.scene))
-    files: dict[str, bytes] = {}
-    if PAGE in formats:
-        from graphkin.classroom.page_documents import hand_out_page
-
-        lab = lab_of(folder, name, text)
-        page = hand_out_page(mechanism, lab, stem, view, language)
-        files[f"{stem}-{view}.{PAGE}"] = page.encode("utf-8")
-    if PMKS in formats:
-        from graphkin.documents.pmks_file import pmks_file
-
-        files[f"{stem}.{PMKS}"] = pmks_file(mechanism)
-    if set(formats) - {PAGE, PMKS}:
-        for part in hand_out(mechanism, view=view, language=language):
-            files |= rendered(
-                f"{stem}-{part.kind}-{view}", part.kind, part.pages, formats, steps=view == "steps"
-            )
-    return files
+    lab = lab_of(folder, name, text) if PAGE in formats else name
+    return sheet_files(mechanism, lab, stem, view, language, formats)[0]
 
 
 def values_of(scene: Scene) -> dict[str, str]:
     """The value of each parameter, as it is set from outside."""
     return {
-        name: written(Fraction(str(value))) for name, value in scene.values.items() if name != TIME
+        name: exact_text(Fraction(str(value)))
+        for name, value in scene.values.items()
+        if name != TIME
     }
 
 

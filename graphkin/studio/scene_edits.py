@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from graphkin.scene.findings import Findings
-from graphkin.scene.parameters import plain, rational
+from graphkin.scene.parameters import of_setting, plain, rational
 from graphkin.scene.quantity import shortest
+from graphkin.scene.toml_spans import values
 from graphkin.studio.mends import Edit, units
-from graphkin.studio.toml_spans import values
 from graphkin.text.errors import SceneError
 
 LONGEST = 100
@@ -41,9 +41,9 @@ def literal(name: str, value: str) -> str:
     Raises SceneError for what is no rational number.
     """
     findings = Findings()
-    number = number_of(value, f"setting {name}", findings)
+    number = number_of(value, findings)
     if number is None:
-        raise SceneError(findings.problems)
+        raise SceneError(of_setting(name, findings.problems))
     decimal = shortest(number)
     if Fraction(decimal) == number and "e" not in decimal:
         return decimal
@@ -52,11 +52,11 @@ def literal(name: str, value: str) -> str:
 
 def same(before: str, after: str) -> bool:
     """Whether two values as TOML are one number."""
-    one, other = (number_of(value.strip("\"'"), "", Findings()) for value in (before, after))
+    one, other = (number_of(value.strip("\"'"), Findings()) for value in (before, after))
     return one is not None and one == other
 
 
-def number_of(value: str, place: str, findings: Findings) -> Fraction | None:
+def number_of(value: str, findings: Findings) -> Fraction | None:
     """The exact number of a text; None, with a problem noted, where it is none."""
-    read = rational(place, value[:LONGEST], findings)
+    read = rational("", value[:LONGEST], findings)
     return None if read is None else plain(read)

@@ -267,54 +267,52 @@ class Session:
         text, name = order.scene(), completed(order.text("name"))
         language, view = language_in(order), order.choice("view", VIEWS)
         wanted = WantedSheets(text, name, order.settings(), language, view, ("svg",))
-        try:
+
+        def drawn() -> dict[str, Any]:
             with self.drawing():
                 sheets = sheets_of(self.folder, wanted)
-        except GraphkinError as error:
-            problems = told_in(error.problems, text, language_in(order))
-            return {"sheets": [], "problems": problems}
-        return {"sheets": [data.decode("utf-8") for data in sheets.values()], "problems": []}
+            return {"sheets": [data.decode("utf-8") for data in sheets.values()]}
+
+        return told(drawn, text, language, sheets=[])
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
         """Where the page of a mechanism that moves is found: with curves, or step by step."""
         text, stem = order.scene(), stem_of(order.text("name"))
         language, kind = language_in(order), order.choice("page", MOVING)
+        settings, driver = order.settings(), order.number("driver")
         drivers: list[str] = []
-        try:
-            mechanism = Mechanism(read_text(text, stem, None, order.settings()))
-            drivers = [driver_words(driver) for driver in mechanism.scene.drivers]
-            driver = order.number("driver")
+
+        def made() -> dict[str, Any]:
+            mechanism = Mechanism(read_text(text, stem, None, settings))
+            drivers.extend(map(driver_words, mechanism.scene.drivers))
             moved = driver if len(drivers) > 1 and 1 <= driver <= len(drivers) else None
             with self.drawing():
                 page = MOVING_PAGES[kind](mechanism, stem, language, moved)
-        except GraphkinError as error:
-            problems = told_in(error.problems, text, language)
-            return {"page": "", "problems": problems, "drivers": drivers}
-        key = new_token()
-        self.moving[key] = page
-        while len(self.moving) > TABS:
-            self.moving.popitem(last=False)
-        return {"page": f"moving/{key}", "problems": [], "drivers": drivers}
+            key = new_token()
+            self.moving[key] = page
+            while len(self.moving) > TABS:
+                self.moving.popitem(last=False)
+            return {"page": f"moving/{key}", "drivers": drivers}
+
+        return told(made, text, language, page="", drivers=drivers)
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
         """A lab.toml to start from, for any scene; or why there can be none."""
-        text = order.scene()
-        try:
-            rules = rules_for(Mechanism(read_text(text, stem_of(order.text("name")))))
-        except GraphkinError as error:
-            return {"rules": "", "problems": told_in(error.problems, text, language_in(order))}
-        return {"rules": rules, "problems": []}
+        text, stem = order.scene(), stem_of(order.text("name"))
+
+        def made() -> dict[str, Any]:
+            return {"rules": rules_for(Mechanism(read_text(text, stem)))}
+
+        return told(made, text, language_in(order), rules="")
 
     def write(self, order: PageRequest) -> dict[str, Any]:
         """The changes of a text that put the values of the sliders into it, or why they cannot."""
         text, settings = order.scene(), order.settings()
-        try:
-            return {
-                "edits": [to_builtins(edit, enc_hook=as_text) for edit in edits(text, settings)],
-                "problems": [],
-            }
-        except GraphkinError as error:
-            return {"edits": [], "problems": told_in(error.problems, text, language_in(order))}
+
+        def made() -> dict[str, Any]:
+            return {"edits": to_builtins(edits(text, settings), enc_hook=as_text)}
+
+        return told(made, text, language_in(order), edits=[])
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
         """The sketch of a scene in the gallery; none of one that cannot be read."""
@@ -341,13 +339,14 @@ class Session:
         if act.kind != "pivot" and not of:
             raise PageRequestError("of")
         text = order.scene()
-        try:
+
+        def done() -> dict[str, Any]:
             with self.drawing():
                 after = built(text, act)
-        except GraphkinError as error:
-            return {"text": text, "problems": told_in(error.problems, text, language_in(order))}
-        stand = {name: [at.real, at.imag] for name, at in after.places.items()}
-        return {"text": after.text, "places": stand, "problems": []}
+            stand = {name: [at.real, at.imag] for name, at in after.places.items()}
+            return {"text": after.text, "places": stand}
+
+        return told(done, text, language_in(order), text=text)
 
     def save(self, order: PageRequest) -> dict[str, Any]:
         """Save the text of a scene, whatever is wrong with it."""
@@ -360,7 +359,7 @@ class Session:
             with self.writing:
                 return save_scene(self.folder, whole, text, mark, replace=replace, rules=rules)
 
-        return self.saving(saved, text, language_in(order))
+        return saving(saved, text, language_in(order))
 
     def sheets(self, order: PageRequest) -> dict[str, Any]:
         """Draw and save the sheets of a text."""
@@ -380,15 +379,23 @@ class Session:
             with self.writing:
                 return save_files(self.folder, files, replace=replace)
 
-        return self.saving(saved, wanted.text, order.choice("page_language", LANGUAGES))
+        return saving(saved, wanted.text, order.choice("page_language", LANGUAGES))
 
-    def saving(self, work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
-        """What was written, what is in the way, or why nothing was written."""
-        try:
-            return {**to_builtins(work(), enc_hook=as_text), "problems": []}
-        except GraphkinError as error:
-            problems = told_in(error.problems, text, language)
-        return {**to_builtins(Saved()), "problems": problems}
+
+def saving(work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:
+    """What was written, what is in the way, or why nothing was written."""
+    nothing = to_builtins(Saved())
+    return told(lambda: to_builtins(work(), enc_hook=as_text), text, language, **nothing)
+
+
+def told(
+    work: Callable[[], dict[str, Any]], scene: str, language: str, /, **instead: Any
+) -> dict[str, Any]:
+    """What comes of a piece of work, with no problems, or what is there instead, with why."""
+    try:
+        return {**work(), "problems": []}
+    except GraphkinError as error:
+        return {**instead, "problems": told_in(error.problems, scene, language)}
 
 
 def language_of(text: str) -> str:

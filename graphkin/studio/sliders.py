@@ -10,10 +10,12 @@ from math import ceil, floor, log10
 
 from msgspec import Struct
 
+from graphkin.classroom.lab.rules import exact_text
 from graphkin.construction.core.parameter_words import unit_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Parameter, Scene
-from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.parameters import plain
+from graphkin.scene.quantity import Quantity
 
 MOST = 1000
 """Places of a slider at most; where a scene allows more, a slider stands at some of them."""
@@ -53,7 +55,7 @@ def slider(scene: Scene, parameter: Parameter) -> ParameterSlider:
     places, names = stops(plain(parameter.minimum or parameter.value), low, high, step)
     return ParameterSlider(
         parameter.name,
-        written(value),
+        exact_text(value),
         unit_of(scene, parameter.name),
         names,
         nearest(places, value),
@@ -62,20 +64,9 @@ def slider(scene: Scene, parameter: Parameter) -> ParameterSlider:
     )
 
 
-def written(value: Fraction) -> str:
-    """A value as a setting takes it, exact: a decimal where it ends, else a fraction."""
-    text = shortest(value)
-    return text if Fraction(text) == value else f"{value.numerator}/{value.denominator}"
-
-
 def bound(quantity: Quantity | None) -> str:
     """A bound as it is shown."""
-    return "" if quantity is None else written(plain(quantity))
-
-
-def plain(quantity: Quantity) -> Fraction:
-    """The value of a quantity without parameters."""
-    return Fraction(quantity.number({}))
+    return "" if quantity is None else exact_text(plain(quantity))
 
 
 def nearest(places: Sequence[Fraction], value: Fraction) -> int:
@@ -109,7 +100,7 @@ def stops(
     each = max(1, ceil(Fraction(last - first, MOST)))
     found = [begin + stride * k for k in range(first, last + 1, each)]
     places = sorted({low, *found, high}) if step is None else found or [start]
-    return places, tuple(map(written, places))
+    return places, tuple(map(exact_text, places))
 
 
 def fine(span: Fraction) -> Fraction:

@@ -64,14 +64,50 @@ class PointRenamed(Struct, frozen=True):
     new: str
 
 
-Change = Written | TakenOut | FirstLine | DriverAdded | DriverTaken | PointRenamed
+class WrittenInto(Struct, frozen=True):
+    """A key with its value put into the table in braces that stands at a problem's place."""
+
+    line: str
+
+
+Change = Written | WrittenInto | TakenOut | FirstLine | DriverAdded | DriverTaken | PointRenamed
 """What would mend a problem, each alone."""
+
+
+class InLine(Struct, frozen=True):
+    """A line of the text and the column at which it is no TOML, from 1; 0 for none."""
+
+    line: int
+    column: int = 0
+
+    def __str__(self) -> str:
+        return f"line {self.line}"
+
+
+class Setting(Struct, frozen=True):
+    """A parameter whose value is set from outside the text."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return f"setting {self.name}"
+
+
+class Sought(Struct, frozen=True):
+    """Links and points that are to be found by drawing; none for the position as a whole."""
+
+    names: tuple[str, ...] = ()
+
+
+About = tuple[str, ...] | InLine | Setting | Sought
+"""What a problem is about where its place is no key: a key with its tables, or one of these."""
 
 
 class Problem(Struct, frozen=True):
     """One thing wrong at one place, in words that help to mend it, and the changes that would.
 
-    ``about`` are the keys, with their tables, that it is about if that is not its place.
+    ``place`` is the dotted key, or words where ``about`` says what it is about; ``file`` is told
+    before it where there are several files.
     """
 
     place: str
@@ -79,11 +115,12 @@ class Problem(Struct, frozen=True):
     expected: str = ""
     hint: Hint = ""
     changes: tuple[Change, ...] = ()
-    about: tuple[tuple[str, ...], ...] = ()
+    about: tuple[About, ...] = ()
+    file: str = ""
 
     def __str__(self) -> str:
-        """Read as one sentence: place: found; expected …; hint."""
-        parts = [f"{self.place}: {self.found}" if self.place else self.found]
+        """Read as one sentence: file: place: found; expected …; hint."""
+        parts = [": ".join(filter(None, (self.file, self.place, self.found)))]
         if self.expected:
             parts.append(f"expected {self.expected}")
         if self.hint:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
@@ -51,7 +51,7 @@ def rendered(
     stem: str,
     kind: str,
     pages: Sequence[Page],
-    formats: Sequence[str],
+    formats: Collection[str],
     ink: Ink = "colour",
     *,
     steps: bool = False,
@@ -113,6 +113,23 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
     problems += [Problem(str(t), "is a folder", "a place for a file") for t in folders]
     if problems:
         raise FileError(problems)
+
+
+def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = False) -> None:
+    """Raise PageError, before anything is worked out, where no file can be written into a folder.
+
+    A file without a name is written into it, or into the folder in which it is to be made; what
+    ``names`` would replace is told as by ``refuse_existing``.
+    """
+    from tempfile import TemporaryFile
+
+    refuse_existing(folder, [folder / name for name in names], force)
+    try:
+        there = next(path for path in (folder, *folder.parents) if path.exists())
+        with TemporaryFile(dir=there):
+            pass
+    except OSError as error:
+        raise cannot_write(str(folder), error) from error
 
 
 def in_the_way(there: Sequence[Path]) -> Problem:

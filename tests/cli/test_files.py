@@ -11,7 +11,8 @@ import pytest
 
 from graphkin.text.errors import PageError
 from graphkin.writers import files
-from graphkin.writers.files import file_stem, write_all
+from graphkin.writers.files import file_stem, refuse_folder, write_all
+from tests.running import Run
 
 FILES = {"a.txt": b"one", "b.txt": b"two", "c.txt": b"three"}
 
@@ -118,3 +119,35 @@ def test_what_comes_into_a_folder_while_a_run_waits_is_not_replaced(
     with pytest.raises(PageError, match="exists already"):
         write_all(tmp_path, {"a.svg": b"new"}, force=False)
     assert (tmp_path / "a.svg").read_bytes() == b"other"
+
+
+WORK = {
+    "sheet": "graphkin.documents.sheet_documents.hand_out",
+    "cycle": "graphkin.motion.cycle.cycle",
+    "accuracy": "graphkin.accuracy.study.study",
+    "quiz": "graphkin.classroom.quiz.moodle_quiz.variants_of",
+    "ranges": "graphkin.classroom.lab.fair_ranges.fair_ranges",
+}
+"""The commands that write into a folder, and what takes them long."""
+
+
+@pytest.mark.parametrize("command", WORK)
+def test_a_folder_that_cannot_be_written_is_told_before_anything_is_worked_out(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    worked: list[object] = []
+    monkeypatch.setattr(WORK[command], lambda *given, **more: worked.append(given))
+    (tmp_path / "file").write_text("no folder")
+    out = tmp_path / "file" / "new"
+    result = run(command, "pump", "-o", out)
+    assert result.exit_code == 2
+    assert result.stderr == (
+        f"graphkin: {out}: cannot be written: not a directory; expected a folder that can be "
+        "written; name one with -o\n"
+    )
+    assert not worked
+
+
+def test_trying_a_folder_leaves_nothing_and_makes_nothing(tmp_path: Path) -> None:
+    refuse_folder(tmp_path / "a" / "b")
+    assert names(tmp_path) == []

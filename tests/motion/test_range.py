@@ -88,8 +88,10 @@ def test_where_nothing_closes_is_an_error_that_says_so():
 
 
 def test_a_driver_that_there_is_not_is_refused():
-    with pytest.raises(SceneError, match="there is no driver 3"):
+    with pytest.raises(SceneError, match="there is no driver 3; expected 1 to 2"):
         cycle(five_bar(), driver=3)
+    with pytest.raises(SceneError, match="there is no driver 9; expected 1, the only driver"):
+        cycle(four_bar(1, 2, 2, 20), driver=9)
     with pytest.raises(SceneError, match="a window that grows"):
         cycle(five_bar(), low=2, high=1)
 

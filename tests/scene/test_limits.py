@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from graphkin.scene import scene_files
 from graphkin.scene.file_limits import NUMBER, OTHER_LETTER, PARTS, PLAIN, VALUE
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text.errors import MORE, Problem, SceneError
@@ -16,10 +18,14 @@ HEAD = 'graphkin = 1\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n
 DRIVER = "[[drivers]]\nturn = 1\nangle = 0\nspeed = 1\n"
 
 
-def first_problem(text: str) -> Problem:
+def problems_of(text: str) -> tuple[Problem, ...]:
     with pytest.raises(SceneError) as caught:
         read_text(text, "hostile")
-    return caught.value.problems[0]
+    return caught.value.problems
+
+
+def first_problem(text: str) -> Problem:
+    return problems_of(text)[0]
 
 
 BOMBS = {
@@ -34,8 +40,7 @@ BOMBS = {
     "unclosed": ('x = "', "not TOML"),
     "control character": ("x = '\x00'", "not TOML"),
     "surrogate": ('x = "\\ud800"', "not TOML"),
-    "duplicate key": ("x = 1\nx = 2", "not TOML: cannot overwrite a value"),
-    "duplicate table": ("[links.1]\n[links.1]", "twice"),
+    "key of a value": ("x = 1\nx.y = 2", "not TOML: cannot overwrite a value"),
     "too many links": (
         HEAD + "".join(f"[links.{i}]\n" for i in range(1, 502)) + DRIVER,
         "501 links",
@@ -52,9 +57,6 @@ def test_bombs_do_not_go_off(name: str) -> None:
 
 
 def test_syntax_errors_name_their_line() -> None:
-    wrong = first_problem("graphkin = 1\ntitle = 'a'\ntitle = 'b'\n")
-    assert wrong.place == "line 3"
-    assert str(wrong.hint) == "the same key or table is written above"
     assert first_problem("graphkin = 1\n\nlinks = [").place == "line 3"
 
 
@@ -110,9 +112,55 @@ def test_a_quote_that_is_not_closed_is_told(line: str) -> None:
     assert str(wrong.hint) == "put its quote at its end"
 
 
-def test_a_link_written_twice_is_named() -> None:
-    wrong = first_problem("graphkin = 1\n[links.2]\n[links.3]\n[links.2]\n")
-    assert str(wrong) == "line 4: links.2 is written twice; write it under one heading"
+PUMP = Path(scene_files.find("pump")).read_text(encoding="utf-8")
+LINES = PUMP.splitlines()
+KEYS = [number for number, line in enumerate(LINES) if re.match(r"[\w-]+ = ", line)]
+HEADINGS = [number for number, line in enumerate(LINES) if re.match(r"\[\w", line)]
+
+
+@pytest.mark.parametrize("number", KEYS, ids=lambda number: LINES[number])
+def test_a_key_that_stands_twice_is_told_with_both_lines_and_what_else_is_wrong(
+    number: int,
+) -> None:
+    """Its first value is read: no other problem comes of the second, and others are told too."""
+    twice = "\n".join([*LINES[: number + 1], LINES[number], *LINES[number + 1 :], "[colours]"])
+    key = LINES[number].partition(" ")[0]
+    wrong, other = problems_of(twice)
+    assert (wrong.place, other.place) == (f"line {number + 2}", "colours")
+    assert re.fullmatch(
+        rf"([\w\[\].]+\.)?{key} is written twice, first in line {number + 1}", wrong.found
+    )
+
+
+@pytest.mark.parametrize("number", HEADINGS, ids=lambda number: LINES[number])
+def test_a_table_may_be_told_under_two_headings_to_read_it_whole(number: int) -> None:
+    """A heading again before the table's last line: all its keys are read, as is the rest."""
+    end = next((n for n in range(number + 1, len(LINES)) if LINES[n][:1] in "["), len(LINES)) - 1
+    text = "\n".join([*LINES[:end], LINES[number], *LINES[end:]])
+    (wrong,) = problems_of(text)
+    assert str(wrong) == (
+        f"line {end + 1}: {LINES[number].split(']')[0][1:]} is written twice, first in line "
+        f"{number + 1}; expected one heading of a table; write all of it under the first"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "places"),
+    [
+        ("a = { b = 1, b = 2 }\n", ["line 1"]),
+        ("a = { b = 1 }\na = { b = 2 }\n[a.b]\n", ["line 2", "line 3"]),
+        ("[[a]]\n[a]\n[a.b]\nc = 1\n[[a]]\nc = 1\nc = 1\n", ["line 2", "line 7"]),
+        ("a.b = 1\n[a]\nb = 2\n[[a]]\n", ["line 2", "line 3", "line 4"]),
+        ("a = 1\na = 2\n\nb = \na = 3\n", ["line 2", "line 4"]),
+        ("a = 1\na = 2\nb = " + "[" * 1500, ["line 2", ""]),
+    ],
+)
+def test_what_stands_twice_is_told_with_what_is_no_toml_after_it(
+    text: str, places: list[str]
+) -> None:
+    found = [problem.place for problem in problems_of(text)]
+    assert found[: len(places)] == places
+    assert not any(place.startswith("line") for place in found[len(places) :])
 
 
 LONG_TABLES = {

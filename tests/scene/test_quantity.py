@@ -155,45 +155,34 @@ def test_a_quantity_knows_what_it_uses() -> None:
 
 
 @pytest.mark.parametrize(
-    "text",
+    ("text", "gives"),
     [
-        "9**9**9",
-        "2**(10**9)",
-        "((2**64)**64)**64",
-        "10**(-65)",
-        "(pi**64)**64",
-        "1/0",
-        "1/(n - 7)",
-        "0**-1",
-        "sqrt(-1)",
-        "sqrt(-pi)",
-        "(-2)**0.5",
-        "(-pi)**0.5",
-        "tan(90)",
-        "tan(-270)",
-        "m + 1",
+        ("9**9**9", "an exponent above 64"),
+        ("2**(10**9)", "an exponent above 64"),
+        ("((2**64)**64)**64", "a number that grows without bound"),
+        ("10**(-65)", "an exponent above 64"),
+        ("(pi**64)**64", "a number that grows without bound"),
+        ("((pi*n)**64)**64", "a number that grows without bound with n = 7"),
+        ("*".join(["(pi*n)**64"] * 4), "a number that grows without bound with n = 7"),
+        ("1/0", "division by zero"),
+        ("1/(n - 7)", "division by zero with n = 7"),
+        ("0**-1", "division by zero"),
+        ("sqrt(-1)", "the square root of a negative number"),
+        ("sqrt(-pi)", "the square root of a negative number"),
+        ("(-2)**0.5", "a broken power of a negative number"),
+        ("(-pi)**0.5", "a broken power of a negative number"),
+        ("tan(90)", "the tangent of a right angle"),
+        ("tan(-270)", "the tangent of a right angle"),
+        ("m + 1", "no value for m"),
     ],
 )
-def test_what_has_no_value_is_a_scene_error(text: str) -> None:
-    with pytest.raises(SceneError) as caught:
-        expression(text, "cm", "links.1.A-B").number(SEVEN)
-    assert caught.value.problems[0].place == "links.1.A-B"
-    assert text in caught.value.problems[0].found
-
-
-@pytest.mark.parametrize("text", ["((pi*n)**64)**64", "*".join(["(pi*n)**64"] * 4)])
-def test_a_number_too_large_for_a_double_names_the_parameters(text: str) -> None:
-    """As a power, and as a product of powers that are doubles."""
+def test_what_has_no_value_is_a_scene_error(text: str, gives: str) -> None:
     with pytest.raises(SceneError) as caught:
         expression(text, "cm", "links.1.A-B").number(SEVEN)
     (problem,) = caught.value.problems
     assert problem.place == "links.1.A-B"
-    assert problem.found == f'"{text}" gives a number that grows without bound with n = 7'
-
-
-def test_division_by_zero_names_the_parameters() -> None:
-    with pytest.raises(SceneError, match=r"drivers\[0\].angle: .*division by zero with n = 7"):
-        expression("1/(n - 7)", "deg", "drivers[0].angle").number(SEVEN)
+    assert problem.found == f'"{text}" gives {gives}'
+    assert problem.expected
 
 
 @pytest.mark.parametrize(
@@ -261,11 +250,6 @@ def test_derivatives_keep_their_units() -> None:
     assert expression("n**2", "cm").derivative("n").unit == "cm"
     assert law.derivative("t").si({"t": Fraction(0)}) == pytest.approx(math.pi / 18)
     assert expression("5*t**2", "cm").derivative("t").si({"t": Fraction(2)}) == 0.2
-
-
-def test_an_exponent_may_not_hold_the_time() -> None:
-    with pytest.raises(SceneError, match="an exponent that holds t"):
-        expression("2**t", "deg").derivative("t")
 
 
 def test_the_tree_is_reckoned_again_for_each_setting() -> None:

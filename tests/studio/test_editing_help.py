@@ -12,7 +12,6 @@ from graphkin.studio.look import editing_help, every_key
 from graphkin.studio.mends import Edit
 from graphkin.text.errors import Mend
 from tests.golden.works import small_text
-from tests.studio.pump import seen
 from tests.studio.test_places import PUMP, SCENES, mistakes, selected_span
 
 KINDS = re.compile(r"\[\d+\]")
@@ -105,13 +104,11 @@ def test_a_mend_leaves_its_mistake_behind(right, wrong):
 def test_each_mend_that_is_offered_takes_its_mistake_away(name, count):
     """Of mistakes whose messages say what may stand instead, each of it is offered."""
     text = small_text("mistakes", name)
-    found = [(each["place"], each["found"], each["mends"]) for each in seen(text)["problems"]]
-    place, words, mends = next(each for each in found if each[2])
-    assert len(mends) == count
-    for mend in mends:
-        edit = Edit(mend["start"], mend["end"], mend["text"])
-        left = seen(applied(text, edit))["problems"]
-        assert (place, words) not in [(each["place"], each["found"]) for each in left]
+    wrong = next(mark for mark in mistakes(text) if mark.mends)
+    assert len(wrong.mends) == count
+    for mend in wrong.mends:
+        left = [mark.problem for mark in mistakes(applied(text, mend))]
+        assert (wrong.problem.place, wrong.problem.found) not in [(p.place, p.found) for p in left]
 
 
 def applied(text: str, edit: Edit) -> str:

@@ -13,9 +13,11 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
+from graphkin.scene.read_scene import read_text
 from graphkin.studio.panels import Memory, StaleError, around
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import WitnessError
+from tests.chosen import FOLDER
 from tests.scene_files import scene_text
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
 
@@ -43,6 +45,27 @@ def test_the_numbers_are_those_of_the_solution():
     said = [float(cell.replace("−", "-")) for cell in told["I3"][1:]]
     assert said == pytest.approx([100 * place.real, 100 * place.imag], rel=1e-3)
     assert found["verdict"]["agrees"]
+
+
+CRANK, WHEEL = (
+    (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+    for name in ("slider-crank", "geneva-dwell")
+)
+NEAR = CRANK.replace('angle = "angle"', "angle = 0.2").replace(", offset = 30", "")
+"""A piston on the line of its crank, near its dead point; the wheel dwells."""
+
+
+@pytest.mark.parametrize(
+    ("language", "text"), [("ro", NEAR), ("en", WHEEL), ("it", PUMP)], ids=["near", "wheel", "pump"]
+)
+def test_what_is_asked_and_cannot_be_read_off_is_told_as_sheets_tell_it(language, text):
+    told = [
+        unescape(re.sub(r"<[^>]+>", "", note)).replace("_", "")
+        for note in re.findall('<p class="note">(.*)</p>', seen(text, language=language)["results"])
+    ]
+    sheets = hand_out(Mechanism(read_text(text, "scene")), language=language)
+    assert told == [note.replace("_", "") for part in sheets for note in part.unread]
+    assert bool(told) == (text is not PUMP)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -12,9 +12,9 @@ import pytest
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
-from graphkin.studio.problem_places import LINE, MarkedProblem, marked
-from graphkin.studio.toml_spans import Path as Keys
-from graphkin.studio.toml_spans import spans
+from graphkin.scene.toml_spans import Path as Keys
+from graphkin.scene.toml_spans import spans
+from graphkin.studio.problem_places import MarkedProblem, line_of, marked
 from graphkin.text.errors import GraphkinError, Problem, SceneError
 from tests.chosen import CHOSEN, FOLDER
 from tests.scene.conftest import DATA
@@ -156,8 +156,9 @@ def test_the_line_of_every_known_mistake_holds_the_key_that_its_place_names():
 def holds_its_key(text: str, problem: Problem) -> None:
     """The last key that is written at all; of a list, the element lies within its key's line."""
     (mark,) = marked([problem], text)
-    if LINE.fullmatch(problem.place):
-        assert mark.line == int(problem.place.split()[1])
+    if told := line_of(problem):
+        assert problem.place == f"line {told.line}"
+        assert mark.line == told.line
         assert 0 <= mark.column <= len(text.split("\n")[mark.line - 1]) + 1
         return
     assert mark.line, str(problem)
@@ -166,7 +167,7 @@ def holds_its_key(text: str, problem: Problem) -> None:
     if not problem.place:
         assert mark.line == 1
         return
-    lone = [path[-1] for path in problem.about if "-" not in path[-1]]
+    lone = [path[-1] for path in problem.about if isinstance(path, tuple) and "-" not in path[-1]]
     if lone:
         assert lone[0] in words
         return

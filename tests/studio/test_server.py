@@ -8,6 +8,7 @@ import socket
 from collections.abc import Iterator
 from contextlib import suppress
 from http.client import HTTPConnection, HTTPResponse
+from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -26,11 +27,28 @@ from tests.studio.pump import LONG, PUMP, desk_in, ordered, running
 JSON = {"Content-Type": "application/json"}
 
 
-@pytest.fixture
-def served(tmp_path) -> Iterator[Served]:
-    """A studio that runs in an empty folder."""
-    with running(serve(desk_in(tmp_path))) as found:
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the studio; a secret lies beside it."""
+    found = tmp_path_factory.mktemp("around") / "here"
+    found.mkdir()
+    (found.parent / "secret.toml").write_text(PUMP, encoding="utf-8")
+    return found
+
+
+@pytest.fixture(scope="module")
+def served(place: Path) -> Iterator[Served]:
+    """A studio that runs in that folder."""
+    with running(serve(desk_in(place))) as found:
         yield found
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_left(place: Path) -> Iterator[None]:
+    """What a test has written into the folder is gone after it."""
+    yield
+    for path in place.iterdir():
+        path.unlink()
 
 
 def asked(
@@ -114,8 +132,7 @@ def test_every_work_is_for_the_page_alone_and_for_what_it_asks(served, name):
 @pytest.mark.parametrize(
     "name", ["../secret.toml", "/etc/passwd", "..", "", "x\u0000", "../../pyproject"]
 )
-def test_no_picture_is_drawn_of_what_lies_elsewhere(served, tmp_path, kind, name):
-    (tmp_path.parent / "secret.toml").write_text(PUMP, encoding="utf-8")
+def test_no_picture_is_drawn_of_what_lies_elsewhere(served, kind, name):
     order = json.dumps({"kind": kind, "name": name})
     answer, data = asked(served, "POST", "picture", order, **JSON)
     assert (answer.status, json.loads(data)) == (200, {"sketch": None})
@@ -184,10 +201,9 @@ def test_no_other_file_comes(served, path):
     assert b"root:" not in data
 
 
-@pytest.mark.parametrize("page", ["curves", "steps"])
-def test_a_page_that_moves_stands_within_the_page_and_reaches_nothing(served, page):
+def test_a_page_that_moves_stands_within_the_page_and_reaches_nothing(served):
     """It runs in a sandbox without a name of its own, in no other page, and loads nothing."""
-    order = json.dumps({"text": PUMP, "name": "pump.toml", "page": page})
+    order = json.dumps({"text": PUMP, "name": "pump.toml", "page": "steps"})
     found = json.loads(asked(served, "POST", "motion", order, **JSON)[1])
     answer, data = asked(served, "GET", found["page"])
     assert answer.status == 200
@@ -200,7 +216,7 @@ def test_a_page_that_moves_stands_within_the_page_and_reaches_nothing(served, pa
     assert asked(served, "GET", "moving/other")[0].status == 404
     answer, _ = asked(served, "GET", f"/{found['page']}")
     assert answer.status == 403
-    broken = json.dumps({"text": PUMP.replace("O1-A = 30", "O1-A = 300"), "page": page})
+    broken = json.dumps({"text": PUMP.replace("O1-A = 30", "O1-A = 300"), "page": "steps"})
     assert json.loads(asked(served, "POST", "motion", broken, **JSON)[1])["problems"]
 
 
@@ -268,7 +284,7 @@ def test_an_act_that_the_page_does_not_ask_is_refused(served, fields):
     assert asked(served, "POST", "build", nan, **JSON)[0].status == 400
 
 
-def test_an_act_answers_with_the_text_and_writes_no_file(served, tmp_path):
+def test_an_act_answers_with_the_text_and_writes_no_file(served, place):
     order = {"text": PUMP, "language": "en", "kind": "pivot", "at": [11, 4]}
     found = json.loads(asked(served, "POST", "build", json.dumps(order), **JSON)[1])
     assert found["text"] == PUMP.replace("O2 = [0, -30]\n", "O2 = [0, -30]\nO3 = [11, 4]\n")
@@ -277,25 +293,25 @@ def test_an_act_answers_with_the_text_and_writes_no_file(served, tmp_path):
     )
     assert broken["problems"]
     assert broken["text"] == "= ="
-    assert not list(tmp_path.iterdir())
+    assert not list(place.iterdir())
 
 
-def test_scene_and_sheets_are_saved_where_it_was_started(served, tmp_path):
+def test_scene_and_sheets_are_saved_where_it_was_started(served, place):
     order = {"text": PUMP, "name": "mine.toml", "language": "en", "settings": {"n": "9"}}
     assert json.loads(asked(served, "POST", "save", json.dumps(order), **JSON)[1])["files"]
-    assert (tmp_path / "mine.toml").read_text(encoding="utf-8") == PUMP
+    assert (place / "mine.toml").read_text(encoding="utf-8") == PUMP
     order |= {"view": "task", "formats": ["svg", "pdf"]}
     found = json.loads(asked(served, "POST", "sheets", json.dumps(order), **JSON)[1])
-    names = {path.name for path in tmp_path.iterdir()}
+    names = {path.name for path in place.iterdir()}
     assert names == {"mine.toml", *found["files"]}
     assert "mine-n9-velocity-task.pdf" in names
     again = json.loads(asked(served, "POST", "sheets", json.dumps(order), **JSON)[1])
     assert again["exist"] == found["files"]
 
 
-def test_a_hostile_name_and_text_stay_text_in_the_page(served, tmp_path):
+def test_a_hostile_name_and_text_stay_text_in_the_page(served, place):
     evil = "</textarea><script>alert(1)</script><img src=x onerror=alert(1)> \" ' &"
-    (tmp_path / "'&evil.toml").write_text(f"# {evil}\n", encoding="utf-8")
+    (place / "'&evil.toml").write_text(f"# {evil}\n", encoding="utf-8")
     answer, data = asked(served, "GET", "?scene=%27%26evil.toml")
     assert answer.status == 200
     assert data.count(b"<script") == 1
@@ -337,9 +353,7 @@ def test_a_request_that_is_never_finished_is_closed(tmp_path, monkeypatch):
         assert half.recv(1) == b""
 
 
-@pytest.mark.parametrize(
-    ("name", "driver"), [("five-bar", 1), ("five-bar", 2), ("cylinders-two", 2)]
-)
+@pytest.mark.parametrize(("name", "driver"), [("five-bar", 1), ("cylinders-two", 2)])
 def test_each_of_several_drivers_is_moved_while_the_others_stand(tmp_path, name, driver):
     """How far the page moves is how far a cycle of that driver does."""
     session, text = desk_in(tmp_path), scene_files.examples()[name].read_text("utf-8")

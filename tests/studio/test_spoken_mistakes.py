@@ -79,6 +79,28 @@ def test_whatever_is_written_out_has_words(language):
     assert not [text for text in found if say.whole(text, 0) is None and say(text) == text]
 
 
+NO_VALUE = {
+    "10**1000000000": "an exponent from -64 to 64",
+    "1/(n - 7)": "a divisor that is not 0",
+    "sqrt(0 - n)": "0 or more under the root",
+    "(0 - n)**0.5": "a whole exponent, or a base of 0 or more",
+    "tan(90)": "an angle that is no odd multiple of 90°",
+    "9**64*9**64*9**64*9**64*9**64": "a number between 1e-60 and 1e60",
+}
+"""What has no value, and what is expected instead."""
+
+
+@pytest.mark.parametrize("language", ("en", *FOREIGN))
+@pytest.mark.parametrize("text", NO_VALUE)
+def test_an_expression_without_a_value_is_told_with_what_may_stand_there(text, language):
+    (found,) = seen(PUMP.replace("A-B = 40", f'A-B = "{text}"'), language=language)["problems"]
+    said = NO_VALUE[text]
+    assert found["place"] == "links.3.A-B"
+    assert found["expected"] == (said if language == "en" else sentences(language)(said))
+    assert language == "en" or not ENGLISH.findall(CODE.sub("", found["found"]))
+    assert language == "en" or found["expected"] != said
+
+
 WRONG = ["forty", "40 mm", "40,5", ".5", "012", '"40', "[40", "{ a = 1", "True", "2*n"]
 
 

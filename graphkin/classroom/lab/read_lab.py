@@ -8,6 +8,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import cast
 
+from msgspec.structs import replace
+
 from graphkin.classroom.lab.items import all_fields
 from graphkin.classroom.lab.lab_model import (
     NUMBER,
@@ -89,14 +91,13 @@ def with_rules() -> list[str]:
 
 def placed(problem: Problem, file: str = LAB) -> Problem:
     """A problem with its file before its place."""
-    place = f"{file}: {problem.place}" if problem.place else file
-    return Problem(place, problem.found, problem.expected, problem.hint)
+    return replace(problem, file=file)
 
 
 def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
     """The lab that a text states beside a scene; SceneError with every problem found."""
     findings = Findings()
-    top = Table("", tables_of(text), findings)
+    top = Table("", tables_of(text, findings), findings)
     if not top.raw:
         raise SceneError(Problem("", "the file is empty", "graphkin = 1, then [variants]"))
     check_version(top, findings)

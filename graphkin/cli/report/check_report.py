@@ -19,8 +19,7 @@ from graphkin.construction.links.counted_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.mechanism import Mechanism
-from graphkin.scene.known_names import named
-from graphkin.scene.model import Cam, Scene
+from graphkin.scene.model import Cam, Scene, link_words
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import driver_problem
 from graphkin.structure.groups import Higher
@@ -221,7 +220,7 @@ def cam_lines(scene: Scene) -> Iterator[str]:
     unit = scene.units["length"]
     for follower, cam in scene.cams.items():
         moves = "swings" if cam.lever else "lifts"
-        yield f"{named(cam.on)} {moves} link {follower} by a {cam.tip} follower"
+        yield f"{link_words(cam.on)} {moves} link {follower} by a {cam.tip} follower"
         for profile in profiles_of(scene, follower):
             if profile.second:
                 yield "  and its second roller on the conjugate profile"
@@ -296,7 +295,7 @@ def kept(scene: Scene, one: str, other: str) -> bool:
 def sentence(scene: Scene, one: str, other: str) -> str:
     """That two pins fall together, with their links, and what to do."""
     owners = sharers(scene)
-    who = [f"{pin} of {listed(map(named, owners[pin]))}" for pin in (one, other)]
+    who = [f"{pin} of {listed(map(link_words, owners[pin]))}" for pin in (one, other)]
     return (
         f"{who[0]} falls on {who[1]} in this closure; "
         "if that is not meant, take another closure or another position of the driver"

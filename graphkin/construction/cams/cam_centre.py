@@ -36,7 +36,7 @@ from graphkin.numbers.cam_followers import (
 from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced, displaced_along
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Cam, CamLever
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, Sought
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -313,6 +313,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
             "contact",
             "a contact at which it is curved",
             hint,
+            about=(Sought((self.name,)),),
         )
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:

@@ -247,26 +247,25 @@ def no_construction(group: Group) -> StructureError:
     It names the limit: a track that wheels alone hold, which may be all that keeps the rest open,
     several driven guides in one group, more links to be tried than are looked at.
     """
-    place = "links." + ", ".join(group.links)
+    hint = ""
     if not isinstance(group, Unresolved):
-        found = f"{group.title} that cannot be constructed"
-        return StructureError(Problem(place, found, CLOSING))
-    if group.tracks:
+        found, expected = f"{group.title} that cannot be constructed", CLOSING
+    elif group.tracks:
         found = f"hold link {', '.join(group.tracks)}, a straight track, by wheels and pins alone"
-        return StructureError(Problem(place, found, HELD, group.asked or LEVEL))
-    if len(group.driven) > 1:
+        expected, hint = HELD, group.asked or LEVEL
+    elif len(group.driven) > 1:
         pairs = ", ".join(f"link {each.link} on {each.against}" for each in group.driven)
         found = f"close only with {len(group.driven)} drivers at once: {pairs}"
-        return StructureError(Problem(place, found, "one driver within a group that is tried"))
-    if group.wedged:
-        wheels = f"wheel {group.wedged[0]}"
-        if len(group.wedged) > 1:
-            wheels = f"wheels {', '.join(group.wedged)}"
+        expected = "one driver within a group that is tried"
+    elif group.wedged:
+        wheels = f"wheel{'s' * (len(group.wedged) > 1)} {', '.join(group.wedged)}"
         found = f"hold {wheels} between two tracks that are not parallel"
-        return StructureError(Problem(place, found, "parallel tracks", SLIPPING))
-    found = "do not close after four of them are tried at once"
-    hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
-    return StructureError(Problem(place, found, CLOSING, hint))
+        expected, hint = "parallel tracks", SLIPPING
+    else:
+        found, expected = "do not close after four of them are tried at once", CLOSING
+        hint = "is a driver missing, or does it drive a link that cannot be reached by itself?"
+    place, about = "links." + ", ".join(group.links), (("links", group.links[0]),)
+    return StructureError(Problem(place, found, expected, hint, about=about))
 
 
 HELD = "a track that slides, is driven, or belongs to the frame"

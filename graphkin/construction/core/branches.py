@@ -126,8 +126,9 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
     lines = " and ".join(f"{name} = {written(scene.branches[name])}" for name in names)
     verb = "chooses" if len(names) == 1 else "choose"
     own = problem.place.partition(".")[2]
-    expected = " or ".join(f"{own} = {words}" for words in problem.expected.split(" or "))
-    if problem.expected.startswith(f"{own} = "):
+    ways = [each for each in problem.changes if isinstance(each, Written)]
+    expected = " or ".join(f"{own} = {each.value}" for each in ways)
+    if len(ways) == 1:  # a closure, whose number stands for any
         expected = problem.expected
     return replace(
         problem,

@@ -37,6 +37,7 @@ from graphkin.scene.model import (
     Scene,
     Side,
     Triangle,
+    lengths_of,
 )
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text import MINUS, Words
@@ -252,7 +253,7 @@ def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
     first: dict[str, Quantity] = {}
     for link in scene.bare.every_link:
         for placing in link.placings:
-            for p, q, length in placing.lengths():
+            for p, q, length in lengths_of(placing):
                 text = after_parameter(scene, words, length)
                 equal.setdefault(text, []).append(bar(p, q))
                 first.setdefault(text, length)

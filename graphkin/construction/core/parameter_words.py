@@ -10,7 +10,7 @@ from graphkin.construction.core.naming import angle_symbol, speed_symbol
 from graphkin.construction.core.quantities import written
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import TIME
-from graphkin.scene.model import Scene, quantities_within
+from graphkin.scene.model import Scene, lengths_of, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity, shortest
 from graphkin.text import Words
 from graphkin.text.errors import SceneError
@@ -111,7 +111,7 @@ def shown_quantities(scene: Scene) -> Iterator[Quantity]:
                 yield rate  # of a turning that is negative the sense stands in words
     for link in (scene.frame, *scene.links.values()):
         for placing in link.placings:
-            yield from (length for _, _, length in placing.lengths())
+            yield from (length for _, _, length in lengths_of(placing))
         for wheel in link.wheels:
             size = wheel.teeth or wheel.radius
             yield from () if size is None else (size,)

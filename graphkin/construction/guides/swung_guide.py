@@ -19,7 +19,7 @@ from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.scene.link_points import lettered
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Pin, Sliding
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, Sought
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -168,6 +168,7 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
             f"{q} falls on {p}, so that the guide through both may have any direction",
             f"{q} and {p} apart",
             f"move the driver, or give the guide an offset from {p}",
+            about=(Sought((self.link,)),),
         )
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str]:

@@ -33,7 +33,7 @@ from graphkin.scene.link_points import under
 from graphkin.structure.groups import CoupledTrain, Higher
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, SlippingName
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, Sought
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -88,6 +88,7 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
             f"the wheels of links {', '.join(self.wheels)} let link {self.link} turn as it likes",
             "ratios of the wheels that do not cancel",
             "change a wheel, or drive one link more",
+            about=(Sought((self.link,)),),
         )
 
 

@@ -15,7 +15,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.scene.link_points import lettered
-from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem, Sought
 
 if TYPE_CHECKING:
     from graphkin.construction.core.canvas import Canvas
@@ -166,6 +166,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
             f"{p} falls on {q}, and {p}{pin} is as long as {q}{pin}: {anywhere}",
             f"{p} and {q} apart",
             f"at a change point move the driver, elsewhere take another side of {p} or {q}",
+            about=(Sought((pin,)),),
         )
 
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str] | None:

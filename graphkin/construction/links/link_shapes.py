@@ -12,7 +12,18 @@ from graphkin.construction.core.vocabulary import action, distance, in_proportio
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.link_points import is_under
-from graphkin.scene.model import FRAME, Angled, Apart, At, Link, OnLine, Placing, Polar, Triangle
+from graphkin.scene.model import (
+    FRAME,
+    Angled,
+    Apart,
+    At,
+    Link,
+    OnLine,
+    Placing,
+    Polar,
+    Triangle,
+    lengths_of,
+)
 
 Placed = dict[str, int]
 
@@ -104,7 +115,7 @@ class LinkShapes:
     def length(self, link: str, p: str, q: str) -> int:
         """Length of a bar: as the scene gives it where it does, else from the shape."""
         for placing in self.pen.scene.link(link).placings:
-            for first, second, quantity in placing.lengths():
+            for first, second, quantity in lengths_of(placing):
                 if {first, second} == {p, q}:
                     return self.pen.given("length", quantity, name=p + q)
         with self.pen.on(Part.SHAPE, Plane.NUMBERS):

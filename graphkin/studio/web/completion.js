@@ -1,7 +1,7 @@
 // What may be written next in a scene: keys of the table, names of points, links and parameters.
 
 import { scene } from "./editor.js";
-import { find } from "./talk.js";
+import { element, find } from "./talk.js";
 
 const MOST = 12; // that are offered at once
 const list = find("offered");
@@ -70,10 +70,9 @@ function offer(asked = false) {
   chosen = 0;
   list.replaceChildren(
     ...found.map((each, i) => {
-      const item = document.createElement("li");
+      const item = element("li", each);
       item.role = "option";
       item.id = `offered-${i}`;
-      item.textContent = each;
       item.addEventListener("pointerdown", (event) => {
         event.preventDefault();
         chosen = i;

@@ -3,7 +3,7 @@
 import { picture } from "./build.js";
 import { sentence } from "./mistakes.js";
 import { values } from "./sliders.js";
-import { ask, find, language, listed, say, tell } from "./talk.js";
+import { ask, button, element, find, language, listed, say, tell } from "./talk.js";
 
 for (const button of document.querySelectorAll("dialog .close")) {
   button.addEventListener("click", () => button.closest("dialog").close());
@@ -64,22 +64,17 @@ function pictured(items) {
 /** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
 export async function choose(go) {
   const { scenes, labs, examples } = await listed();
-  const button = (key, name, words) => {
-    const made = document.createElement("button");
-    made.type = "button";
-    made.textContent = words;
-    made.addEventListener("click", () => {
+  const opener = (key, name, words) =>
+    button(words, () => {
       find("opening").close();
       go(`?${key}=${encodeURIComponent(name)}`);
     });
-    return made;
-  };
   const entry = (key, name, title = "") => {
-    const item = document.createElement("li");
-    const shown = button(key, name, title ? `${name} – ${title}` : name);
+    const item = element("li");
+    const shown = opener(key, name, title ? `${name} – ${title}` : name);
     Object.assign(shown.dataset, { key, name });
     item.append(shown);
-    if (key === "scene") item.append(button("like", name, say("studio.like")));
+    if (key === "scene") item.append(opener("like", name, say("studio.like")));
     return item;
   };
   find("scenes").replaceChildren(...scenes.map((name) => entry("scene", name)));

@@ -1,7 +1,7 @@
 // A text with its lines numbered and its mistakes marked where they stand: the scene, and its lab.
 
 import { counted, matter, whereabouts } from "./mistakes.js";
-import { find, onSpeaking, say } from "./talk.js";
+import { button, element, find, onSpeaking, say } from "./talk.js";
 
 // What a line is made of: a comment, a text in quotes, a heading, a key, a number.
 const LOOKS = ["comment", "text", "heading", "key", "number"];
@@ -29,10 +29,7 @@ function coloured(line, from, to) {
     const part = words.slice(Math.max(from - at, 0), Math.max(to - at, 0));
     at += words.length;
     if (!part) continue;
-    const node = document.createElement("span");
-    node.className = look;
-    node.textContent = part;
-    nodes.push(look ? node : document.createTextNode(part));
+    nodes.push(look ? element("span", part, look) : document.createTextNode(part));
   }
   return nodes;
 }
@@ -64,12 +61,9 @@ export function editorOf(part) {
   /** Number the lines, those with mistakes marked; each number is as high as its line, wrapped. */
   function number(wrong = new Set()) {
     gutter.replaceChildren(
-      ...text.value.split("\n").map((_, i) => {
-        const line = document.createElement("span");
-        line.textContent = String(i + 1);
-        if (wrong.has(i + 1)) line.className = "wrong";
-        return line;
-      }),
+      ...text.value
+        .split("\n")
+        .map((_, i) => element("span", String(i + 1), wrong.has(i + 1) ? "wrong" : "")),
     );
     measure();
   }
@@ -114,12 +108,12 @@ export function editorOf(part) {
   function underline(problems) {
     let start = 0;
     const lines = text.value.split("\n").map((words) => {
-      const line = document.createElement("span");
+      const line = element("span");
       let at = 0;
       for (const problem of problems) {
         const [from, to] = [problem.start - start, problem.end - start];
         if (!problem.line || from < at || from > words.length) continue;
-        const mark = document.createElement("mark");
+        const mark = element("mark");
         mark.append(...coloured(words, from, to));
         if (!mark.firstChild) mark.textContent = " ";
         line.append(...coloured(words, at, from), mark);
@@ -134,28 +128,16 @@ export function editorOf(part) {
 
   /** One problem of the list; where it has a place, a button that goes there. */
   function item(problem) {
-    const entry = document.createElement("li");
-    const body = document.createElement(problem.line ? "button" : "div");
-    const where = document.createElement("strong");
-    where.textContent = whereabouts(problem);
-    const words = document.createElement("span");
-    words.textContent = matter(problem);
-    body.append(where, " ", words);
-    if (problem.line) {
-      body.type = "button";
-      body.addEventListener("click", () => go(problem));
-    }
+    const entry = element("li");
+    const body = problem.line ? button("", () => go(problem)) : element("div");
+    body.append(element("strong", whereabouts(problem)), " ", element("span", matter(problem)));
     entry.append(body);
     for (const edit of problem.mends) {
-      const mend = document.createElement("button");
-      mend.type = "button";
-      mend.className = "mend";
       const { before, text: words } = edit;
       const after = words.trim().replaceAll("\n", ", ").replace(/^, /, "");
       const key = before && after ? "write_instead" : after ? "write_too" : "leave_out";
-      mend.textContent = say(`studio.${key}`, { before: before.replaceAll("\n", ", "), after });
-      mend.addEventListener("click", () => change([edit]));
-      entry.append(mend);
+      const said = say(`studio.${key}`, { before: before.replaceAll("\n", ", "), after });
+      entry.append(button(said, () => change([edit]), "mend"));
     }
     return entry;
   }

@@ -2,7 +2,7 @@
 
 import { change, editorOf, written } from "./editor.js";
 import { sentence } from "./mistakes.js";
-import { ask, find, language, onSpeaking, say, tell } from "./talk.js";
+import { ask, button, element, find, language, onSpeaking, say, tell } from "./talk.js";
 
 const REST = 500; // ms without a sign before the lab is tried anew
 const SVG = "http://www.w3.org/2000/svg";
@@ -136,26 +136,15 @@ find("neighbours").addEventListener("click", ({ target }) => {
   if (target.dataset.own) choose(students[target.dataset.own]);
 });
 
-function element(name, words, look = "") {
-  const made = document.createElement(name);
-  made.textContent = words;
-  made.className = look;
-  return made;
-}
-
 /** The students of the class; each opens its sheets. */
 function list() {
   find("students").hidden = !students.length;
   find("students").tBodies[0].replaceChildren(
     ...students.map((student) => {
-      const row = document.createElement("tr");
-      row.classList.toggle("chosen", student.name === chosen);
-      const head = document.createElement("th");
+      const row = element("tr", "", student.name === chosen ? "chosen" : "");
+      const head = element("th");
       head.scope = "row";
-      const button = element("button", student.name);
-      button.type = "button";
-      button.addEventListener("click", () => choose(student));
-      head.append(button);
+      head.append(button(student.name, () => choose(student)));
       const earns = student.earns && `${student.earns} (${student.whose})`;
       const { data, faults, flattest, shortest } = student;
       const cells = [data, faults, flattest, shortest, earns].map((words) => element("td", words));
@@ -187,7 +176,7 @@ async function sheets(student) {
   for (const old of pages.querySelectorAll("img")) URL.revokeObjectURL(old.src);
   pages.replaceChildren(...answer.problems.map((each) => element("p", sentence(each), "wrong")));
   for (const text of answer.sheets) {
-    const page = document.createElement("img");
+    const page = element("img");
     page.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }));
     page.alt = say("studio.sheet_of", student);
     page.addEventListener("click", () => page.classList.toggle("large"));
@@ -213,15 +202,15 @@ async function propose() {
   }
 }
 
-function button(words, work) {
-  const made = element("button", words);
-  made.type = "button";
-  made.addEventListener("click", () => {
-    advice.hidden = true;
-    work();
-  });
+/** A button that follows an advice. */
+function following(words, work) {
   const tools = element("div", "", "tools");
-  tools.append(made);
+  tools.append(
+    button(words, () => {
+      advice.hidden = true;
+      work();
+    }),
+  );
   return tools;
 }
 
@@ -229,12 +218,12 @@ function showAdvice({ fair, shares, ranges, rules: after, kept, formula, mending
   const parts = [element("p", fair)];
   const charts = element("div", "", "charts");
   if (formula) parts.push(element("p", formula, mending ? "faults" : ""));
-  if (mending) parts.push(button(say("studio.mend_scene"), () => change([mending])));
+  if (mending) parts.push(following(say("studio.mend_scene"), () => change([mending])));
   for (const { name, decides, parts: values } of shares) {
     const bars = element("div", "", "bars");
     bars.append(element("h3", say("studio.decides", { name, share: decides })));
     for (const [ends, share] of values) {
-      const bar = document.createElement("meter");
+      const bar = element("meter");
       Object.assign(bar, { max: 100, value: share });
       bar.setAttribute("aria-label", `${name} ${ends}`);
       bars.append(element("span", ends), bar, element("span", `${share} %`));
@@ -244,7 +233,7 @@ function showAdvice({ fair, shares, ranges, rules: after, kept, formula, mending
   parts.push(charts);
   if (ranges) parts.push(element("pre", ranges));
   parts.push(element("p", kept));
-  if (ranges) parts.push(button(say("studio.put_ranges"), () => rules.replace(after)));
+  if (ranges) parts.push(following(say("studio.put_ranges"), () => rules.replace(after)));
   advice.replaceChildren(...parts);
 }
 

@@ -1,6 +1,6 @@
 // A slider and a field for each parameter; only those that were moved are set.
 
-import { find, onSpeaking, say } from "./talk.js";
+import { element, find, onSpeaking, say } from "./talk.js";
 
 const box = find("sliders");
 const write = find("write");
@@ -82,13 +82,11 @@ function enable() {
 /** The row of a parameter: its name, its slider, its value to be typed, its unit. */
 function made(name) {
   if (!rows.size) box.textContent = "";
-  const whole = document.createElement("div");
-  const label = document.createElement("label");
-  const range = document.createElement("input");
-  const field = document.createElement("input");
-  const unit = document.createElement("span");
-  whole.className = "slider";
-  label.textContent = name;
+  const whole = element("div", "", "slider");
+  const label = element("label", name);
+  const range = element("input");
+  const field = element("input");
+  const unit = element("span", "", "unit");
   label.htmlFor = range.id = `slider-${name}`;
   range.type = "range";
   range.min = "0";
@@ -97,7 +95,6 @@ function made(name) {
   field.inputMode = "decimal";
   field.autocomplete = "off";
   field.setAttribute("aria-label", valueOf(name));
-  unit.className = "unit";
   whole.append(label, range, field, unit);
   const row = { whole, range, field, unit, stops: [] };
   range.addEventListener("input", () => {

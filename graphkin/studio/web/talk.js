@@ -36,6 +36,22 @@ export async function listed() {
 
 export const find = (id) => document.getElementById(id);
 
+/** A new element of the page. */
+export function element(name, words = "", look = "") {
+  const made = document.createElement(name);
+  made.textContent = words;
+  made.className = look;
+  return made;
+}
+
+/** A new button and what it does. */
+export function button(words, work, look = "") {
+  const made = element("button", words, look);
+  made.type = "button";
+  made.addEventListener("click", work);
+  return made;
+}
+
 const listeners = [];
 
 /** Call back when another language is spoken. */

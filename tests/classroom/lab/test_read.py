@@ -284,7 +284,8 @@ def test_one_wrong_value_anywhere_is_told_at_its_place_and_nothing_else(mine, ke
     with pytest.raises(SceneError) as caught:
         read_lab(folder)
     for problem in caught.value.problems:
-        assert problem.place.startswith(f"lab.toml: {key}"), problem
+        assert problem.file == "lab.toml"
+        assert problem.place.startswith(key), problem
         assert problem.found and problem.expected, problem
         assert key not in problem.found
 

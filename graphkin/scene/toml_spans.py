@@ -35,6 +35,18 @@ class Span(NamedTuple):
     end: int
 
 
+class Again(NamedTuple):
+    """A key, or a table by its heading, that stands in the text a second time.
+
+    ``first`` is where it stands first, ``key`` the second name without brackets or value.
+    """
+
+    path: Path
+    first: Span
+    key: Span
+    heading: bool
+
+
 class LostError(Exception):
     """The text goes on in a way that is no TOML."""
 
@@ -66,6 +78,8 @@ class Walk:
         self.found: dict[Path, Span] = {}
         self.values: dict[Path, Span] = {}
         self.counts: dict[Path, int] = {}
+        self.again: list[Again] = []
+        self.names: dict[Path, Span] = {}
 
     def document(self) -> None:
         """Headings, each with its keys."""
@@ -83,10 +97,14 @@ class Walk:
         many = self.text.startswith("[[", self.at)
         start = self.at
         self.at += 2 if many else 1
+        begin = self.at
         keys = self.keys()
+        name = Span(begin, self.at)
         self.expect("]]" if many else "]")
         path = self.numbered(keys[:-1])
         path = (*path, keys[-1])
+        if not (many and path in self.counts):
+            self.name(path, name, heading=True)
         span = Span(start, self.at)
         self.found.setdefault(path, span)
         if many:
@@ -109,14 +127,26 @@ class Walk:
         """A key with its value; the keys before its last dot are tables."""
         start = self.at
         keys = self.keys()
+        path = (*table, *keys)
+        again, count = self.name(path, Span(start, self.at)), len(self.again)
         self.expect("=")
         self.skip(BLANK)
-        path = (*table, *keys)
         begin = self.at
         self.value(path)
+        if again:  # what stands within it is not told again
+            del self.again[count:]
         self.values[path] = Span(begin, self.at)
         for depth in range(len(table) + 1, len(path) + 1):
             self.found.setdefault(path[:depth], Span(start, self.at))
+            self.names.setdefault(path[:depth], self.found[path[:depth]])
+
+    def name(self, path: Path, span: Span, *, heading: bool = False) -> bool:
+        """Note a name, and whether it stands there for the second time."""
+        first = self.names.setdefault(path, span)
+        if first is span:
+            return False
+        self.again.append(Again(path, first, span, heading))
+        return True
 
     def keys(self) -> list[str]:
         """A key, or several with dots between them."""
