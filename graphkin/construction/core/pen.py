@@ -197,6 +197,10 @@ class Pen:
                 return layer[quantity, of]
         return self.targets[quantity, of]
 
+    def both(self, quantity: str, p: str, q: str) -> tuple[int, int]:
+        """The steps that carry a quantity of two points or links."""
+        return self.the(quantity, p), self.the(quantity, q)
+
     def is_nought(self, number: int) -> bool:
         """True when a step holds a given rate that is nought whatever the parameters."""
         given = self.steps[number].given

@@ -12,9 +12,10 @@ from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import part_along
-from graphkin.construction.guides.coincident_points import image_under, second_image_under
+from graphkin.construction.guides.coincident_points import carried
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.plans.plan import ACCELERATION, VELOCITY
 from graphkin.scene.link_points import is_under
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint
@@ -37,7 +38,7 @@ def turning_component(pen: Pen, pair: Joint, link: str, name: str, point: str) -
     if is_under(name):
         tail, tip = pen.the("velocity", name), pen.the("velocity", point)
         return coriolis_of(pen, link, tail, tip, point, pair.links[0])
-    tail, tip = image_under(pen, known, point), pen.the("velocity", point)
+    tail, tip = carried(pen, known, point, VELOCITY), pen.the("velocity", point)
     return coriolis_of(pen, known, tail, tip, point, pair.links[0])
 
 
@@ -49,18 +50,12 @@ def lay_off_component(
     Where that is the one that is sought, it is laid off backwards from the sliding one.
     """
     if vector is None:
-        return second_image_under(pen, partner(pair, link), point)
+        return carried(pen, partner(pair, link), point, ACCELERATION)
     from graphkin.construction.coriolis import end_of
 
     if is_under(name):
         return end_of(pen, pen.the("acceleration", point), vector, back=True)
-    return end_of(pen, second_image_under(pen, partner(pair, link), point), vector)
-
-
-def known_end(pen: Pen, pair: Joint, link: str, point: str) -> int:
-    """Where the known part of a sliding point's acceleration ends in the plan."""
-    vector = turning_component(pen, pair, link, point, point)
-    return lay_off_component(pen, pair, link, point, point, vector)
+    return end_of(pen, carried(pen, partner(pair, link), point, ACCELERATION), vector)
 
 
 def end_on_driven(
@@ -91,7 +86,7 @@ def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
     """Acceleration of a block along its guide, and the component that comes of its turning."""
     pair = pen.first_slide(block)
     first = pen.scene.link(block).points[0]
-    start = second_image_under(pen, pair.links[1], first)
+    start = carried(pen, pair.links[1], first, ACCELERATION)
     guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
     if pen.turns(pair.links[1]):
         vector = turning_component(pen, pair, block, first, first)

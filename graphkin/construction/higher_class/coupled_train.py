@@ -19,6 +19,7 @@ from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import Misclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point, plate_points
+from graphkin.construction.plans.plan import Plan
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,
@@ -154,7 +155,7 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 # --- in the plans --------------------------------------------------------------------------------
 
 
-def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
+def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
     """The images of known wheels where those of a train touch them.
 
     The last of them by the name of the point of the train's own last wheel, which has the same
@@ -162,11 +163,11 @@ def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
     """
     for contact in (*(wheel.contact for wheel in group.chain), group.last):
         for link in {*contact.links} - {*group.links}:
-            rim = carried(pen, link, contact_name(contact), quantity)
+            rim = carried(pen, link, contact_name(contact), plan)
     return {under(contact_name(group.last), group.closing): rim}
 
 
-def missed(pen: Pen, group: CoupledTrain | Higher, quantity: str, part: Part) -> ContactMisclosure:
+def missed(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> ContactMisclosure:
     """What a plan misses where a link touches another at last: across the radius.
 
     They must not slip. Of a group that is no train each has its own image there.
@@ -180,8 +181,8 @@ def missed(pen: Pen, group: CoupledTrain | Higher, quantity: str, part: Part) ->
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radius = (pen.the("position", point) for point in (wheel.centre, name))
         normal = pen.draw(line_through, *radius)
-    start, tip = (carried(pen, x, name, quantity) for x in (partner(contact, own), own))
-    with pen.on(part, Plane.NUMBERS):
+    start, tip = (carried(pen, x, name, plan) for x in (partner(contact, own), own))
+    with pen.on(plan.part, Plane.NUMBERS):
         size = pen.draw(lacks_across, normal, start, tip)
     ends = letter(wheel.centre), letter(name)
     return ContactMisclosure(size=size, ends=ends, normal=normal, start=start, tip=tip)

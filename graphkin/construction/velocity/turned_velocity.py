@@ -18,7 +18,7 @@ from graphkin.construction.core.naming import (
     turning_with,
     vector_of,
 )
-from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.pen import Pen, against, letter
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.segments import laid_off
@@ -201,26 +201,14 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
         return rate_symbol(drawing, self.omega)
 
 
-def turned_image(
-    pen: Pen,
-    link: str,
-    letters: tuple[str, str],
-    start: int,
-    places: tuple[int, int],
-    *,
-    name: str,
-    omega: int | None = None,
-    index: str = "",
-) -> int:
-    """The image of a pin of a turning link, from the image ``start`` of its pivot.
-
-    ``letters`` and ``places`` are those of pivot and pin; the link's own ``omega`` turns it, unless
-    another step is told.
-    """
-    p, q = letters
-    rate = pen.the(OMEGA, link) if omega is None else omega
+def turned_image(pen: Pen, link: str, points: tuple[str, str], start: int, *, name: str) -> int:
+    """The image of the second of two ``points`` of a turning link, from that of the first, where it
+    is the ``start``."""
+    pivot, pin = points
+    places = pen.the("position", pivot), pen.the("position", pin)
+    rate = pen.the(OMEGA, link)
     image = pen.draw(turned_velocity, start, *places, rate, name=name)
-    index = index or q + ("" if p in pen.scene.frame.points else p)
-    names = {"p": p, "q": q, "index": index, "whole": q, "base": p}
+    p, q = map(letter, points)
+    names = {"p": p, "q": q, "index": against(pen, pin, pivot), "whole": q, "base": p}
     pen.make(TurnedVelocity(**names, link=link, start=start, omega=rate, image=image))
     return image

@@ -1,0 +1,1 @@
+"""What is drawn alike in the plans of velocities and of accelerations."""
