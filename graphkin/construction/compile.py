@@ -139,9 +139,9 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
 
             draw: Callable[..., None] = two_trials.two_trials
             if parts:
-                from graphkin.construction.rolling import wheel_images
+                from graphkin.construction.rolling import pinned_wheels
 
-                draw = wheel_images.move_pinned
+                draw = pinned_wheels.move_pinned
             return partial(higher.position, each=place), *each_in(draw)
         case Unresolved():
             raise ValueError(f"links {', '.join(group.links)} are in no group that is drawn")

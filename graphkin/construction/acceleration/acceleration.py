@@ -97,11 +97,3 @@ class GuideAcceleration(Struct, frozen=True):
         if not is_under(self.name):
             acceleration_arrow(pen, self.name)
         led_by(self.pair).touch(pen, ACCELERATION)
-
-
-def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
-    """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
-    vector = normal_component(pen, pivot, pin)
-    with ACCELERATION.drawn(pen):
-        end = lay_off_normal(pen, pivot, pin, vector)
-        return end, tangential_direction(pen, pivot, pin, end)

@@ -12,6 +12,11 @@ from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Effect
 from graphkin.construction.core.segments import letter_at
+from graphkin.construction.normal_component.normal_component import (
+    lay_off_normal,
+    normal_component,
+)
+from graphkin.construction.plans.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import lettered
@@ -50,3 +55,11 @@ def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
     }
     pen.make(TangentialDirection(**names, start=corner, line=line))
     return line
+
+
+def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
+    """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
+    vector = normal_component(pen, pivot, pin)
+    with ACCELERATION.drawn(pen):
+        end = lay_off_normal(pen, pivot, pin, vector)
+        return end, tangential_direction(pen, pivot, pin, end)

@@ -154,8 +154,7 @@ class GroupImages(Struct, frozen=True):
                 found = image_of_link(pen, images, letters, name=plan.named(point), hand=hand)
                 for bar, end in zip(bars, ends, strict=False):
                     bar.rest(pen, end, found)
-            pen.want(plan.quantity, point, found)
-            plan.arrows(pen, point, base.start)
+            plan.settle(pen, point, found, base.start)
             if base.end in pen.scene.link(base.link).points:
                 plan.arrows(pen, point, base.end)
 
@@ -184,8 +183,7 @@ class GroupImages(Struct, frozen=True):
             start, names = pen.the(plan.quantity, base.start), (base.start, point)
             with plan.drawn(pen):
                 found = translated_image(pen, start, names, plan.named(point))
-            pen.want(plan.quantity, point, found)
-            plan.arrows(pen, point)
+            plan.settle(pen, point, found)
 
 
 def sliding_effect(pen: Pen, given: int) -> Effect | None:

@@ -73,8 +73,12 @@ class Plan(Struct, frozen=True):
         start = pen.the(self.quantity, pivot)
         with self.drawn(pen):
             found = self.turned(pen, link, pivot, pin, start, steady=steady)
-        pen.want(self.quantity, pin, found)
-        self.arrows(pen, pin, along)
+        self.settle(pen, pin, found, along)
+
+    def settle(self, pen: Pen, point: str, image: int, pivot: str | None = None) -> None:
+        """Say which step is the image of a point, and draw its arrows."""
+        pen.want(self.quantity, point, image)
+        self.arrows(pen, point, pivot)
 
 
 class VelocityPlan(Plan, frozen=True):

@@ -3,14 +3,14 @@ touch."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import ClassVar
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.acceleration import known_and_free
+from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
-from graphkin.construction.core.bases import Base, bases, contact_name, leads_of, own_first
+from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import rate_symbol
@@ -21,7 +21,6 @@ from graphkin.construction.core.vocabulary import action, in_proportion, speed_a
 from graphkin.construction.guides.coincident_points import carried, found_by_turning
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.group_images import GroupImages
 from graphkin.construction.plans.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
@@ -38,7 +37,7 @@ from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.numbers.arithmetic import Real
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
-from graphkin.structure.groups import Geared, Group, Higher, Train
+from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
 
@@ -133,16 +132,14 @@ def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
             with VELOCITY.drawn(pen):
                 ends, called = (letter(name), point), VELOCITY.named(point)
                 start = translated_image(pen, start, ends, called)
-            pen.want("velocity", point, start)
-            VELOCITY.arrows(pen, point)
+            VELOCITY.settle(pen, point, start)
         case Contact() as own:
             first = touched(pen, own, link, partner(own, link))
             rims = [under(contact_name(own), link), under(name, link)]
             images, centre = (first, start), own.wheel.centre
             touching = VELOCITY.named(rims[0]), VELOCITY.named(rims[1])
             found = image_between(pen, rims, images, centre, VELOCITY, touching=touching)
-            pen.want("velocity", centre, found)
-            VELOCITY.arrows(pen, centre)
+            VELOCITY.settle(pen, centre, found)
             relative_arrow(pen, rims[1], rims[0])
             turning_of_contacts(pen, link, rims, images, VELOCITY)
 
@@ -217,8 +214,7 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
         called = ACCELERATION.named(centre)
         found = crossed_image(pen, line, along, name=called, of=centre)
         component_arrow(pen, corner, found, "τ", centre, pivot)
-    pen.want("acceleration", centre, found)
-    ACCELERATION.arrows(pen, centre)
+    ACCELERATION.settle(pen, centre, found)
     second_touched(pen, group.contacts[0], link, partner(group.contacts[0], link))
 
 
@@ -271,8 +267,7 @@ def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> 
         line = parallel_through(pen, start, guide, link)
         along = common_normal(pen, other, (contact.wheel.centre, name))
         found = crossed_image(pen, line, along, name=ACCELERATION.named(point), of=point)
-    pen.want("acceleration", point, found)
-    ACCELERATION.arrows(pen, point)
+    ACCELERATION.settle(pen, point, found)
 
 
 def turning_rack(pen: Pen, group: Geared) -> None:
@@ -313,8 +308,7 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
             pairs = zip(known, names, strict=True)
             tail, tip = (carried(pen, on, name, ACCELERATION) for on, name in pairs)
             component_arrow(pen, tail, tip, "τ", rims[1], rims[0])
-    pen.want("acceleration", centre, found)
-    ACCELERATION.arrows(pen, centre)
+    ACCELERATION.settle(pen, centre, found)
     turning_of_contacts(pen, link, rims, (first, second), ACCELERATION)
 
 
@@ -327,29 +321,6 @@ def turning_of_contacts(
     with pen.on(Part.RESULT, Plane.NUMBERS):
         found = turning_of_link(pen, plan.rate, link, letters, index, (ends, images))
     pen.want(plan.rate, link, found)
-
-
-# --- pinned at the instant where they touch their tracks -----------------------------------------
-
-
-Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
-"""How one group is put down in a plan."""
-
-
-def move_pinned(
-    images: GroupImages, pen: Pen, shapes: LinkShapes, group: Higher, each: Each
-) -> None:
-    """A plan: where wheels touch their tracks they have one velocity, and their accelerations
-    differ towards the centres only."""
-    for wheel in group.wheels:
-        image_of_rim(images.plan, pen, wheel.contact, wheel.own, wheel.known)
-    for link in group.links:
-        pen.leads.pop(link, None)
-    for member in group.at_instant:
-        found = tuple(map(own_first, bases(pen.scene, member)))
-        pen.bases |= {base.link: base for base in found}
-        pen.leads |= leads_of(member)
-        each(pen, shapes, member, found)
 
 
 def image_of_rim(plan: Plan, pen: Pen, contact: Contact, own: str, known: str) -> int:
