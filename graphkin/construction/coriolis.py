@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import takewhile
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
@@ -20,6 +20,7 @@ from graphkin.construction.core.component import (
     Size,
     TriangleComponent,
 )
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
@@ -46,9 +47,6 @@ from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
 from graphkin.text.markup import AND, NOTHING, saying
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle that is similar to the guide's."""

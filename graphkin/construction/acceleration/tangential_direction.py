@@ -6,9 +6,10 @@ It passes through the end of the normal component, which is known: the tangentia
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Effect
 from graphkin.construction.core.segments import letter_at
@@ -20,9 +21,6 @@ from graphkin.construction.plans.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import lettered
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):

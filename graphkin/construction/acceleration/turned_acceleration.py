@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter
@@ -25,9 +26,6 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.link_points import lettered
 from graphkin.text.markup import EQUALS, NOTHING
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
 
 
 @action("centripetal")

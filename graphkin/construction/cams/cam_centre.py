@@ -6,9 +6,10 @@ from cmath import phase
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
 from math import degrees
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
@@ -37,9 +38,6 @@ from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced, displaced_alo
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Cam, CamLever
 from graphkin.text.errors import Problem
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 NAMES = tuple(MOTIONS)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.centres.centre import (
     LineToCentre,
@@ -12,6 +12,8 @@ from graphkin.construction.centres.centre import (
     two_points,
 )
 from graphkin.construction.core.bases import Base
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
@@ -20,10 +22,6 @@ from graphkin.construction.plans.plan import omega_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, Ratio
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("pole-ray")

@@ -6,7 +6,7 @@ Of two parallel velocities the line through the tips meets the bar of their poin
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.centres.centre import (
     LineToCentre,
@@ -17,7 +17,8 @@ from graphkin.construction.centres.centre import (
 )
 from graphkin.construction.centres.relative_centre import RelativeCentre, relative_centre
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.drawn_scene import NOISE
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import is_set_on
@@ -28,10 +29,6 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Ratio, cross, dot
 from graphkin.scene.model import FRAME
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 PARALLEL = 1e-6
 """Sine of the angle below which two velocities are parallel."""

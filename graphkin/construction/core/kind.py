@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import ClassVar, TypeVar
 
 from msgspec.structs import asdict
 
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import Program, Roles, Step
+from graphkin.construction.core.relation import Relation
 
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.relation import Relation
 K = TypeVar("K", bound=Roles)
 
 

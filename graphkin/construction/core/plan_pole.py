@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.kind import Construction
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
 
 
 class PlanPole(Construction, frozen=True, kw_only=True):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined, which_side
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import lies_along
 from graphkin.construction.core.naming import heading
 from graphkin.construction.core.pen import Pen
@@ -15,9 +16,6 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, cross, line_circle_sine, line_meets_circle
 from graphkin.scene.link_points import lettered
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> Any:

@@ -5,20 +5,18 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Mapping, Sequence
 from math import degrees
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount, heading, way_of
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, cross, dot
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.program import Step
 
 # --- the turning of a link -----------------------------------------------------------------------
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
@@ -20,10 +22,6 @@ from graphkin.scene.link_points import lettered
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text.errors import Problem
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 # --- their values --------------------------------------------------------------------------------
 

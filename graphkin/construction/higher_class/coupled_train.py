@@ -6,10 +6,12 @@ What the last contact misses grows in proportion to how far the tried link has t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import bases, contact_name
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
@@ -35,10 +37,6 @@ from graphkin.structure.groups import CoupledTrain, Higher
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, SlippingName
 from graphkin.text.errors import Problem
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 FREE = 1e-12
 """Ratios that differ less than this leave the tried link free."""

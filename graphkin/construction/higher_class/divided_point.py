@@ -5,9 +5,11 @@ Where a line on which a point must lie is known, it cuts the line of that point'
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Container, Mapping
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Target
@@ -26,13 +28,6 @@ from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text import MINUS
-
-if TYPE_CHECKING:
-    from collections.abc import Container
-
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
-
 
 ROUNDING = 1e-12
 """A share of the way between two trials that is no more than this is zero but for rounding."""

@@ -7,9 +7,11 @@ closes the group, or parallel to its guide. Of a driver it is what the plan has 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import component_of, index_before, laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import scale_of, way_of
@@ -20,10 +22,6 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, larger, smaller
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import Driver
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("lacks")

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import (
@@ -37,10 +37,6 @@ from graphkin.drawing.style import OWN_LINES
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol, tag_words
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.text.markup import AND
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-
 
 SECOND = tuple(TAGS)[1]
 """The tag of the second of two trial plans."""

@@ -5,9 +5,11 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Mapping
 from math import degrees
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import angle_symbol, axis_of
 from graphkin.construction.core.pen import Pen
@@ -19,10 +21,6 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import FRAME
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("mark-off")

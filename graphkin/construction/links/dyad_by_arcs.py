@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined, which_side
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
@@ -16,10 +18,6 @@ from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.scene.link_points import lettered
 from graphkin.text.errors import Problem
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("compass")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Mapping
 from math import degrees
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from msgspec.structs import replace
 
@@ -25,9 +25,6 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.model import FRAME, OnLine
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 UNTURNED = 0.05
 """A wheel that has turned by less, in degrees, is drawn as at the start."""

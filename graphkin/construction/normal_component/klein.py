@@ -12,11 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import Measured, PaletteAction
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
@@ -43,9 +44,6 @@ from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 from graphkin.text.markup import AND
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 # --- its value, and the steps of the hand's way --------------------------------------------------
 

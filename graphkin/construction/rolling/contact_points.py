@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
-from typing import TYPE_CHECKING, Any, ClassVar, Concatenate, ParamSpec, TypeVar
+from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
 
 from msgspec import Struct
 
@@ -14,7 +14,7 @@ from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, 
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Effect, Plane
+from graphkin.construction.core.program import Effect, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
@@ -27,10 +27,6 @@ from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel
 from graphkin.structure.groups import Geared, Spun, Train
 from graphkin.structure.pairs import Contact, contacts, meshes
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.program import Step
 
 SAME = 1e-9
 """Radii and angles nearer than this, in parts of themselves or in radians, are the same."""

@@ -12,8 +12,10 @@ G. Niemann and H. Winter, Maschinenelemente II, on epicyclic gears.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import plan_amount, scale_of
 from graphkin.construction.core.program import Plane
@@ -25,10 +27,6 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, dot
 from graphkin.text.markup import AND, NOTHING
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 PLAN = "kutzbach"
 """What a scene writes as [sheet] plan."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
@@ -12,6 +12,7 @@ from graphkin.construction.core.component import (
     Size,
     components_on,
 )
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
@@ -24,9 +25,6 @@ from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("rolling-normal")

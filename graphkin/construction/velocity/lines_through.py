@@ -6,9 +6,11 @@ Perpendicular to a bar, for it keeps its length; parallel to a guide, for slides
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import end_before, laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Plane
@@ -20,10 +22,6 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
 from graphkin.structure.pairs import is_in_scene
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("square-to")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import (
@@ -26,9 +27,6 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
 
 
 class LaidOffByRate(Construction, frozen=True):
