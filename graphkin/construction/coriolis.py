@@ -118,6 +118,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         (("rate", ("rate",)), ("velocity", ("arrow",))),
         "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
     )
+    titled: ClassVar[str] = "the Coriolis triangles of {pin_name} about {pivot_name}"
 
     guide: str
     block: str
@@ -134,10 +135,6 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     edge: int | None = None
     lean: int | None = None
     top: int | None = None
-
-    def title(self, role: str) -> str:
-        """What it is called in a report."""
-        return f"the Coriolis triangles of {self.pin_name} about {self.pivot_name}"
 
     @property
     def speed(self) -> str:

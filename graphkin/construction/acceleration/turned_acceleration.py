@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter
@@ -50,6 +49,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("end", "image")
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"end", "image"})
+    images: ClassVar[frozenset[str]] = frozenset({"end", "image"})
 
     start: int
     omega: int
@@ -133,10 +133,6 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         return drawing.words(f"step.{key}", **fields)
 
     # --- marks and relations ---------------------------------------------------------------------
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point at the end of a component, if it has a letter."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem, and both sizes; a driver's crank has relations of its own."""

@@ -241,20 +241,13 @@ class SwungLever(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    between: ClassVar[tuple[str, ...]] = ("pin", "name")
+    measured: ClassVar[str] = "tip"
 
     link: str
     pin: str
     name: str
     tip: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pin and the tip."""
-        return self.pin, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """From the pin."""
-        return self.pin, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the angle of its bar in the plane."""
@@ -274,6 +267,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.cam_centre"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
     has_angle: ClassVar[bool] = False
+    between: ClassVar[tuple[str, ...]] = ("start", "name")
 
     link: str
     follower: str
@@ -284,11 +278,6 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     rate: int
     bend: int
     point: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pivot and the centre."""
-        return self.start, self.name
 
     def laid_from(self, step: Step) -> int:
         """The cam's pivot."""

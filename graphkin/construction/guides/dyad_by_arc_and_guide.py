@@ -42,6 +42,8 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     loci: ClassVar[str] = "the arc and the guide"
     apart: ClassVar[str] = "the arc misses the guide"
     has_mirror: ClassVar[bool] = True
+    told_after: ClassVar[tuple[str, ...]] = ("path", "arc")
+    between: ClassVar[tuple[str, ...]] = ("centre", "name")
 
     name: str
     centre: str
@@ -49,18 +51,9 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     arc: int
     pin: int
 
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The centre of the arc, and the pin."""
-        return self.centre, self.name
-
     def symbols(self) -> Mapping[str, str]:
         """The centre of the arc."""
         return {"p": symbol(lettered(self.centre))}
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The line and the arc."""
-        return self.path, self.arc
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where the arc cuts the line, and on which side of its centre that is."""

@@ -36,16 +36,13 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.set_at"}
+    told_after: ClassVar[tuple[str, ...]] = ("path",)
 
     link: str
     on: str
     path: int
     where: int
     point: int
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Its path."""
-        return (self.path,)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its coordinate; by where it lies from the zero where a group was found to close."""
@@ -78,9 +75,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 class CarrierSetByCoordinate(SetByCoordinate, frozen=True, kw_only=True):
     """A ``point`` of the ``link`` that carries a guide, from where the block on it stands."""
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Nothing: the guide comes with its link."""
-        return ()
+    told_after: ClassVar[tuple[str, ...]] = ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the coordinate of the block."""

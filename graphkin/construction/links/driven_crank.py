@@ -50,21 +50,14 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("line", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.crank"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
+    between: ClassVar[tuple[str, ...]] = ("pivot", "name")
+    measured: ClassVar[str] = "tip"
 
     link: str
     pivot: str
     name: str
     line: int
     tip: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """Both ends of the bar."""
-        return self.pivot, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str] | None:
-        """The bar."""
-        return (self.pivot, self.name) if role == "tip" else None
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The end of the line, beyond the bar."""
@@ -105,21 +98,14 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    between: ClassVar[tuple[str, ...]] = ("pivot", "name")
+    measured: ClassVar[str] = "tip"
 
     link: str
     pivot: str
     name: str
     turn: int
     tip: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pivot and the tip."""
-        return self.pivot, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """From the pivot."""
-        return self.pivot, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its angle; by that of the bar in the plane where it was found with a group."""

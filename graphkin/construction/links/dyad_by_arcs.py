@@ -31,20 +31,13 @@ class CompassArc(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("arc",)
     lines: ClassVar[Mapping[str, str]] = {"arc": "the arc {centre}{point} about {centre}"}
+    between: ClassVar[tuple[str, ...]] = ("centre", "point")
+    measured: ClassVar[str] = "arc"
 
     centre: str
     point: str
     radius: int
     arc: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """Both ends of the bar."""
-        return self.centre, self.point
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """The opening of the compass."""
-        return self.centre, self.point
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """As much of the arc as finds the point."""
@@ -107,6 +100,8 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     loci: ClassVar[str] = "the arcs"
     apart: ClassVar[str] = "the arcs miss each other"
     has_mirror: ClassVar[bool] = True
+    told_after: ClassVar[tuple[str, ...]] = ("near", "far")
+    between: ClassVar[tuple[str, ...]] = ("left", "right", "name")
 
     name: str
     left: str
@@ -115,18 +110,9 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     far: int
     pin: int
 
-    @property
-    def points(self) -> tuple[str, ...]:
-        """Its outer pins and the inner one."""
-        return self.left, self.right, self.name
-
     def symbols(self) -> Mapping[str, str]:
         """The outer pins."""
         return {"p": symbol(lettered(self.left)), "q": symbol(lettered(self.right))}
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Both arcs."""
-        return self.near, self.far
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet, and on which side of the line of their centres."""

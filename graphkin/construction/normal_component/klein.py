@@ -119,6 +119,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     laid_off: ClassVar[frozenset[str]] = frozenset()
     lettered: ClassVar[tuple[str, ...]] = ("corner", "foot", "whole")
     palette: ClassVar[PaletteAction] = PaletteAction("klein", PICKED, SCRIPT, "triangle")
+    titled: ClassVar[str] = "Klein's construction for {q} about {p}"
 
     o: str
     centre: int
@@ -130,10 +131,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     chord: int | None = None
     foot: int | None = None
     whole: int | None = None
-
-    def title(self, role: str) -> str:
-        """What it is called in a report."""
-        return f"Klein's construction for {self.q} about {self.p}"
 
     def symbols(self) -> Mapping[str, str]:
         """The centre of the crank, and the pins."""

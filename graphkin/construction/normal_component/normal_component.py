@@ -104,6 +104,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     lettered: ClassVar[tuple[str, ...]] = ("tip", "cut", "end")
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
     palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT)
+    titled: ClassVar[str] = "the right triangle of {q} about {p}"
 
     p: str
     q: str
@@ -117,10 +118,6 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     line: int | None = None
     cut: int | None = None
     end: int | None = None
-
-    def title(self, role: str) -> str:
-        """What it is called in a report."""
-        return f"the right triangle of {self.q} about {self.p}"
 
     @property
     def speed(self) -> str:

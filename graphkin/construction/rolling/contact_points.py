@@ -156,16 +156,12 @@ class Track(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
+    guided: ClassVar[str] = "wheel"
 
     wheel: str
     sign: str
     rolling: Rolling
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """As the guide of its wheel."""
-        return f"the guide of {self.wheel}"
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """By the point that it is drawn through, or its wheel."""
@@ -190,20 +186,13 @@ class CentrePath(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "the path of the centre of {wheel}"}
+    told_after: ClassVar[tuple[str, ...]] = ("track",)
+    guided: ClassVar[str] = "wheel"
 
     wheel: str
     sign: str
     track: int
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """As the guide of its wheel."""
-        return f"the guide of {self.wheel}"
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The track."""
-        return (self.track,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Parallel to the track at the radius."""
@@ -339,16 +328,13 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("where", "centre")
     reasons: ClassVar[Mapping[str, str]] = {"centre": "why.roller"}
+    told_after: ClassVar[tuple[str, ...]] = ("path",)
 
     path: int
     lean: int
     radii: tuple[int, int]
     where: int
     centre: int
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Its path."""
-        return (self.path,)
 
     def is_halfway(self, drawing: Drawing) -> bool:
         """Whether it has rolled as far on one of its tracks as on the other."""

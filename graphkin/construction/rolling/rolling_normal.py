@@ -62,6 +62,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     look: ClassVar[str] = "normal"
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.normal"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    images: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
     q: str
@@ -76,11 +77,6 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     def symbols(self) -> Mapping[str, str]:
         """The ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The image in which it ends."""
-        if role == "image":
-            canvas.image()
 
     # --- saying it -------------------------------------------------------------------------------
 

@@ -29,6 +29,7 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
     unmarked: ClassVar[frozenset[str]] = frozenset({"image"})
+    images: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
     q: str
@@ -44,10 +45,6 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
         """It falls on the same point."""
         name = symbol(drawing.trace.program.steps[self.image].name)
         return drawing.words("step.alike", name=name, p=symbol(self.p), q=symbol(self.q))
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, under its letter too."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Its vector is that of the other point."""
@@ -70,6 +67,8 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.meet"}
+    told_after: ClassVar[tuple[str, ...]] = ("first", "second")
+    images: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str
     first: int
@@ -81,10 +80,6 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
         """Its point."""
         return self.point
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Both lines."""
-        return self.first, self.second
-
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet."""
         name = symbol(drawing.trace.program.steps[self.image].name)
@@ -94,10 +89,6 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
         """Where both lines meet."""
         name = symbol(drawing.trace.program.steps[self.image].name)
         return drawing.words("step.meet-apart", name=name)
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, under its letter."""
-        canvas.image()
 
 
 def crossed_image(pen: Pen, first: int, second: int, *, name: str = "", of: str = "") -> int:

@@ -39,6 +39,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("line",)
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.perpendicular"}
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ {p}{q}"}
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
 
     start: int
     line: int
@@ -53,10 +54,6 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         """That the bar keeps its length; of a pivot at rest, that its image is the pole."""
         at_rest = self.index == self.whole and not self.touch
         return "why.perpendicular_at_rest" if at_rest else super().reason(drawing, role)
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through which point it is drawn; both points where links touch have one image."""
@@ -100,13 +97,10 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "∥ guide {guide}"}
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    guided: ClassVar[str] = "guide"
 
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """The guide."""
-        return f"the guide of {self.guide}"
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """Relative to its guide a block moves, and accelerates, along it only."""
@@ -116,10 +110,6 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
     def symbols(self) -> Mapping[str, str]:
         """The guide by its block."""
         return {"g": escape(self.guide)}
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through which point it is drawn, or which end of the component laid off before."""

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import (
@@ -143,6 +142,8 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.turned"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    images: ClassVar[frozenset[str]] = frozenset({"image"})
 
     start: int
     omega: int
@@ -151,10 +152,6 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     def tried_rate(self, role: str) -> int:
         """The angular velocity."""
         return self.omega
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Its ends, its bar, its rate and its drawn length."""
@@ -176,10 +173,6 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
         if has_no_length(drawing, self.image):
             return drawing.words(falls(drawing, self.image, fields["s"]), **fields)
         return drawing.words(f"step.turned-velocity{by_bar(drawing, self.omega, fields)}", **fields)
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point at its end."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem, and its size; a driver's crank has relations of its own."""
