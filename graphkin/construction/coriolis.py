@@ -242,8 +242,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""
-        steps = drawing.trace.program.steps
-        segment = NOTHING.join(symbol(steps[end].name) for end in (self.tail, self.tip))
+        segment = NOTHING.join(drawing.lettered(end) for end in (self.tail, self.tip))
         return {
             "a": self.symbol,
             "v": symbol(self.speed),

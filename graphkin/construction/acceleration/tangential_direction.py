@@ -33,7 +33,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
         fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
         laid = laid_off(drawing.trace.program, self.start)
         if laid is not None and laid.is_short(drawing):
-            start = symbol(drawing.trace.program.steps[laid.start].name)
+            start = drawing.lettered(laid.start)
             return drawing.words("step.square-to", s=start, **fields)
         foot = symbol(letter_at(drawing, self.start))
         return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)

@@ -81,13 +81,13 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Ends, bar, rate and drawn length of one of the two components."""
         steps = drawing.trace.program.steps
-        names = {**self.symbols(), "s": symbol(steps[self.start].name)}
+        names = {**self.symbols(), "s": drawing.lettered(self.start)}
         if role == "end":
             whole = self.is_steady and steps[self.start].name == drawing.pole
             rate = rate_symbol(drawing, self.omega)
             return {
                 **names,
-                "name": symbol(steps[self.end].name),
+                "name": drawing.lettered(self.end),
                 "vector": symbol(f"a_{self.index}" + ("" if whole else "^ν")),
                 "omega": rate,
                 "rate": rate,
@@ -96,7 +96,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         assert self.image is not None and self.epsilon is not None
         return {
             **names,
-            "name": symbol(steps[self.image].name),
+            "name": drawing.lettered(self.image),
             "vector": symbol(f"a_{self.index}^τ"),
             "epsilon": rate_words(drawing, self.image, self.epsilon, self.link, "ε"),
             "drawn": length_drawn(drawing, self.end, self.image),

@@ -96,8 +96,7 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Also the image of the bar in the plan."""
-        steps = drawing.trace.program.steps
-        images = dict(zip("ab", (symbol(steps[each].name) for each in self.images), strict=False))
+        images = dict(zip("ab", (drawing.lettered(each) for each in self.images), strict=False))
         figure = symbol(drawing.pole) + "".join(images.values())
         return super().fields(drawing) | images | {"figure": figure}
 

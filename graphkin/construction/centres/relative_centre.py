@@ -176,7 +176,7 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     def equal(self, drawing: Drawing) -> str:
         """The letter of that."""
         same = self.same(drawing)
-        return "" if same is None else symbol(drawing.trace.program.steps[same].name)
+        return "" if same is None else drawing.lettered(same)
 
     def mark_far(self, canvas: Canvas) -> None:
         """Where it is known already by another letter, only that."""

@@ -345,7 +345,7 @@ class LaidOff(Construction, frozen=True, kw_only=True):
         if not all(user.arrow or user.part is Part.RESULT for user in users):
             return ""
         end = symbol(steps[left[0].args[1]].name)
-        fields = {"s": symbol(steps[self.start].name), "r": symbol(left[0].name)}
+        fields = {"s": drawing.lettered(self.start), "r": symbol(left[0].name)}
         foot = symbol(letter_at(drawing, self.corner)) or fields["s"]
         vector = self.segment(drawing, fields["s"])
         return self.component.laid_alone(drawing, q=end, k=foot, c=vector, **fields)

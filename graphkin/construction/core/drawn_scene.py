@@ -23,6 +23,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.scale import Extent, Scales, extent_of
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.text import Words
@@ -206,6 +207,10 @@ class Drawing(Struct, frozen=True, dict=True):
             for number in self.trace.values
             if (hand := steps[number].by_hand) is not None
         }
+
+    def lettered(self, number: int) -> str:
+        """Markup of the letter of a step."""
+        return symbol(self.trace.program.steps[number].name)
 
     def number_of(self, step: Step) -> int:
         """The number of a step in its program."""

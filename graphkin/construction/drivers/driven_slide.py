@@ -59,11 +59,10 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Its ends, its guide, and its drawn length."""
-        steps = drawing.trace.program.steps
         return {
             **self.symbols(),
             "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
-            "name": symbol(steps[self.image].name),
+            "name": drawing.lettered(self.image),
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
             "drawn": length_drawn(drawing, self.start, self.image),

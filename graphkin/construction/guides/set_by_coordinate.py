@@ -12,7 +12,7 @@ from graphkin.construction.core.naming import angle_symbol, drawn_amount, headin
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive
 from graphkin.construction.core.vocabulary import action
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Slide
@@ -46,7 +46,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its coordinate; by where it lies from the zero where a group was found to close."""
-        name = symbol(drawing.trace.program.steps[self.point].name)
+        name = drawing.lettered(self.point)
         if not is_found_by_closing(drawing.trace.program.steps[self.where]):
             return drawing.words("step.set-at", name=name, what=self.coordinate(drawing))
         size = float(drawing.trace.values[self.where])
@@ -79,7 +79,7 @@ class CarrierSetByCoordinate(SetByCoordinate, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the coordinate of the block."""
-        name = symbol(drawing.trace.program.steps[self.point].name)
+        name = drawing.lettered(self.point)
         what = self.coordinate(drawing)
         return drawing.words("step.set-back", name=name, k=escape(self.link), what=what)
 

@@ -30,7 +30,7 @@ from graphkin.construction.rolling.rolling import (
     settle_turn,
     touch_wheels,
 )
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.scene.link_points import under
 from graphkin.structure.groups import CoupledTrain, Higher
@@ -55,11 +55,11 @@ class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
 
     def point(self, drawing: Drawing) -> str:
         """The image of the point of contact."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
+        return drawing.lettered(self.tip)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """The image of the known wheel; of accelerations the parallel to the radius through it."""
-        start = symbol(drawing.trace.program.steps[self.start].name)
+        start = drawing.lettered(self.start)
         key = "image" if drawing.kind == "velocity" else "radius"
         return key, {"bar": bar(*self.ends), "s": start}
 

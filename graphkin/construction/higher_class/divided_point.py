@@ -96,8 +96,7 @@ class CrossedLine(Construction, frozen=True):
         """The line, by the names of the trials."""
         if role != "line":
             return ""
-        steps = drawing.trace.program.steps
-        a, b = (symbol(steps[number].name) for number in (self.first, self.second))
+        a, b = (drawing.lettered(number) for number in (self.first, self.second))
         return drawing.words("step.line-through", a=a, b=b)
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -174,9 +173,8 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
 
         ``first`` and ``second`` are the gaps, or parts of the line, of one sign on one side.
         """
-        steps = drawing.trace.program.steps
         numbers = (self.first, self.second, self.value)
-        one, two, point = (symbol(steps[number].name) for number in numbers)
+        one, two, point = (drawing.lettered(number) for number in numbers)
         parts = f"{one}{point} : {point}{two}"
         sizes = " : ".join(drawing.words.fixed(abs(size), 2) for size in (first, second))
         beyond = ""

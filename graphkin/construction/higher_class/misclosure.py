@@ -103,13 +103,13 @@ class BarMisclosure(Misclosure, frozen=True, kw_only=True):
 
     def point(self, drawing: Drawing) -> str:
         """The image of the pin that is found last."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
+        return drawing.lettered(self.tip)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """Perpendicular to the bar, from the end of the component that is known."""
         steps = drawing.trace.program.steps
         p, q = steps[self.p].name, steps[self.q].name
-        fields = {"bar": bar(p, q), "s": symbol(steps[self.foot].name), "p": symbol(p)}
+        fields = {"bar": bar(p, q), "s": drawing.lettered(self.foot), "p": symbol(p)}
         component = component_of(drawing.trace.program, self.wanted)
         if component is None:
             return "square", fields
@@ -134,7 +134,7 @@ class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
 
     def point(self, drawing: Drawing) -> str:
         """The image of the block's point."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
+        return drawing.lettered(self.tip)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """Parallel to the guide, from the end of what is laid off."""

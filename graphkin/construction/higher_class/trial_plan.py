@@ -325,8 +325,7 @@ def point_told(drawing: Drawing, number: int) -> str:
 
 def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -> str:
     """The words for several points of a trial plan."""
-    steps = drawing.trace.program.steps
-    listed = drawing.words("list_mark").join(symbol(steps[number].name) for number in numbers)
+    listed = drawing.words("list_mark").join(drawing.lettered(number) for number in numbers)
     return drawing.words(f"step.{key}", name=listed, list=listed, **fields)
 
 

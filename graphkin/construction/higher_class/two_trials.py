@@ -161,13 +161,13 @@ class TwoTrials(Construction, frozen=True):
 
     def relations(self, drawing: Drawing) -> Iterator[Relation]:
         """Where between the trials the right plan lies: what they miss grows in proportion."""
-        steps, values = drawing.trace.program.steps, drawing.trace.values
+        values = drawing.trace.values
         points = [p for p in self.divided(drawing.trace.program) if p.value in values]
         crossed = [p for p in points if self.measured in values and p.is_crossed(values)]
         lead = (crossed or points)[0]
-        one, two, name = (symbol(steps[n].name) for n in (lead.first, lead.second, lead.value))
+        one, two, name = (drawing.lettered(n) for n in (lead.first, lead.second, lead.value))
         ratio = f"{one}{name}/{one}{two}"
-        others = [symbol(steps[point.value].name) for point in points if point not in crossed]
+        others = [drawing.lettered(point.value) for point in points if point not in crossed]
         fields = {
             "share": self.symbol,
             "ratio": ratio,
@@ -236,14 +236,14 @@ def divided_together(
     drawing: Drawing, found: list[Sentence], share: int, points: dict[Sentence, DividedPoint]
 ) -> list[Sentence]:
     """The points of one ``share`` said in one sentence."""
-    steps, values = drawing.trace.program.steps, drawing.trace.values
+    values = drawing.trace.values
     crossed = [said for said, point in points.items() if point.is_crossed(values)]
     divided = [said for said in points if said not in crossed]
     if crossed:
         found = [said for said in found if said.step != share]
     if not divided:
         return found
-    listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
+    listed = drawing.words("list_mark").join(drawing.lettered(s.step) for s in divided)
     if not crossed:
         point = points[divided[0]]
         fields = point.ratio(drawing, *gaps_of(drawing, point))
@@ -273,7 +273,7 @@ def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
 
 def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
     """How the line of the trials of one point is divided: as the gaps are, or another's line is."""
-    steps, values = drawing.trace.program.steps, drawing.trace.values
+    values = drawing.trace.values
     alike = (
         p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share
     )
@@ -281,8 +281,8 @@ def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
     gaps = gaps_of(drawing, lead)
     return drawing.words(
         "step.divided-one",
-        line="".join(symbol(steps[end].name) for end in (point.first, point.second)),
-        name=symbol(steps[point.value].name),
+        line="".join(drawing.lettered(end) for end in (point.first, point.second)),
+        name=drawing.lettered(point.value),
         ratio=lead.ratio(drawing, *gaps)["ratio"],
         beyond=point.ratio(drawing, *gaps)["beyond"],
     )

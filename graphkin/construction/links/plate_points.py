@@ -85,7 +85,7 @@ def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
             if turned is not None and abs(turned) < UNTURNED:
                 alike.setdefault((kind.link, kind.start), []).append(said)
     for (link, start), some in alike.items():
-        names = drawing.words("list_mark").join(symbol(steps[said.step].name) for said in some)
+        names = drawing.words("list_mark").join(drawing.lettered(said.step) for said in some)
         fields = {"g": escape(link), "p": symbol(start), "list": names}
         found = together(found, some, drawing.words("step.beside-start", **fields))
     return found

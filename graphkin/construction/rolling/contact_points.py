@@ -313,7 +313,7 @@ class RackPoint(Construction, frozen=True, kw_only=True):
         key = "step.rack-at" if self.is_toothed(drawing) else "step.strand-at"
         return drawing.words(
             "step.bar-at" if self.wheel == FRAME else key,
-            name=symbol(drawing.trace.program.steps[self.point].name),
+            name=drawing.lettered(self.point),
             g=escape(self.rack),
             arc=drawn_amount(drawing, abs(float(drawing.trace.values[self.way]))),
         )
@@ -343,7 +343,7 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its coordinate, or halfway."""
-        name = symbol(drawing.trace.program.steps[self.centre].name)
+        name = drawing.lettered(self.centre)
         if self.is_halfway(drawing):
             return drawing.words("step.set-halfway", name=name)
         what = drawn_amount(drawing, float(drawing.trace.values[self.where]))

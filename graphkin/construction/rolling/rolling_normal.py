@@ -115,11 +115,10 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
     def told(self, drawing: Drawing, key: str, **fields: str) -> str:
         """A sentence of how it is laid off."""
-        steps = drawing.trace.program.steps
         return drawing.words(
             key,
-            s=symbol(steps[self.start].name),
-            name=symbol(steps[self.image].name),
+            s=drawing.lettered(self.start),
+            name=drawing.lettered(self.image),
             vector=self.symbol,
             omega=self.rate(drawing),
             drawn=in_mm(
@@ -265,7 +264,7 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The parallel to the radius."""
-        start = symbol(drawing.trace.program.steps[self.start].name)
+        start = drawing.lettered(self.start)
         key = "common-normal-belt" if self.belted else "common-normal"
         return drawing.words(f"step.{key}", s=start, **self.symbols())
 

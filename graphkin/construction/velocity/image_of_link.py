@@ -43,7 +43,7 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """It falls on the same point."""
-        name = symbol(drawing.trace.program.steps[self.image].name)
+        name = drawing.lettered(self.image)
         return drawing.words("step.alike", name=name, p=symbol(self.p), q=symbol(self.q))
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
@@ -82,12 +82,12 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet."""
-        name = symbol(drawing.trace.program.steps[self.image].name)
+        name = drawing.lettered(self.image)
         return drawing.words("step.meet", name=name)
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
         """Where both lines meet."""
-        name = symbol(drawing.trace.program.steps[self.image].name)
+        name = drawing.lettered(self.image)
         return drawing.words("step.meet-apart", name=name)
 
 
@@ -146,9 +146,8 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
 
     def figures(self, drawing: Drawing) -> dict[str, str]:
         """Its name, the two similar figures, and the points of the link."""
-        steps = drawing.trace.program.steps
-        name = symbol(steps[self.image].name)
-        images = symbol(steps[self.first].name) + symbol(steps[self.second].name)
+        name = drawing.lettered(self.image)
+        images = drawing.lettered(self.first) + drawing.lettered(self.second)
         figure = bar(self.p, self.q) + symbol(self.r)
         drawn = {"images": images, "image": images + name, "figure": figure}
         return {"name": name, **drawn, **self.symbols()}

@@ -155,12 +155,11 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Its ends, its bar, its rate and its drawn length."""
-        steps = drawing.trace.program.steps
         default = symbol(f"v_{self.index}")
         return {
             **self.symbols(),
-            "s": symbol(steps[self.start].name),
-            "name": symbol(steps[self.image].name),
+            "s": drawing.lettered(self.start),
+            "name": drawing.lettered(self.image),
             "vector": vector_of(drawing, self.start, self.image, default),
             "omega": rate_words(drawing, self.image, self.omega, self.link, "ω"),
             "rate": rate_symbol(drawing, self.omega),
