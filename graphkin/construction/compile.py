@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from graphkin.construction import asked
+from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
 from graphkin.construction.centres.acceleration_poles import draw_pole
 from graphkin.construction.centres.instant_centre import draw_centre
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
@@ -20,7 +21,6 @@ from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plans.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.plans.plan import omega_of
 from graphkin.scene.model import Scene
-from graphkin.scene.requests import KLEIN
 from graphkin.structure.groups import (
     CamFollower,
     CoupledTrain,
@@ -67,10 +67,7 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
 
         draw_ladder(pen)
     write_plan(pen, shapes, standing, ACCELERATIONS)
-    if scene.sheet.method == KLEIN:
-        from graphkin.construction.normal_component.klein import refuse_unused
-
-        refuse_unused(pen)
+    refuse_unused_method(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
     return pen.program()
@@ -139,9 +136,9 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
 
             draw: Callable[..., None] = two_trials.two_trials
             if parts:
-                from graphkin.construction.rolling import pinned_wheels
+                from graphkin.construction.rolling import spun_wheel
 
-                draw = pinned_wheels.move_pinned
+                draw = spun_wheel.move_pinned
             return partial(higher.position, each=place), *each_in(draw)
         case Unresolved():
             raise ValueError(f"links {', '.join(group.links)} are in no group that is drawn")

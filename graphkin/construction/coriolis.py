@@ -197,7 +197,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """The triangles that set the same velocity at the same pin, with the step that does."""
         assert self.velocity is not None
         step = drawing.trace.program.steps[self.velocity]
-        for number, other, _ in drawing.mechanism_steps():
+        for number, other, _ in drawing.on_mechanism:
             if number == self.velocity or other.action is not step.action:
                 continue
             kind = construction(other)
@@ -361,7 +361,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
 def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
     """The Coriolis components whose leaning line is among the steps of a sheet."""
-    for number, step, _ in drawing.mechanism_steps():
+    for number, step, _ in drawing.on_mechanism:
         kind = construction(step)
         if isinstance(kind, CoriolisComponent) and kind.lean == number:
             yield kind

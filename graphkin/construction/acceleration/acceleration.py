@@ -4,58 +4,16 @@ from __future__ import annotations
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.tangential_direction import tangential_direction
-from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
+from graphkin.construction.core.arrows import acceleration_arrow, slide_arrow
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.normal_component.normal_component import (
-    lay_off_normal,
-    normal_component,
-)
 from graphkin.construction.plans.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.scene.link_points import is_under
-from graphkin.scene.requests import KLEIN
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading
-
-
-class BarAcceleration(Struct, frozen=True):
-    """What a bar to a known ``pivot`` says of the acceleration of a ``point``."""
-
-    pivot: str
-    point: str
-
-    def component(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
-    ) -> int:
-        """The component that is known of it, drawn as the scene wants it among those ``sides``."""
-        if sides is None or pen.scene.sheet.method != KLEIN:
-            return normal_component(pen, self.pivot, self.point)
-        from graphkin.construction.normal_component.klein import component_in_dyad
-
-        return component_in_dyad(pen, shapes, sides, self.pivot, self.point)
-
-    def end(self, pen: Pen, vector: int | None) -> int:
-        """Where the known part ends in the plan."""
-        assert vector is not None
-        return lay_off_normal(pen, self.pivot, self.point, vector)
-
-    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
-        """That, and the line of the rest."""
-        end = self.end(pen, vector)
-        return end, tangential_direction(pen, self.pivot, self.point, end)
-
-    def rest(self, pen: Pen, end: int, found: int) -> None:
-        """The arrow of the rest."""
-        component_arrow(pen, end, found, "τ", self.point, self.pivot)
-
-    def finish(self, pen: Pen) -> None:
-        """The arrow from the pole."""
-        if not is_under(self.point):
-            acceleration_arrow(pen, self.point)
 
 
 class GuideAcceleration(Struct, frozen=True):

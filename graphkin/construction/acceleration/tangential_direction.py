@@ -8,11 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
+from msgspec import Struct
+
+from graphkin.construction.core.arrows import acceleration_arrow, component_arrow
 from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Effect
 from graphkin.construction.core.segments import letter_at
+from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
@@ -20,7 +24,9 @@ from graphkin.construction.normal_component.normal_component import (
 from graphkin.construction.plans.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.link_points import lettered
+from graphkin.scene.link_points import is_under, lettered
+from graphkin.scene.requests import KLEIN
+from graphkin.structure.pairs import Joint
 
 
 class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
@@ -55,9 +61,53 @@ def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
     return line
 
 
+class BarAcceleration(Struct, frozen=True):
+    """What a bar to a known ``pivot`` says of the acceleration of a ``point``."""
+
+    pivot: str
+    point: str
+
+    def component(
+        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
+    ) -> int:
+        """The component that is known of it, drawn as the scene wants it among those ``sides``."""
+        if sides is None or pen.scene.sheet.method != KLEIN:
+            return normal_component(pen, self.pivot, self.point)
+        from graphkin.construction.normal_component.klein import component_in_dyad
+
+        return component_in_dyad(pen, shapes, sides, self.pivot, self.point)
+
+    def end(self, pen: Pen, vector: int | None) -> int:
+        """Where the known part ends in the plan."""
+        assert vector is not None
+        return lay_off_normal(pen, self.pivot, self.point, vector)
+
+    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+        """That, and the line of the rest."""
+        end = self.end(pen, vector)
+        return end, tangential_direction(pen, self.pivot, self.point, end)
+
+    def rest(self, pen: Pen, end: int, found: int) -> None:
+        """The arrow of the rest."""
+        component_arrow(pen, end, found, "τ", self.point, self.pivot)
+
+    def finish(self, pen: Pen) -> None:
+        """The arrow from the pole."""
+        if not is_under(self.point):
+            acceleration_arrow(pen, self.point)
+
+
 def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
     """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
     vector = normal_component(pen, pivot, pin)
     with ACCELERATION.drawn(pen):
         end = lay_off_normal(pen, pivot, pin, vector)
         return end, tangential_direction(pen, pivot, pin, end)
+
+
+def refuse_unused_method(pen: Pen) -> None:
+    """Raise StructureError where a scene wants components drawn in a way none of them takes."""
+    if pen.scene.sheet.method == KLEIN:
+        from graphkin.construction.normal_component.klein import refuse_unused
+
+        refuse_unused(pen)

@@ -49,7 +49,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("end", "image")
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"end", "image"})
-    images: ClassVar[frozenset[str]] = frozenset({"end", "image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"end", "image"})
 
     start: int
     omega: int

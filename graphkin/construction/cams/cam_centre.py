@@ -242,7 +242,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
     between: ClassVar[tuple[str, ...]] = ("pin", "name")
-    measured: ClassVar[str] = "tip"
+    laid_at: ClassVar[str] = "tip"
 
     link: str
     pin: str

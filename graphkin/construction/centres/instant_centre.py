@@ -75,7 +75,7 @@ class InstantCentre(TwoPointCentre, frozen=True, kw_only=True):
     def mark_tips(self, canvas: Canvas) -> None:
         """The line through the tips of two parallel velocities, and those not drawn elsewhere."""
         drawing, pole = canvas.drawing, canvas.value(self.pole)
-        drawn = {step.args[:3] for _, step, _ in drawing.mechanism_steps() if step.arrow}
+        drawn = {step.args[:3] for _, step, _ in drawing.on_mechanism if step.arrow}
         vectors = []
         for name, (place, image) in self.parallel(drawing).items():
             tail = canvas.value(place)
@@ -137,7 +137,7 @@ def set_before(drawing: Drawing) -> Mapping[int, int]:
     """The velocities that are set on the mechanism to find a centre, each with its centre."""
     ends = {
         pair: number
-        for number, step, _ in drawing.mechanism_steps()
+        for number, step, _ in drawing.on_mechanism
         if isinstance(centre := construction(step), InstantCentre) and centre.found == number
         for pair in centre.parallel(drawing).values()
     }
@@ -149,7 +149,7 @@ def arrows_set_on(drawing: Drawing) -> dict[tuple[int, int], int]:
     """The steps of velocities set on the mechanism, by those of the place and the image."""
     return {
         (step.args[0], step.args[2]): number
-        for number, step, _ in drawing.mechanism_steps()
+        for number, step, _ in drawing.on_mechanism
         if is_set_on(step) and step.part is Part.VELOCITY
     }
 

@@ -106,13 +106,9 @@ class Drawing(Struct, frozen=True, dict=True):
         on_it = self.steps(Plane.MECHANISM)
         return tuple((number, step) for number, step, _ in on_it if step.part is Part.NORMAL)
 
-    def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
-        """The steps that this sheet draws on the mechanism."""
-        return iter(self.on_mechanism)
-
     @cached_property
     def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:
-        """The same, gathered once."""
+        """The steps that this sheet draws on the mechanism, with their values."""
         own = (
             (Part.POSITION, Part.NORMAL, Part.POLE)
             if self.kind == "acceleration"
@@ -343,7 +339,7 @@ class Drawing(Struct, frozen=True, dict=True):
     def mechanism_extent(self) -> Extent:
         """The box of the mechanism and what is drawn on it; centres and poles do not count."""
         points: list[complex] = []
-        for _, step, value in self.mechanism_steps():
+        for _, step, value in self.on_mechanism:
             if step.part not in (Part.CENTRE, Part.POLE) and takes_room(step, value):
                 points += ends(value)
         return self.bare_extent().grown(points)

@@ -27,9 +27,9 @@ class Construction(Roles, frozen=True):
     mechanism shows its point, where no mark of its own step does.
 
     ``told_after`` are the roles of the lines that are told before its step, ``between`` those of
-    the names of the points that it joins: ``measured`` is the role of the step that lays off the
+    the names of the points that it joins: ``laid_at`` is the role of the step that lays off the
     distance of the first and the last. ``guided`` is the role of the block or wheel along whose
-    guide its line lies, ``images`` are those of points marked in a plan with their letters,
+    guide its line lies, ``imaged`` are those of points marked in a plan with their letters,
     ``titled`` is what a report calls what it finds.
     """
 
@@ -44,9 +44,9 @@ class Construction(Roles, frozen=True):
     marked_as: ClassVar[str] = ""
     told_after: ClassVar[tuple[str, ...]] = ()
     between: ClassVar[tuple[str, ...]] = ()
-    measured: ClassVar[str] = ""
+    laid_at: ClassVar[str] = ""
     guided: ClassVar[str] = ""
-    images: ClassVar[frozenset[str]] = frozenset()
+    imaged: ClassVar[frozenset[str]] = frozenset()
     titled: ClassVar[str] = ""
 
     def reason(self, drawing: Drawing, role: str) -> str:
@@ -115,7 +115,7 @@ class Construction(Roles, frozen=True):
 
     def laid_length(self, role: str) -> tuple[str, str] | None:
         """The points whose distance is laid off at a role's step; None for other roles."""
-        return (self.points[0], self.points[-1]) if role == self.measured else None
+        return (self.points[0], self.points[-1]) if role == self.laid_at else None
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """What is said of a role's step that finds no point; nothing for other roles."""
@@ -177,7 +177,7 @@ class Construction(Roles, frozen=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""
-        if role in self.images:
+        if role in self.imaged:
             canvas.image()
 
     def is_whole(self, known: Container[int]) -> bool:
@@ -187,6 +187,19 @@ class Construction(Roles, frozen=True):
     def is_hidden(self, drawing: Drawing) -> bool:
         """Whether it is too small on a sheet to be drawn."""
         return False
+
+
+class PlanPole(Construction, frozen=True, kw_only=True):
+    """The ``pole`` of a plan, chosen freely: the image of everything that stands still."""
+
+    gives: ClassVar[tuple[str, ...]] = ("pole",)
+    unmarked: ClassVar[frozenset[str]] = frozenset({"pole"})
+
+    pole: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, larger than those of images."""
+        canvas.pole()
 
 
 def construction(step: Step) -> Construction | None:

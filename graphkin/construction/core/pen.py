@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.branches import block_of, side_of, way_of
-from graphkin.construction.core.plan_pole import PlanPole
+from graphkin.construction.core.kind import PlanPole
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
     Drive,

@@ -41,7 +41,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.driven"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
     told_after: ClassVar[tuple[str, ...]] = ("start",)
-    images: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str
     speed: int

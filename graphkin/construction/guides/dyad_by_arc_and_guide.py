@@ -93,6 +93,6 @@ def cut_line(
 
 def centres_about(drawing: Drawing, points: Sequence[str]) -> Iterator[str]:
     """The centres of the arcs that find some points on their guides."""
-    for _, step, _ in drawing.mechanism_steps():
+    for _, step, _ in drawing.on_mechanism:
         if isinstance(step.of, DyadByArcAndGuide) and step.of.name in points:
             yield step.of.centre

@@ -177,7 +177,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         **SwungGuide.lines,
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
     }
-    measured: ClassVar[str] = "large"
+    laid_at: ClassVar[str] = "large"
 
     height: int
     small: int | None = None

@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import bases, contact_name
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, letter
@@ -18,7 +17,7 @@ from graphkin.construction.core.vocabulary import action, difference
 from graphkin.construction.guides.coincident_points import carried
 from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
-from graphkin.construction.higher_class.misclosure import Misclosure, lacks_across
+from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.plans.plan import Plan
@@ -42,32 +41,19 @@ FREE = 1e-12
 """Ratios that differ less than this leave the tried link free."""
 
 
-class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
+class ContactMisclosure(LineMisclosure, frozen=True, kw_only=True):
     """The gap at a contact, across its radius: between the images of both wheels there.
 
     ``ends`` are the ends of the radius, ``start`` is the known wheel's image, ``tip`` the other's.
     """
 
     ends: tuple[str, str]
-    normal: int
-    start: int
-    tip: int
-
-    def point(self, drawing: Drawing) -> str:
-        """The image of the point of contact."""
-        return drawing.lettered(self.tip)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """The image of the known wheel; of accelerations the parallel to the radius through it."""
         start = drawing.lettered(self.start)
         key = "image" if drawing.kind == "velocity" else "radius"
         return key, {"bar": bar(*self.ends), "s": start}
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The gap, where no crossing settles it."""
-        if self.is_measured(canvas.drawing):
-            normal, start, tip = map(canvas.value, (self.normal, self.start, self.tip))
-            self.draw_gap(canvas, start, start, tip, 1j * normal.along / abs(normal.along))
 
 
 class SettledTurn(Determined, frozen=True, kw_only=True):
@@ -183,4 +169,4 @@ def missed(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> ContactMisclos
     with pen.on(plan.part, Plane.NUMBERS):
         size = pen.draw(lacks_across, normal, start, tip)
     ends = letter(wheel.centre), letter(name)
-    return ContactMisclosure(size=size, ends=ends, normal=normal, start=start, tip=tip)
+    return ContactMisclosure(size=size, ends=ends, along=normal, start=start, tip=tip)

@@ -445,7 +445,7 @@ def missed(
             tip = pen.the(plan.quantity, p)
             with pen.on(plan.part, Plane.NUMBERS):
                 size = pen.draw(lacks_across, line, start, tip)
-            return GuideMisclosure(size=size, block=pair.links[0], guide=line, start=start, tip=tip)
+            return GuideMisclosure(size=size, block=pair.links[0], along=line, start=start, tip=tip)
         case Driver(kind="turn") as driver:
             given = getattr(pen.drive(driver), plan.given)
             own = omega_of(pen, driver.link, plan.rate)

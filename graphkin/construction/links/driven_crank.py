@@ -51,7 +51,7 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.crank"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
     between: ClassVar[tuple[str, ...]] = ("pivot", "name")
-    measured: ClassVar[str] = "tip"
+    laid_at: ClassVar[str] = "tip"
 
     link: str
     pivot: str
@@ -99,7 +99,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
     between: ClassVar[tuple[str, ...]] = ("pivot", "name")
-    measured: ClassVar[str] = "tip"
+    laid_at: ClassVar[str] = "tip"
 
     link: str
     pivot: str

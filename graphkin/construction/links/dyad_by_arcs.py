@@ -32,7 +32,7 @@ class CompassArc(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("arc",)
     lines: ClassVar[Mapping[str, str]] = {"arc": "the arc {centre}{point} about {centre}"}
     between: ClassVar[tuple[str, ...]] = ("centre", "point")
-    measured: ClassVar[str] = "arc"
+    laid_at: ClassVar[str] = "arc"
 
     centre: str
     point: str

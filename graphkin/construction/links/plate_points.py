@@ -37,7 +37,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.placed"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
     between: ClassVar[tuple[str, ...]] = ("start", "name")
-    measured: ClassVar[str] = "point"
+    laid_at: ClassVar[str] = "point"
 
     link: str
     start: str
@@ -166,7 +166,7 @@ class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
 class PointInLine(PlatePoint, frozen=True, kw_only=True):
     """A point on the line of its base, laid off from its start by a ``length``."""
 
-    measured: ClassVar[str] = "corner"
+    laid_at: ClassVar[str] = "corner"
 
     length: int
 
@@ -188,7 +188,7 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.on_lever"}
     between: ClassVar[tuple[str, ...]] = ("start", "name")
-    measured: ClassVar[str] = "point"
+    laid_at: ClassVar[str] = "point"
 
     start: str
     name: str

@@ -10,7 +10,8 @@ from collections.abc import Callable, Sequence
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.acceleration import BarAcceleration, GuideAcceleration
+from graphkin.construction.acceleration.acceleration import GuideAcceleration
+from graphkin.construction.acceleration.tangential_direction import BarAcceleration
 from graphkin.construction.acceleration.turned_acceleration import accelerated
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.pen import Pen, letter

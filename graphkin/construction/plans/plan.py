@@ -68,7 +68,7 @@ class Plan(Struct, frozen=True):
     ) -> None:
         """The image of a pin of a link whose rates are known, with its arrows.
 
-        The pivot may be a point of contact; ``along`` is the point from whose image one leads too.
+        The pivot may be a point where links touch; from the image of ``along`` an arrow leads too.
         """
         start = pen.the(self.quantity, pivot)
         with self.drawn(pen):

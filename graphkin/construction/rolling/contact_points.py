@@ -9,10 +9,9 @@ from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction, constructions
+from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
 from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Effect, Plane, Step
 from graphkin.construction.core.quantities import OMEGA

@@ -62,7 +62,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     look: ClassVar[str] = "normal"
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.normal"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
-    images: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
     q: str

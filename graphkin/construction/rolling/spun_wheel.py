@@ -6,11 +6,12 @@ turned as far as the rolling says.
 
 from __future__ import annotations
 
-from graphkin.construction.core.bases import contact_name
+from graphkin.construction.core.bases import bases, contact_name, leads_of, own_first
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import sum_of
 from graphkin.construction.guides.guides import turned_with
+from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point
@@ -20,7 +21,7 @@ from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
 from graphkin.scene.link_points import under
-from graphkin.structure.groups import Geared, Spun
+from graphkin.structure.groups import Geared, Higher, Spun
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin
 
@@ -93,3 +94,22 @@ def move_centre(pen: Pen, group: Spun, centre: str, plan: Plan) -> None:
     wheel_images.image_of_rim(plan, pen, contact, link, partner(contact, link))
     rim = under(contact_name(contact), link)
     wheel_images.turn_from_rim(pen, link, rim, centre, plan)
+
+
+# --- wheels pinned at the instant where they touch their tracks -----------------------------------
+
+
+def move_pinned(
+    images: GroupImages, pen: Pen, shapes: LinkShapes, group: Higher, each: Each
+) -> None:
+    """A plan: where wheels touch their tracks they have one velocity, and their accelerations
+    differ towards the centres only."""
+    for wheel in group.wheels:
+        wheel_images.image_of_rim(images.plan, pen, wheel.contact, wheel.own, wheel.known)
+    for link in group.links:
+        pen.leads.pop(link, None)
+    for member in group.at_instant:
+        found = tuple(map(own_first, bases(pen.scene, member)))
+        pen.bases |= {base.link: base for base in found}
+        pen.leads |= leads_of(member)
+        each(pen, shapes, member, found)

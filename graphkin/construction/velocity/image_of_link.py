@@ -29,7 +29,7 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
     unmarked: ClassVar[frozenset[str]] = frozenset({"image"})
-    images: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
     q: str
@@ -68,7 +68,7 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.meet"}
     told_after: ClassVar[tuple[str, ...]] = ("first", "second")
-    images: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str
     first: int

@@ -143,7 +143,7 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.turned"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
     told_after: ClassVar[tuple[str, ...]] = ("start",)
-    images: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     start: int
     omega: int
