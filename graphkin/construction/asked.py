@@ -9,7 +9,7 @@ from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.guides.coincident_points import carried
-from graphkin.construction.plans.plan import Plan
+from graphkin.construction.plan import Plan
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of

@@ -15,11 +15,11 @@ from graphkin.construction.core.branches import in_place_of, refuse_unstated, st
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program
 from graphkin.construction.core.vocabulary import coordinate
+from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.group_images import ACCELERATIONS, VELOCITIES, GroupImages
-from graphkin.construction.plans.plan import omega_of
+from graphkin.construction.plan import omega_of
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
     CamFollower,

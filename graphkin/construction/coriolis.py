@@ -39,7 +39,7 @@ from graphkin.construction.core.vocabulary import (
     perpendicular_at,
     set_way,
 )
-from graphkin.construction.plans.plan import omega_of
+from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross

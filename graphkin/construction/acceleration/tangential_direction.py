@@ -21,7 +21,7 @@ from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
 )
-from graphkin.construction.plans.plan import ACCELERATION
+from graphkin.construction.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import is_under, lettered

@@ -18,7 +18,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import Action, action
-from graphkin.construction.plans.plan import omega_of
+from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, Ratio

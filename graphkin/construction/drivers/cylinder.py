@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration.acceleration import end_on_driven
 from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.drivers.driven_slide import slide_image
+from graphkin.construction.group_images import GroupImages, sliding_effect
 from graphkin.construction.guides.guide_line import (
     axis_by_guide,
     axis_stretched,
@@ -14,12 +16,10 @@ from graphkin.construction.guides.guide_line import (
     stretch,
 )
 from graphkin.construction.guides.guides import known_guide, local_line
-from graphkin.construction.guides.sliding import end_on_driven
 from graphkin.construction.links import position
 from graphkin.construction.links.dyad_by_arcs import draw_arc
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.group_images import GroupImages, sliding_effect
-from graphkin.construction.plans.plan import ACCELERATION, VELOCITY
+from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.structure.groups import Cylinder, Stretched
 from graphkin.structure.pairs import Pin
 

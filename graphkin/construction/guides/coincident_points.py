@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import in_proportion
-from graphkin.construction.plans.plan import Plan
+from graphkin.construction.plan import Plan
 from graphkin.construction.velocity.image_of_link import image_of_link, translated_image
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME

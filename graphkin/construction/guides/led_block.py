@@ -10,7 +10,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import axis, known_guide, local_line, path_of
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.plan import Plan
+from graphkin.construction.plan import Plan
 from graphkin.scene.model import Driver
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Leading, Sliding

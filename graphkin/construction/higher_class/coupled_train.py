@@ -20,7 +20,7 @@ from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point, plate_points
-from graphkin.construction.plans.plan import Plan
+from graphkin.construction.plan import Plan
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,

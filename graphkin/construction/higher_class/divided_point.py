@@ -15,9 +15,9 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.relation import FINE, Relation, figure, within
 from graphkin.construction.core.vocabulary import action, meet
+from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.group_images import GroupImages
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import TAGS, symbol

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration.acceleration import slid
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import Action, action
-from graphkin.construction.guides.sliding import slid
 from graphkin.construction.higher_class.divided_point import (
     CrossedLine,
     DividedPoint,
     DividedRate,
     between,
 )
-from graphkin.construction.plans.plan import VELOCITY, Plan
+from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of, is_under, under

@@ -27,6 +27,7 @@ from graphkin.construction.core.vocabulary import (
     product,
     sum_of,
 )
+from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.coincident_points import carried
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.higher_class import coupled_train
@@ -43,8 +44,7 @@ from graphkin.construction.higher_class.misclosure import (
 from graphkin.construction.higher_class.right_plan import components, in_order, settle
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.group_images import GroupImages
-from graphkin.construction.plans.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -11,7 +11,7 @@ from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import meet
 from graphkin.construction.guides.coincident_points import carried
-from graphkin.construction.plans.plan import VELOCITY
+from graphkin.construction.plan import VELOCITY
 from graphkin.construction.rolling.kutzbach import (
     PLAN,
     LadderAxis,

@@ -10,13 +10,13 @@ from graphkin.construction.core.bases import bases, contact_name, leads_of, own_
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import sum_of
+from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point
-from graphkin.construction.plans.group_images import GroupImages
-from graphkin.construction.plans.plan import VELOCITY, Plan
+from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned

@@ -21,7 +21,7 @@ from graphkin.construction.core.vocabulary import action, in_proportion, speed_a
 from graphkin.construction.guides.coincident_points import carried, found_by_turning
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import radius_of, seen_from

@@ -12,7 +12,7 @@ from graphkin.construction.guides.coincident_points import carried, source_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.plans.plan import VELOCITY
+from graphkin.construction.plan import VELOCITY
 from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.joints import partner

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 
 from msgspec import Struct
 
+from graphkin.construction.acceleration import acceleration
 from graphkin.construction.acceleration.acceleration import GuideAcceleration
 from graphkin.construction.acceleration.tangential_direction import BarAcceleration
 from graphkin.construction.acceleration.turned_acceleration import accelerated
@@ -17,11 +18,10 @@ from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.vocabulary import difference
-from graphkin.construction.guides import sliding
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import crosses_well
-from graphkin.construction.plans.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.velocity import velocity
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
@@ -193,4 +193,4 @@ def sliding_effect(pen: Pen, given: int) -> Effect | None:
 
 
 VELOCITIES = GroupImages(VELOCITY, BarVelocity, GuideVelocity, velocity.sliding)
-ACCELERATIONS = GroupImages(ACCELERATION, BarAcceleration, GuideAcceleration, sliding.sliding)
+ACCELERATIONS = GroupImages(ACCELERATION, BarAcceleration, GuideAcceleration, acceleration.sliding)

@@ -1,1 +1,0 @@
-"""What is drawn alike in the plans of velocities and of accelerations."""
