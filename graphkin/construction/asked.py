@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
-from msgspec import Struct
-
-from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
-from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import Action, action
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.vocabulary import action
 from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.plan import Plan
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of
@@ -29,42 +27,25 @@ def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
     return Vector(point, point + (image - o) * (seconds * seconds))
 
 
-class AskedQuantity(Struct, frozen=True):
-    """What differs between velocities and accelerations."""
-
-    quantity: str
-    sign: str
-    plane: Plane
-    part: Part
-    action: Action  # that sets a vector on the mechanism
-    arrow: Callable[[Pen, str], None]  # from the pole of the plan
+SET_ON = {"velocity": set_on, "acceleration": set_on_twice}
+"""What sets a vector of each plan on the mechanism."""
 
 
-VELOCITY = AskedQuantity(
-    "velocity",
-    "v",
-    Plane.VELOCITIES,
-    Part.VELOCITY,
-    set_on,
-    lambda pen, point: velocity_arrows(pen, point, None),
-)
-ACCELERATION = AskedQuantity(
-    "acceleration", "a", Plane.ACCELERATIONS, Part.ACCELERATION, set_on_twice, acceleration_arrow
-)
-
-
-def show(pen: Pen, kind: AskedQuantity, tips: Iterable[str]) -> None:
+def show(pen: Pen, plan: Plan, tips: Iterable[str]) -> None:
     """The vectors of driven tips and of what is asked, on the mechanism, and their arrows."""
-    names: tuple[str, ...] = getattr(pen.scene.ask, kind.quantity)
-    asked = [constructed(pen, name, kind.quantity) for name in names]
+    names: tuple[str, ...] = getattr(pen.scene.ask, plan.quantity)
+    asked = [constructed(pen, name, plan) for name in names]
     for point in asked:
-        if pen.the(kind.quantity, point) != pen.pole(kind.plane):  # as that of a fixed point is
-            kind.arrow(pen, point)
+        if pen.the(plan.quantity, point) != pen.pole(plan.plane):  # as that of a fixed point is
+            plan.arrows(pen, point)
     for point in dict.fromkeys((*tips, *asked)):
-        set_on_mechanism(pen, kind, point)
+        ends = pen.the("position", point), pen.pole(plan.plane), pen.the(plan.quantity, point)
+        with pen.on(plan.part, Plane.MECHANISM):
+            vector = PlanVector(plan.letter, letter(point))
+            pen.vector(SET_ON[plan.quantity], *ends, pen.seconds(), of=vector)
 
 
-def constructed(pen: Pen, name: str, quantity: str) -> str:
+def constructed(pen: Pen, name: str, plan: Plan) -> str:
     """The point that a name asks about, its image found: A for A@3 where link 3 owns A."""
     point, link = ends_of(name)
     if not link:
@@ -72,16 +53,8 @@ def constructed(pen: Pen, name: str, quantity: str) -> str:
     owned = point in pen.scene.link(link).points
     if not pen.has("position", name):
         pen.want("position", name, pen.the("position", point))
-    if not pen.has(quantity, name):
-        number = carried(pen, link, point, quantity)
-        if not pen.has(quantity, name):
-            pen.want(quantity, name, number)
+    if not pen.has(plan.quantity, name):
+        number = carried(pen, link, point, plan)
+        if not pen.has(plan.quantity, name):
+            pen.want(plan.quantity, name, number)
     return point if owned else name
-
-
-def set_on_mechanism(pen: Pen, kind: AskedQuantity, point: str) -> None:
-    """The absolute velocity or acceleration of a point, set on the mechanism."""
-    ends = pen.the("position", point), pen.pole(kind.plane), pen.the(kind.quantity, point)
-    with pen.on(kind.part, Plane.MECHANISM):
-        vector = PlanVector(kind.sign, letter(point))
-        pen.vector(kind.action, *ends, pen.seconds(), of=vector)

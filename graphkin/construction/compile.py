@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 from graphkin.construction import asked
-from graphkin.construction.acceleration import acceleration
 from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
 from graphkin.construction.centres.acceleration_poles import draw_pole
 from graphkin.construction.centres.instant_centre import draw_centre
@@ -15,14 +14,12 @@ from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program
-from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import coordinate
-from graphkin.construction.guides import sliding
-from graphkin.construction.guides.coincident_points import omega_of
+from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.velocity import velocity
+from graphkin.construction.plan import omega_of
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -39,21 +36,12 @@ from graphkin.structure.groups import (
     Train,
     Unresolved,
 )
-from graphkin.structure.pairs import Sliding
 from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, LinkShapes, Any], None]
 """What draws a group in one of the drawings."""
-MOVED, ACCELERATED = 1, 2
-"""Which of a group's works draws it in either plan."""
-PLANS = {
-    MOVED: (velocity.plate_points, velocity.sliding, asked.VELOCITY, OMEGA),
-    ACCELERATED: (acceleration.plate_points, sliding.sliding, asked.ACCELERATION, EPSILON),
-}
-"""What draws the rest of a link in each plan, how a block slides, what of points is asked, and the
-rate of a link."""
-CROSSED = velocity.cross, acceleration.cross
-"""What finds the image of a point where two lines meet, in either plan."""
+PLANS = VELOCITIES, ACCELERATIONS
+"""What draws both plans."""
 Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
 
@@ -73,12 +61,12 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
 
         rolling.refuse_idle_turns(pen)
     write_turning(pen, shapes)
-    write_plan(pen, shapes, standing, MOVED)
+    write_plan(pen, shapes, standing, VELOCITIES)
     if scene.sheet.plan == "kutzbach":
         from graphkin.construction.rolling.ladder import draw_ladder
 
         draw_ladder(pen)
-    write_plan(pen, shapes, standing, ACCELERATED)
+    write_plan(pen, shapes, standing, ACCELERATIONS)
     refuse_unused_method(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
@@ -112,22 +100,21 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
     """
     match group:
         case Crank():
-            return position.crank, velocity.crank, acceleration.crank
+            return position.crank, *both(GroupImages.crank)
         case Driven():
-            return position.driven, velocity.driven, acceleration.driven
+            return position.driven, *both(GroupImages.driven)
         case Dyad():
-            return position.dyad, velocity.dyad, acceleration.dyad
+            return position.dyad, *both(GroupImages.dyad)
         case Tie():
-            first, second = (partial(tie, cross=each) for each in CROSSED)
-            return position.tie, first, second
+            return position.tie, *both(GroupImages.tie)
         case CamFollower():
             from graphkin.construction.cams import cam
 
-            return cam.place, cam.move, cam.accelerate
+            return cam.place, *both(cam.move)
         case Stretched():
             from graphkin.construction.drivers import cylinder
 
-            return cylinder.place, cylinder.move, cylinder.accelerate
+            return cylinder.place, *both(cylinder.move)
         case Geared():
             from graphkin.construction.rolling import rolling, wheel_images
 
@@ -135,41 +122,38 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
         case Spun():
             from graphkin.construction.rolling import spun_wheel
 
-            return spun_wheel.place, spun_wheel.move, spun_wheel.accelerate
+            return spun_wheel.place, *both(spun_wheel.move)
         case Train():
             from graphkin.construction.rolling import rolling, wheel_images
 
             return rolling.train, wheel_images.train, wheel_images.second_train
         case CoupledTrain():
-            from graphkin.construction.higher_class import coupled_train
+            from graphkin.construction.higher_class import coupled_train, two_trials
 
-            return (partial(coupled_train.position, each=place), *by_trials())
+            return partial(coupled_train.position, each=place), *each_in(two_trials.two_trials)
         case Higher(at_instant=parts):
-            from graphkin.construction.higher_class import higher
+            from graphkin.construction.higher_class import higher, two_trials
 
-            plans = with_pinned_wheels() if parts else by_trials()
-            return (partial(higher.position, each=place), *plans)
+            draw: Callable[..., None] = two_trials.two_trials
+            if parts:
+                from graphkin.construction.rolling import spun_wheel
+
+                draw = spun_wheel.move_pinned
+            return partial(higher.position, each=place), *each_in(draw)
         case Unresolved():
             raise ValueError(f"links {', '.join(group.links)} are in no group that is drawn")
 
 
-def by_trials() -> tuple[Work, Work]:
-    """What a group draws in both plans that has a link tried."""
-    from graphkin.construction.higher_class import two_trials
-
-    first, second = (partial(in_plan, which=which) for which in PLANS)
-    return partial(two_trials.velocity, each=first), partial(two_trials.acceleration, each=second)
+def both(draw: Callable[..., None]) -> tuple[Work, Work]:
+    """What draws a group alike in both plans."""
+    first, second = (partial(draw, images) for images in PLANS)
+    return first, second
 
 
-def with_pinned_wheels() -> tuple[Work, Work]:
-    """What a group draws in both plans whose wheels leave nothing to try at the instant."""
-    from graphkin.construction.rolling import wheel_images
-
-    first, second = (partial(in_plan, which=which) for which in PLANS)
-    return (
-        partial(wheel_images.move_pinned, each=first),
-        partial(wheel_images.accelerate_pinned, each=second),
-    )
+def each_in(draw: Callable[..., None]) -> tuple[Work, Work]:
+    """The same of what draws other groups in the course of it."""
+    first, second = (partial(draw, each, each=partial(in_plan, each)) for each in PLANS)
+    return first, second
 
 
 def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
@@ -198,35 +182,27 @@ def write_turning(pen: Pen, shapes: LinkShapes) -> None:
             pen.want("slide", link.name, found)
 
 
-def write_plan(pen: Pen, shapes: LinkShapes, standing: Standing, which: int) -> None:
+def write_plan(pen: Pen, shapes: LinkShapes, standing: Standing, images: GroupImages) -> None:
     """A plan, the rates of links, how blocks slide, and what is asked set on the mechanism."""
-    _, slides, quantity, _ = PLANS[which]
+    plan = images.plan
     for point in pen.scene.frame.points:
-        pen.want(quantity.quantity, point, pen.pole(quantity.plane))
+        pen.want(plan.quantity, point, pen.pole(plan.plane))
     for group, found in standing:
-        in_plan(pen, shapes, group, found, which=which)
+        in_plan(images, pen, shapes, group, found)
     for link in pen.scene.links.values():
         if link.slides:
-            slides(pen, shapes, link.name)
-    asked.show(pen, quantity, tips(pen, standing))
+            images.sliding(pen, shapes, link.name)
+    asked.show(pen, plan, tips(pen, standing))
 
 
 def in_plan(
-    pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...], *, which: int
+    images: GroupImages, pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]
 ) -> None:
     """One group in a plan."""
-    work_of(group)[which](pen, shapes, group)
-    rest, _, _, rate = PLANS[which]
+    work_of(group)[1 + PLANS.index(images)](pen, shapes, group)
     for base in own_bases(group, found):
-        rest(pen, shapes, base)
-        omega_of(pen, base.link, rate)
-
-
-def tie(pen: Pen, shapes: LinkShapes, group: Tie, *, cross: Callable[..., None]) -> None:
-    """A link between two known ones: on two guides its image is found, at two pins it is there."""
-    if isinstance(group.first, Sliding):
-        point = pen.bases[group.link].start
-        cross(pen, shapes, point, point, [(group.first, group.link), (group.second, group.link)])
+        images.plate_points(pen, shapes, base)
+        omega_of(pen, base.link, images.plan.rate)
 
 
 def tips(pen: Pen, standing: Standing) -> list[str]:

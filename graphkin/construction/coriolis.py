@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import takewhile
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
@@ -20,6 +20,7 @@ from graphkin.construction.core.component import (
     Size,
     TriangleComponent,
 )
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
@@ -38,7 +39,7 @@ from graphkin.construction.core.vocabulary import (
     perpendicular_at,
     set_way,
 )
-from graphkin.construction.guides.coincident_points import omega_of
+from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
@@ -46,9 +47,6 @@ from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
 from graphkin.text.markup import AND, NOTHING, saying
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle that is similar to the guide's."""
@@ -120,6 +118,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         (("rate", ("rate",)), ("velocity", ("arrow",))),
         "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
     )
+    titled: ClassVar[str] = "the Coriolis triangles of {pin_name} about {pivot_name}"
 
     guide: str
     block: str
@@ -136,10 +135,6 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     edge: int | None = None
     lean: int | None = None
     top: int | None = None
-
-    def title(self, role: str) -> str:
-        """What it is called in a report."""
-        return f"the Coriolis triangles of {self.pin_name} about {self.pivot_name}"
 
     @property
     def speed(self) -> str:
@@ -202,7 +197,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         """The triangles that set the same velocity at the same pin, with the step that does."""
         assert self.velocity is not None
         step = drawing.trace.program.steps[self.velocity]
-        for number, other, _ in drawing.mechanism_steps():
+        for number, other, _ in drawing.on_mechanism:
             if number == self.velocity or other.action is not step.action:
                 continue
             kind = construction(other)
@@ -247,8 +242,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""
-        steps = drawing.trace.program.steps
-        segment = NOTHING.join(symbol(steps[end].name) for end in (self.tail, self.tip))
+        segment = NOTHING.join(drawing.lettered(end) for end in (self.tail, self.tip))
         return {
             "a": self.symbol,
             "v": symbol(self.speed),
@@ -367,7 +361,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
 def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
     """The Coriolis components whose leaning line is among the steps of a sheet."""
-    for number, step, _ in drawing.mechanism_steps():
+    for number, step, _ in drawing.on_mechanism:
         kind = construction(step)
         if isinstance(kind, CoriolisComponent) and kind.lean == number:
             yield kind

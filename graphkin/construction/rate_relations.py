@@ -1,4 +1,4 @@
-"""The relations of angular velocities and accelerations: by bars, by sums, by gears."""
+"""The relations of rates: of links by bars, by sums, by gears; of blocks along their guides."""
 
 from __future__ import annotations
 
@@ -6,12 +6,14 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.link_poses import Disc
-from graphkin.construction.core.naming import rate_symbol, sense, turning_with
+from graphkin.construction.core.naming import rate_symbol, sense, turning_with, vector_of
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
+from graphkin.construction.result_tables import slid, slide_sense
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import of_wheel, symbol
 from graphkin.scene.model import FRAME, Belt, Driver
@@ -151,3 +153,26 @@ def by_radii(
 def radius_of(disc: Disc) -> str:
     """Symbol of a wheel's radius."""
     return of_wheel("r", disc.sign)
+
+
+# --- blocks on their guides -----------------------------------------------------------------------
+
+
+def of_slides(drawing: Drawing) -> Iterator[Relation]:
+    """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
+    what, unit = drawing.sliding.target, drawing.sliding.caret_unit
+    for block, name, value in slid(drawing):
+        size = drawing.settled(abs(value))
+        remark = slide_sense(drawing, block, value) if size else ""
+        vector = along_guide(drawing, drawing.trace.program.targets[what, block])
+        yield Relation(name, vector, "", answer(drawing, size), unit, remark)
+
+
+def along_guide(drawing: Drawing, number: int) -> str:
+    """Markup of the vector of the plan that is the motion of a block along its guide."""
+    program = drawing.trace.program
+    _, tail, tip = program.steps[number].args
+    laid = laid_off(program, tail)
+    if laid is not None and laid.component.follows:
+        return symbol(f"a_{laid.component.index}^r")  # it may be drawn from the other end
+    return vector_of(drawing, tail, tip)

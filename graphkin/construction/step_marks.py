@@ -17,7 +17,7 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 
 def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:
     """Put down the steps on the mechanism: those that found its points, or all the others."""
-    for number, step, value in plot.drawing.mechanism_steps():
+    for number, step, value in plot.drawing.on_mechanism:
         if (step.part is Part.POSITION) is found:
             put_step(plot, number, step, value)
 

@@ -50,7 +50,7 @@ def insets(drawing: Drawing, field: Field, marks: Sequence[Mark]) -> list[Mark]:
 def far_places(drawing: Drawing, field: Field) -> Iterator[tuple[Centre, complex]]:
     """The centres and poles that lie off a field, but not too far to be shown, each place once."""
     shown: list[complex] = []
-    for number, step, _ in drawing.mechanism_steps():
+    for number, step, _ in drawing.on_mechanism:
         kind = construction(step)
         if not isinstance(kind, Centre) or kind.found != number:
             continue
@@ -109,7 +109,7 @@ def pictured(drawing: Drawing, kind: Centre, centre: complex, field: Field) -> F
 
 def names_of(drawing: Drawing, kind: Centre) -> list[str]:
     """The name of a centre, and that which it has as the centre of its link and the frame."""
-    others = (construction(step) for _, step, _ in drawing.mechanism_steps())
+    others = (construction(step) for _, step, _ in drawing.on_mechanism)
     pairs = (each for each in others if isinstance(each, RelativeCentre))
     again = (each.name for each in pairs if each.same(drawing) == kind.found)
     return list(dict.fromkeys([kind.name, *again]))

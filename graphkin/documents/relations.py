@@ -30,9 +30,8 @@ from graphkin.construction.core.relation import (
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import KA, of_driver, of_scales
-from graphkin.construction.guides.sliding_relations import of_slides
 from graphkin.construction.higher_class.two_trials import of_trials
-from graphkin.construction.rate_relations import of_sum, of_turning
+from graphkin.construction.rate_relations import of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
@@ -219,7 +218,7 @@ def of_centres(drawing: Drawing) -> Iterator[Relation]:
     """Where instantaneous centres and acceleration poles lie: in millimetres on paper from the
     first fixed pivot, as they are measured, and in the axes of the frame."""
     part = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
-    for _, step, value in drawing.mechanism_steps():
+    for _, step, value in drawing.on_mechanism:
         if step.part is not part or not isinstance(value, Ratio) or not step.name:
             continue
         point = drawing.place(value)

@@ -8,8 +8,7 @@ from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
-from graphkin.construction.core.plan_pole import PlanPole
+from graphkin.construction.core.kind import PlanPole, construction
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.segments import TINY

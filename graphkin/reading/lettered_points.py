@@ -163,7 +163,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
     @cached_property
     def on_mechanism(self) -> frozenset[int]:
         """The steps that this sheet draws on the mechanism."""
-        return frozenset(number for number, _, _ in self.drawing.mechanism_steps())
+        return frozenset(number for number, _, _ in self.drawing.on_mechanism)
 
     @cached_property
     def leading(self) -> Mapping[int, tuple[Leading, ...]]:

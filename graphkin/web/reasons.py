@@ -50,7 +50,7 @@ def reasons(drawing: Drawing, numbers: Iterable[int]) -> list[tuple[str, int]]:
         step = drawing.trace.program.steps[number]
         key, known = reason(drawing, step), fields(drawing, step)
         if isinstance(kind := construction(step), PerpendicularThrough):
-            known["s"] = symbol(drawing.trace.program.steps[kind.start].name)
+            known["s"] = drawing.lettered(kind.start)
         if step.part not in parts or not key or is_nothing(drawing, number):
             continue
         if component_of(drawing.trace.program, number) is None and is_hidden(drawing, number):

@@ -153,7 +153,7 @@ def test_the_inflection_circle_runs_through_both_ends_of_its_diameter():
     assert drawing.kind == "acceleration"
     field, page = field_of(drawing), page_of(drawing)
     number, circle = next(
-        (n, v) for n, s, v in drawing.mechanism_steps() if s.name == "inflection 2"
+        (n, v) for n, s, v in drawing.on_mechanism if s.name == "inflection 2"
     )
     arcs = [m for m in page.marks if isinstance(m, Polyline) and m.step == number]
     assert arcs
@@ -161,7 +161,7 @@ def test_the_inflection_circle_runs_through_both_ends_of_its_diameter():
     away = [hypot(u - x, v - y) for arc in arcs for u, v in arc.points[1:-1]]
     assert away == pytest.approx([circle.radius * field.mm] * len(away), abs=1e-6)
     for name in ("I2", "W2"):
-        ratio = next(v for _, s, v in drawing.mechanism_steps() if s.name == name)
+        ratio = next(v for _, s, v in drawing.on_mechanism if s.name == name)
         assert abs(drawing.place(ratio) - circle.centre) == pytest.approx(circle.radius, rel=1e-9)
 
 

@@ -10,8 +10,7 @@ from msgspec import Struct
 from graphkin.accuracy.pencil.pencil_marks import Paper
 from graphkin.classroom.lab.items import UNITS
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.construction.core.kind import construction
-from graphkin.construction.core.plan_pole import PlanPole
+from graphkin.construction.core.kind import PlanPole, construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Plane, Program, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS

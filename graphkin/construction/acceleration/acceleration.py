@@ -1,118 +1,38 @@
-"""The acceleration plan: what is known laid off, perpendiculars and parallels, their crossings."""
+"""What guides and tracks say of the acceleration of a point, and of the motion along a guide.
+
+Known is the acceleration of the point under it, and where the guide turns the component for that.
+"""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from msgspec import Struct
 
-from graphkin.construction.acceleration.tangential_direction import RoundPivot, known_and_free
-from graphkin.construction.acceleration.turned_acceleration import accelerated, turned_image
-from graphkin.construction.core.arrows import acceleration_arrow, component_arrow, slide_arrow
-from graphkin.construction.core.bases import Base, crank_tip, sides_of
-from graphkin.construction.core.pen import Pen, letter, second_image
-from graphkin.construction.core.program import Effect, Part, Plane
-from graphkin.construction.core.quantities import EPSILON
-from graphkin.construction.guides.coincident_points import omega_of
+from graphkin.construction.core.arrows import acceleration_arrow, slide_arrow
+from graphkin.construction.core.component import LaidOff
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.vocabulary import part_along
+from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
-from graphkin.construction.guides.sliding import lay_off_component, turning_component
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.links.plate_points import crosses_well
-from graphkin.construction.velocity.image_of_link import (
-    crossed_image,
-    image_of_link,
-    translated_image,
-)
+from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.construction.velocity.lines_through import parallel_through
-from graphkin.construction.velocity.velocity import driven_rate
 from graphkin.scene.link_points import is_under
-from graphkin.structure.groups import Crank, Driven, Dyad, other_of
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Joint, Leading, Pin
+from graphkin.structure.pairs import Joint, Leading
+
+if TYPE_CHECKING:
+    from graphkin.construction.coriolis import CoriolisComponent
 
 
-def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
-    """Acceleration of a driven tip: from tip to pivot, and square to the bar if it speeds up."""
-    tip, driver = crank_tip(pen.scene, group), group.driver
-    rate = pen.drive(driver).acceleration
-    pen.want(EPSILON, group.link, driven_rate(pen, group, EPSILON, rate))
-    if tip is not None:
-        steady = driver.acceleration.is_zero() and not pen.turns(other_of(driver, group.link))
-        turn_tip(pen, group.link, group.pivot, tip, steady=steady)
-
-
-def turn_tip(pen: Pen, link: str, pivot: str, tip: str, *, steady: bool = False) -> None:
-    """Second image of a point of a link whose rates are known, from that of its pivot."""
-    start, points = pen.the("acceleration", pivot), (pivot, tip)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        name = second_image(tip)
-        found = turned_image(pen, link, points, start, name=name, steady=steady)
-    pen.want("acceleration", tip, found)
-    acceleration_arrow(pen, tip)
-
-
-def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
-    """Second image of a driven slider or wheel: along its guide from what is known of it."""
-    rate = led_by(group.pair).driven(pen, group.driver, "acceleration")
-    slide_on(pen, shapes, group.pair, group.link, rate)
-
-
-def slide_on(pen: Pen, shapes: LinkShapes, pair: Leading, link: str, rate: int) -> None:
-    """Second image of the point of a link that is led along its line at a rate."""
-    from graphkin.construction.drivers.driven_slide import slide_image
-
-    point, known = pen.bases[link].start, partner(pair, link)
-    way = 1 if pair.links[0] == link else -1
-    line = led_by(pair).direction(pen, shapes)
-    vector = turning_component(pen, pair, link, point, point)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = lay_off_component(pen, pair, link, point, point, vector)
-        name, steps = second_image(point), (corner, line, rate)
-        with pen.calls_for(sliding_effect(pen, rate)):
-            found = slide_image(pen, point, pair.links[0], steps, name=name, way=way)
-        slide_arrow(pen, corner, found, known, point)
-    pen.want("acceleration", point, found)
-    acceleration_arrow(pen, point)
-    led_by(pair).second_touch(pen)
-
-
-def sliding_effect(pen: Pen, rate: int) -> Effect | None:
-    """A component along a guide is a driver's where that is accelerated."""
-    return Effect.DRIVER if accelerated(pen, rate) else None
-
-
-def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
-    """Second image of the point that closes a dyad: known components laid off, others crossed."""
-    cross(pen, shapes, *sides_of(pen.bases, group))
-
-
-def cross(
-    pen: Pen, shapes: LinkShapes, name: str, point: str, sides: list[tuple[Joint, str]]
-) -> None:
-    """The second image of a point from the lines on which two pairs leave it free."""
-    bound = [
-        RoundPivot(pair.point, name) if isinstance(pair, Pin) else Led(pair, link, name, point)
-        for pair, link in sides
-    ]
-    vectors = [each.component_in_dyad(pen, shapes, sides) for each in bound]
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        lines: list[int] = []
-        corners: list[int] = []
-        for each, vector in zip(bound, vectors, strict=True):
-            corners.append(each.end(pen, vector))
-            lines.append(each.line(pen, shapes, corners[-1]))
-        found = crossed_image(pen, *lines, name=second_image(name), of=name)
-        for each, corner in zip(bound, corners, strict=True):
-            each.arrow(pen, corner, found)
-    pen.want("acceleration", name, found)
-    if not is_under(name):
-        acceleration_arrow(pen, name)
-    for each in bound:
-        each.touch(pen)
-
-
-class Led(Struct, frozen=True):
+class GuideAcceleration(Struct, frozen=True):
     """What a pair says of the acceleration of the point ``name`` that it leads against ``link``.
 
-    It lies at ``point``, which is another where that of a guide's link under a block's is sought.
+    It lies at ``point``, which is another where that of a guide's link under a block's is sought
+    (name A@3, point A).
     """
 
     pair: Leading
@@ -120,85 +40,98 @@ class Led(Struct, frozen=True):
     name: str
     point: str
 
-    def component_in_dyad(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]]
+    @property
+    def known(self) -> str:
+        """The link against which the pair leads the point."""
+        return partner(self.pair, self.link)
+
+    def component(
+        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
     ) -> int | None:
-        """The component that its guide's turning gives it; None where that does not turn."""
-        return turning_component(pen, self.pair, self.link, self.name, self.point)
+        """The component that its guide's turning gives it; None where that does not turn.
+
+        Of a point under a pin the pin's relative velocity counts, else that of the point against
+        what it slides on.
+        """
+        if not is_under(self.name) and not pen.turns(self.known):
+            return None
+        from graphkin.construction.coriolis import coriolis_of
+
+        if is_under(self.name):
+            link, tail = self.link, pen.the("velocity", self.name)
+        else:
+            link, tail = self.known, carried(pen, self.known, self.point, VELOCITY)
+        tip = pen.the("velocity", self.point)
+        return coriolis_of(pen, link, tail, tip, self.point, self.pair.links[0])
 
     def end(self, pen: Pen, vector: int | None) -> int:
-        """Where the known part ends in the plan."""
-        return lay_off_component(pen, self.pair, self.link, self.name, self.point, vector)
+        """Where the known part ends in the plan: the component laid off from the point under it.
 
-    def line(self, pen: Pen, shapes: LinkShapes, corner: int) -> int:
-        """The line of the rest, parallel to the guide."""
+        Where that is the one that is sought, it is laid off backwards from the sliding one.
+        """
+        if vector is None:
+            return carried(pen, self.known, self.point, ACCELERATION)
+        from graphkin.construction.coriolis import end_of
+
+        if is_under(self.name):
+            return end_of(pen, pen.the("acceleration", self.point), vector, back=True)
+        return end_of(pen, carried(pen, self.known, self.point, ACCELERATION), vector)
+
+    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+        """That, and the line of the rest, parallel to the guide."""
+        end = self.end(pen, vector)
         along = led_by(self.pair).direction(pen, shapes)
-        return parallel_through(pen, corner, along, self.pair.links[0])
+        return end, parallel_through(pen, end, along, self.pair.links[0])
 
-    def arrow(self, pen: Pen, corner: int, found: int) -> None:
+    def rest(self, pen: Pen, end: int, found: int) -> None:
         """The arrow of the rest."""
         if is_under(self.name):
-            slide_arrow(pen, found, corner, self.link, self.point)
+            slide_arrow(pen, found, end, self.link, self.point)
         else:
-            slide_arrow(pen, corner, found, partner(self.pair, self.link), self.point)
+            slide_arrow(pen, end, found, self.known, self.point)
 
-    def touch(self, pen: Pen) -> None:
-        """The second image of the point where it touches."""
-        led_by(self.pair).second_touch(pen)
-
-
-# --- the rest of a link --------------------------------------------------------------------------
-
-
-def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
-    """Second images of the other points of a link, similar to the link (Mehmke)."""
-    if base.end is None:
-        led_points(pen, base)
-        return
-    ends = pen.the("acceleration", base.start), pen.the("acceleration", base.end)
-    for point in base.others:
-        if pen.has("acceleration", point):
-            continue
-        hand: int | None = None
-        corners: dict[str, int] = {}
-        ratio = shapes.ratio_of(base, point)
-        if crosses_well(pen, ratio):
-            hand, corners = two_perpendiculars(pen, base, point)
-        letters = letter(base.start), letter(base.end), point
-        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            images = *ends, ratio
-            found = image_of_link(pen, images, letters, name=second_image(point), hand=hand)
-            for pivot, corner in corners.items():
-                component_arrow(pen, corner, found, "τ", point, pivot)
-        pen.want("acceleration", point, found)
-        acceleration_arrow(pen, point)
+    def finish(self, pen: Pen, *, driven: bool = False) -> None:
+        """The arrow from the pole, and the point where it touches."""
+        if not is_under(self.name):
+            acceleration_arrow(pen, self.name)
+        led_by(self.pair).touch(pen, ACCELERATION)
 
 
-def led_points(pen: Pen, base: Base) -> None:
-    """The other points of a link that turns with its guide; where it only shifts, one image."""
-    for point in base.others:
-        if pen.has("acceleration", point):
-            continue
-        if pen.turns(base.link):
-            omega_of(pen, base.link), omega_of(pen, base.link, EPSILON)
-            steady = pen.is_nought(pen.the(EPSILON, base.link))
-            turn_tip(pen, base.link, base.start, point, steady=steady)
-            continue
-        start = pen.the("acceleration", base.start)
-        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            found = translated_image(pen, start, (base.start, point), second_image(point))
-        pen.want("acceleration", point, found)
-        acceleration_arrow(pen, point)
+def end_on_driven(
+    pen: Pen, link: str, images: tuple[int, int], point: str, block: str, index: str
+) -> int:
+    """The same for a link that a driver slides against another, as its pin on ``point`` is known.
+
+    The ``images`` of the velocity plan are those of that point and of the link's own point there.
+    """
+    from graphkin.construction.coriolis import coriolis_of, end_of
+
+    vector = coriolis_of(pen, link, *images, point, block, index=index)
+    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+        return end_of(pen, pen.the("acceleration", point), vector)
 
 
-def two_perpendiculars(pen: Pen, base: Base, point: str) -> tuple[int, dict[str, int]]:
-    """The hand's way to a plate point: normal and perpendicular about each end of the base."""
-    assert base.end is not None
-    lines: list[int] = []
-    corners: dict[str, int] = {}
-    with pen.hands_way():
-        for pivot in (base.start, base.end):
-            corners[pivot], line = known_and_free(pen, pivot, point)
-            lines.append(line)
-        with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-            return crossed_image(pen, *lines), corners
+def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
+    """The component of what slides that a step lays off; None for other steps."""
+    from graphkin.construction.coriolis import CoriolisComponent
+
+    laid = step.of
+    if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
+        return None
+    return laid, laid.component
+
+
+def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
+    """Acceleration of a block along its guide, and the component that comes of its turning."""
+    pair = pen.first_slide(block)
+    first = pen.scene.link(block).points[0]
+    start = carried(pen, pair.links[1], first, ACCELERATION)
+    guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
+    led = GuideAcceleration(pair, block, first, first)
+    if (vector := led.component(pen, shapes)) is not None:
+        pen.want("coriolis", block, vector)
+        with ACCELERATION.drawn(pen):
+            start = led.end(pen, vector)
+            led.rest(pen, start, end)
+    with pen.on(Part.RESULT, Plane.NUMBERS):
+        pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))

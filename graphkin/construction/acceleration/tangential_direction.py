@@ -1,34 +1,32 @@
-"""A point about a known pivot in the acceleration plan: what is known, and where the rest leads.
+"""The line on which the second image of a point about a known pivot lies: square to their bar.
 
-Known is the normal component; through its end the perpendicular to the bar is the line on which
-the point's image lies, the tangential direction.
+It passes through the end of the normal component, which is known: the tangential direction.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from msgspec import Struct
 
-from graphkin.construction.core.arrows import component_arrow
+from graphkin.construction.core.arrows import acceleration_arrow, component_arrow
 from graphkin.construction.core.component import laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, about, letter
-from graphkin.construction.core.program import Effect, Part, Plane
+from graphkin.construction.core.program import Effect
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
 )
+from graphkin.construction.plan import ACCELERATION
 from graphkin.construction.velocity.lines_through import PerpendicularThrough, square_to
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.link_points import lettered
+from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.pairs import Joint
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
@@ -41,64 +39,10 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
         fields = {"vector": symbol(f"a_{self.index}^τ"), **self.symbols()}
         laid = laid_off(drawing.trace.program, self.start)
         if laid is not None and laid.is_short(drawing):
-            start = symbol(drawing.trace.program.steps[laid.start].name)
+            start = drawing.lettered(laid.start)
             return drawing.words("step.square-to", s=start, **fields)
         foot = symbol(letter_at(drawing, self.start))
         return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)
-
-
-class RoundPivot(Struct, frozen=True):
-    """What a bar to a known ``pivot`` says of the acceleration of a ``point``."""
-
-    pivot: str
-    point: str
-
-    def component(self, pen: Pen) -> int:
-        """The component that is known of it."""
-        return normal_component(pen, self.pivot, self.point)
-
-    def component_in_dyad(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]]
-    ) -> int:
-        """The same where it is one of the ``sides`` of a dyad, as the scene wants it drawn."""
-        if pen.scene.sheet.method != KLEIN:
-            return self.component(pen)
-        from graphkin.construction.normal_component.klein import component_in_dyad
-
-        return component_in_dyad(pen, shapes, sides, self.pivot, self.point)
-
-    def end(self, pen: Pen, vector: int | None) -> int:
-        """Where the known part ends in the plan."""
-        assert vector is not None
-        return lay_off_normal(pen, self.pivot, self.point, vector)
-
-    def line(self, pen: Pen, shapes: LinkShapes, corner: int) -> int:
-        """The line of the rest."""
-        return tangential_direction(pen, self.pivot, self.point, corner)
-
-    def arrow(self, pen: Pen, corner: int, found: int) -> None:
-        """The arrow of the rest."""
-        component_arrow(pen, corner, found, "τ", self.point, self.pivot)
-
-    def touch(self, pen: Pen) -> None:
-        """Nothing touches."""
-
-
-def refuse_unused_method(pen: Pen) -> None:
-    """Raise StructureError where a scene wants components drawn in a way none of them takes."""
-    if pen.scene.sheet.method == KLEIN:
-        from graphkin.construction.normal_component.klein import refuse_unused
-
-        refuse_unused(pen)
-
-
-def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
-    """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
-    bar = RoundPivot(pivot, pin)
-    vector = bar.component(pen)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        corner = bar.end(pen, vector)
-        return corner, tangential_direction(pen, pivot, pin, corner)
 
 
 def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
@@ -115,3 +59,55 @@ def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
     }
     pen.make(TangentialDirection(**names, start=corner, line=line))
     return line
+
+
+class BarAcceleration(Struct, frozen=True):
+    """What a bar to a known ``pivot`` says of the acceleration of a ``point``."""
+
+    pivot: str
+    point: str
+
+    def component(
+        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
+    ) -> int:
+        """The component that is known of it, drawn as the scene wants it among those ``sides``."""
+        if sides is None or pen.scene.sheet.method != KLEIN:
+            return normal_component(pen, self.pivot, self.point)
+        from graphkin.construction.normal_component.klein import component_in_dyad
+
+        return component_in_dyad(pen, shapes, sides, self.pivot, self.point)
+
+    def end(self, pen: Pen, vector: int | None) -> int:
+        """Where the known part ends in the plan."""
+        assert vector is not None
+        return lay_off_normal(pen, self.pivot, self.point, vector)
+
+    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+        """That, and the line of the rest."""
+        end = self.end(pen, vector)
+        return end, tangential_direction(pen, self.pivot, self.point, end)
+
+    def rest(self, pen: Pen, end: int, found: int) -> None:
+        """The arrow of the rest."""
+        component_arrow(pen, end, found, "τ", self.point, self.pivot)
+
+    def finish(self, pen: Pen) -> None:
+        """The arrow from the pole."""
+        if not is_under(self.point):
+            acceleration_arrow(pen, self.point)
+
+
+def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
+    """The end of what is known of a pin's acceleration about a pivot, and the line of the rest."""
+    vector = normal_component(pen, pivot, pin)
+    with ACCELERATION.drawn(pen):
+        end = lay_off_normal(pen, pivot, pin, vector)
+        return end, tangential_direction(pen, pivot, pin, end)
+
+
+def refuse_unused_method(pen: Pen) -> None:
+    """Raise StructureError where a scene wants components drawn in a way none of them takes."""
+    if pen.scene.sheet.method == KLEIN:
+        from graphkin.construction.normal_component.klein import refuse_unused
+
+        refuse_unused(pen)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.drawn_scene import Drawing
@@ -25,9 +25,6 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.link_points import lettered
 from graphkin.text.markup import EQUALS, NOTHING
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
 
 
 @action("centripetal")
@@ -52,6 +49,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("end", "image")
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"end", "image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"end", "image"})
 
     start: int
     omega: int
@@ -83,13 +81,13 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Ends, bar, rate and drawn length of one of the two components."""
         steps = drawing.trace.program.steps
-        names = {**self.symbols(), "s": symbol(steps[self.start].name)}
+        names = {**self.symbols(), "s": drawing.lettered(self.start)}
         if role == "end":
             whole = self.is_steady and steps[self.start].name == drawing.pole
             rate = rate_symbol(drawing, self.omega)
             return {
                 **names,
-                "name": symbol(steps[self.end].name),
+                "name": drawing.lettered(self.end),
                 "vector": symbol(f"a_{self.index}" + ("" if whole else "^ν")),
                 "omega": rate,
                 "rate": rate,
@@ -98,7 +96,7 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         assert self.image is not None and self.epsilon is not None
         return {
             **names,
-            "name": symbol(steps[self.image].name),
+            "name": drawing.lettered(self.image),
             "vector": symbol(f"a_{self.index}^τ"),
             "epsilon": rate_words(drawing, self.image, self.epsilon, self.link, "ε"),
             "drawn": length_drawn(drawing, self.end, self.image),
@@ -135,10 +133,6 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
         return drawing.words(f"step.{key}", **fields)
 
     # --- marks and relations ---------------------------------------------------------------------
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point at the end of a component, if it has a letter."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem, and both sizes; a driver's crank has relations of its own."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from graphkin.construction.acceleration import acceleration
 from graphkin.construction.cams.cam_centre import (
     coordinate,
     curvature_centre,
@@ -12,10 +11,10 @@ from graphkin.construction.cams.cam_centre import (
 )
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.velocity import velocity
 from graphkin.scene.model import FRAME
 from graphkin.structure.groups import CamFollower
 from graphkin.structure.pairs import Pin, Sliding
@@ -46,14 +45,9 @@ def place(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
         turned_with(pen, shapes, dyad.inner, follower)
 
 
-def move(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
-    """The velocity plan: that of the equivalent linkage."""
-    velocity.dyad(pen, shapes, group.dyad)
-
-
-def accelerate(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
-    """The acceleration plan: that of the equivalent linkage."""
-    acceleration.dyad(pen, shapes, group.dyad)
+def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
+    """A plan: that of the equivalent linkage."""
+    images.dyad(pen, shapes, group.dyad)
 
 
 def block_on(pen: Pen, shapes: LinkShapes, pair: Sliding, lever: str) -> None:

@@ -6,9 +6,10 @@ from cmath import phase
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
 from math import degrees
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
@@ -37,9 +38,6 @@ from graphkin.numbers.cam_motions import MOTIONS, Rise, displaced, displaced_alo
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Cam, CamLever
 from graphkin.text.errors import Problem, Sought
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 NAMES = tuple(MOTIONS)
 
@@ -243,20 +241,13 @@ class SwungLever(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    between: ClassVar[tuple[str, ...]] = ("pin", "name")
+    laid_at: ClassVar[str] = "tip"
 
     link: str
     pin: str
     name: str
     tip: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pin and the tip."""
-        return self.pin, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """From the pin."""
-        return self.pin, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the angle of its bar in the plane."""
@@ -276,6 +267,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.cam_centre"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
     has_angle: ClassVar[bool] = False
+    between: ClassVar[tuple[str, ...]] = ("start", "name")
 
     link: str
     follower: str
@@ -286,11 +278,6 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     rate: int
     bend: int
     point: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pivot and the centre."""
-        return self.start, self.name
 
     def laid_from(self, step: Step) -> int:
         """The cam's pivot."""

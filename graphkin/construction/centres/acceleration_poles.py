@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.centres.centre import (
     LineToCentre,
@@ -12,18 +12,16 @@ from graphkin.construction.centres.centre import (
     two_points,
 )
 from graphkin.construction.core.bases import Base
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import Action, action
-from graphkin.construction.guides.coincident_points import omega_of
+from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, Ratio
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("pole-ray")
@@ -98,8 +96,7 @@ class AccelerationPole(TwoPointCentre, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Also the image of the bar in the plan."""
-        steps = drawing.trace.program.steps
-        images = dict(zip("ab", (symbol(steps[each].name) for each in self.images), strict=False))
+        images = dict(zip("ab", (drawing.lettered(each) for each in self.images), strict=False))
         figure = symbol(drawing.pole) + "".join(images.values())
         return super().fields(drawing) | images | {"figure": figure}
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import combinations
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.centres.centre import (
     Centre,
@@ -26,6 +26,7 @@ from graphkin.construction.centres.centre import (
 from graphkin.construction.centres.relative_centre import normals_meet, relative_centre
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
@@ -34,9 +35,6 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, dot
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 FLAT = 1e-3
 """Sine of the flattest crossing of two rays by which a hand looks for an inflection pole."""

@@ -6,7 +6,7 @@ Of two parallel velocities the line through the tips meets the bar of their poin
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.centres.centre import (
     LineToCentre,
@@ -17,7 +17,8 @@ from graphkin.construction.centres.centre import (
 )
 from graphkin.construction.centres.relative_centre import RelativeCentre, relative_centre
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.drawn_scene import NOISE
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import is_set_on
@@ -28,10 +29,6 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Ratio, cross, dot
 from graphkin.scene.model import FRAME
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 PARALLEL = 1e-6
 """Sine of the angle below which two velocities are parallel."""
@@ -78,7 +75,7 @@ class InstantCentre(TwoPointCentre, frozen=True, kw_only=True):
     def mark_tips(self, canvas: Canvas) -> None:
         """The line through the tips of two parallel velocities, and those not drawn elsewhere."""
         drawing, pole = canvas.drawing, canvas.value(self.pole)
-        drawn = {step.args[:3] for _, step, _ in drawing.mechanism_steps() if step.arrow}
+        drawn = {step.args[:3] for _, step, _ in drawing.on_mechanism if step.arrow}
         vectors = []
         for name, (place, image) in self.parallel(drawing).items():
             tail = canvas.value(place)
@@ -140,7 +137,7 @@ def set_before(drawing: Drawing) -> Mapping[int, int]:
     """The velocities that are set on the mechanism to find a centre, each with its centre."""
     ends = {
         pair: number
-        for number, step, _ in drawing.mechanism_steps()
+        for number, step, _ in drawing.on_mechanism
         if isinstance(centre := construction(step), InstantCentre) and centre.found == number
         for pair in centre.parallel(drawing).values()
     }
@@ -152,7 +149,7 @@ def arrows_set_on(drawing: Drawing) -> dict[tuple[int, int], int]:
     """The steps of velocities set on the mechanism, by those of the place and the image."""
     return {
         (step.args[0], step.args[2]): number
-        for number, step, _ in drawing.mechanism_steps()
+        for number, step, _ in drawing.on_mechanism
         if is_set_on(step) and step.part is Part.VELOCITY
     }
 

@@ -7,7 +7,7 @@ start + shift/size, for it may lie at infinity.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.centres.centre import (
     Centre,
@@ -17,6 +17,8 @@ from graphkin.construction.centres.centre import (
     meet_anywhere,
     way_to,
 )
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action
@@ -24,10 +26,6 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Line, Ratio, crossing_sine
 from graphkin.scene.model import FRAME
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("pin-centre")
@@ -178,7 +176,7 @@ class RelativeCentre(PairCentre, frozen=True, kw_only=True):
     def equal(self, drawing: Drawing) -> str:
         """The letter of that."""
         same = self.same(drawing)
-        return "" if same is None else symbol(drawing.trace.program.steps[same].name)
+        return "" if same is None else drawing.lettered(same)
 
     def mark_far(self, canvas: Canvas) -> None:
         """Where it is known already by another letter, only that."""

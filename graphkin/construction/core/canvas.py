@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.numbers.plane import Circle, Ratio
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.numbers.plane import Circle, Ratio
 
 
 class Canvas(Protocol):

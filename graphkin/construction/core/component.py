@@ -5,26 +5,24 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections import Counter
 from collections.abc import Container, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 from msgspec import Struct
 
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Effect, Part, Plane, Program
+from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.segments import TINY, is_short, letter_at
+from graphkin.construction.core.sentence import Wording
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
 from graphkin.text.markup import EQUALS, NOTHING
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.relation import Relation
-    from graphkin.construction.core.sentence import Wording
 
 
 class Size(Struct, frozen=True):
@@ -347,7 +345,7 @@ class LaidOff(Construction, frozen=True, kw_only=True):
         if not all(user.arrow or user.part is Part.RESULT for user in users):
             return ""
         end = symbol(steps[left[0].args[1]].name)
-        fields = {"s": symbol(steps[self.start].name), "r": symbol(left[0].name)}
+        fields = {"s": drawing.lettered(self.start), "r": symbol(left[0].name)}
         foot = symbol(letter_at(drawing, self.corner)) or fields["s"]
         vector = self.segment(drawing, fields["s"])
         return self.component.laid_alone(drawing, q=end, k=foot, c=vector, **fields)

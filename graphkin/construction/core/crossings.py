@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import asin, inf, sin
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from msgspec import Struct
 
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.text.errors import Problem
+from graphkin.text.errors import Problem
 
 
 LOCI = "loci that cross"

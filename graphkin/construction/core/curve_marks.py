@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import cos, hypot, pi, sin
-from typing import TYPE_CHECKING
 
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.solution import Curve
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field
@@ -16,9 +16,6 @@ from graphkin.drawing.style import CENTRODES
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle
 from graphkin.text import Words
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 CHORDS, FINE = 240, 0.02
 """Straight pieces of a small circle, and how far (mm) those of a large one may leave it."""

@@ -23,6 +23,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Curve, Verdict
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.scale import Extent, Scales, extent_of
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.text import Words
@@ -105,13 +106,9 @@ class Drawing(Struct, frozen=True, dict=True):
         on_it = self.steps(Plane.MECHANISM)
         return tuple((number, step) for number, step, _ in on_it if step.part is Part.NORMAL)
 
-    def mechanism_steps(self) -> Iterator[tuple[int, Step, Any]]:
-        """The steps that this sheet draws on the mechanism."""
-        return iter(self.on_mechanism)
-
     @cached_property
     def on_mechanism(self) -> tuple[tuple[int, Step, Any], ...]:
-        """The same, gathered once."""
+        """The steps that this sheet draws on the mechanism, with their values."""
         own = (
             (Part.POSITION, Part.NORMAL, Part.POLE)
             if self.kind == "acceleration"
@@ -206,6 +203,10 @@ class Drawing(Struct, frozen=True, dict=True):
             for number in self.trace.values
             if (hand := steps[number].by_hand) is not None
         }
+
+    def lettered(self, number: int) -> str:
+        """Markup of the letter of a step."""
+        return symbol(self.trace.program.steps[number].name)
 
     def number_of(self, step: Step) -> int:
         """The number of a step in its program."""
@@ -338,7 +339,7 @@ class Drawing(Struct, frozen=True, dict=True):
     def mechanism_extent(self) -> Extent:
         """The box of the mechanism and what is drawn on it; centres and poles do not count."""
         points: list[complex] = []
-        for _, step, value in self.mechanism_steps():
+        for _, step, value in self.on_mechanism:
             if step.part not in (Part.CENTRE, Part.POLE) and takes_room(step, value):
                 points += ends(value)
         return self.bare_extent().grown(points)

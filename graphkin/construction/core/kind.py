@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import ClassVar, TypeVar
 
 from msgspec.structs import asdict
 
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import Program, Roles, Step
+from graphkin.construction.core.relation import Relation
 
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.relation import Relation
 K = TypeVar("K", bound=Roles)
 
 
@@ -26,6 +25,12 @@ class Construction(Roles, frozen=True):
     drawing of its crossings where that is not the plan's. ``joins`` are the roles of lines drawn as
     far as the points through which they lead. ``marked_as`` is the class of the circle by which the
     mechanism shows its point, where no mark of its own step does.
+
+    ``told_after`` are the roles of the lines that are told before its step, ``between`` those of
+    the names of the points that it joins: ``laid_at`` is the role of the step that lays off the
+    distance of the first and the last. ``guided`` is the role of the block or wheel along whose
+    guide its line lies, ``imaged`` are those of points marked in a plan with their letters,
+    ``titled`` is what a report calls what it finds.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
@@ -37,6 +42,12 @@ class Construction(Roles, frozen=True):
     drawn_in: ClassVar[str] = ""
     joins: ClassVar[frozenset[str]] = frozenset()
     marked_as: ClassVar[str] = ""
+    told_after: ClassVar[tuple[str, ...]] = ()
+    between: ClassVar[tuple[str, ...]] = ()
+    laid_at: ClassVar[str] = ""
+    guided: ClassVar[str] = ""
+    imaged: ClassVar[frozenset[str]] = frozenset()
+    titled: ClassVar[str] = ""
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason behind the step of a role; nothing where it needs none."""
@@ -44,7 +55,7 @@ class Construction(Roles, frozen=True):
 
     def title(self, role: str) -> str:
         """What is found at a role's step, as a report calls it."""
-        return ""
+        return self.titled.format_map(asdict(self)) if self.titled else ""
 
     def symbols(self) -> Mapping[str, str]:
         """The letters that reasons and names of lines speak of."""
@@ -62,7 +73,7 @@ class Construction(Roles, frozen=True):
     @property
     def lies_along(self) -> str:
         """The bar, guide or track along which its line lies, in a report; nothing for others."""
-        return ""
+        return f"the guide of {getattr(self, self.guided)}" if self.guided else ""
 
     @property
     def perpendicular_to(self) -> str:
@@ -96,7 +107,7 @@ class Construction(Roles, frozen=True):
     @property
     def points(self) -> tuple[str, ...]:
         """The points of the mechanism that it joins."""
-        return ()
+        return tuple(point for role in self.between if (point := getattr(self, role)))
 
     def laid_from(self, step: Step) -> int:
         """The point from which a step lays off: the first value that it takes."""
@@ -104,7 +115,7 @@ class Construction(Roles, frozen=True):
 
     def laid_length(self, role: str) -> tuple[str, str] | None:
         """The points whose distance is laid off at a role's step; None for other roles."""
-        return None
+        return (self.points[0], self.points[-1]) if role == self.laid_at else None
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """What is said of a role's step that finds no point; nothing for other roles."""
@@ -122,7 +133,7 @@ class Construction(Roles, frozen=True):
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that are told before the step of a role."""
-        return ()
+        return tuple(getattr(self, each) for each in self.told_after)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """What is said of a role's line within the sentence of the point that it helps to find."""
@@ -166,6 +177,8 @@ class Construction(Roles, frozen=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""
+        if role in self.imaged:
+            canvas.image()
 
     def is_whole(self, known: Container[int]) -> bool:
         """Whether its marks can be drawn from the steps that are known."""
@@ -174,6 +187,19 @@ class Construction(Roles, frozen=True):
     def is_hidden(self, drawing: Drawing) -> bool:
         """Whether it is too small on a sheet to be drawn."""
         return False
+
+
+class PlanPole(Construction, frozen=True, kw_only=True):
+    """The ``pole`` of a plan, chosen freely: the image of everything that stands still."""
+
+    gives: ClassVar[tuple[str, ...]] = ("pole",)
+    unmarked: ClassVar[frozenset[str]] = frozenset({"pole"})
+
+    pole: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The point, larger than those of images."""
+        canvas.pole()
 
 
 def construction(step: Step) -> Construction | None:

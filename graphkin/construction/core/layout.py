@@ -160,7 +160,7 @@ def lowered(layout: Layout, more: float) -> Layout:
 
 def poles_of(drawing: Drawing) -> Iterator[Point]:
     """The centres and poles on a sheet that are no farther than its drawing reaches."""
-    for _, step, value in drawing.mechanism_steps():
+    for _, step, value in drawing.on_mechanism:
         if step.part in (Part.CENTRE, Part.POLE) and isinstance(value, Ratio):
             point = drawing.place(value)
             if point is not None:
@@ -206,7 +206,7 @@ def joined(drawing: Drawing, number: int) -> list[int]:
 def far_points(drawing: Drawing, number: int, line: Line) -> list[complex]:
     """A place far along each ray to a centre at infinity, so that it reaches its field's edge."""
     found = []
-    for _, step, value in drawing.mechanism_steps():
+    for _, step, value in drawing.on_mechanism:
         if step.part is not Part.CENTRE or step.by_hand is None or not isinstance(value, Ratio):
             continue
         if number not in drawing.trace.program.steps[step.by_hand].args:

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.branches import block_of, side_of, way_of
-from graphkin.construction.core.plan_pole import PlanPole
+from graphkin.construction.core.kind import PlanPole
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import (
     Drive,
@@ -196,6 +196,10 @@ class Pen:
             if (quantity, of) in layer:
                 return layer[quantity, of]
         return self.targets[quantity, of]
+
+    def both(self, quantity: str, p: str, q: str) -> tuple[int, int]:
+        """The steps that carry a quantity of two points or links."""
+        return self.the(quantity, p), self.the(quantity, q)
 
     def is_nought(self, number: int) -> bool:
         """True when a step holds a given rate that is nought whatever the parameters."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from graphkin.construction.acceleration import acceleration
+from graphkin.construction.acceleration.acceleration import end_on_driven
 from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
 from graphkin.construction.core.pen import Pen, image, letter, second_image
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.drivers.driven_slide import slide_image
+from graphkin.construction.group_images import GroupImages, sliding_effect
 from graphkin.construction.guides.guide_line import (
     axis_by_guide,
     axis_stretched,
@@ -15,11 +16,10 @@ from graphkin.construction.guides.guide_line import (
     stretch,
 )
 from graphkin.construction.guides.guides import known_guide, local_line
-from graphkin.construction.guides.sliding import end_on_driven
 from graphkin.construction.links import position
 from graphkin.construction.links.dyad_by_arcs import draw_arc
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.velocity import velocity
+from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.structure.groups import Cylinder, Stretched
 from graphkin.structure.pairs import Pin
 
@@ -93,11 +93,12 @@ def way_between_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str)
         return pen.draw(stretch, *here, offset, end, *ends, where)
 
 
-def move(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
-    """The velocity plan: each cylinder's given speed along its guide, then as a dyad."""
+def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
+    """A plan: what is given of each cylinder along its guide, then as a dyad."""
+    move_one = move_foot if images.plan is VELOCITY else accelerate_foot
     for each in group.cylinders:
-        move_foot(pen, shapes, each)
-    velocity.dyad(pen, shapes, group.dyad)
+        move_one(pen, shapes, each)
+    images.dyad(pen, shapes, group.dyad)
 
 
 def move_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
@@ -106,18 +107,11 @@ def move_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
     start, line = pen.the("velocity", point), known_guide(pen, shapes, cylinder.slide)
     steps = start, line, pen.drive(cylinder.driver).speed
     place_foot(pen, cylinder)
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
+    with VELOCITY.drawn(pen):
         name, way = image(foot), sense_of(cylinder)
         found = slide_image(pen, letter(foot), block, steps, name=name, way=way)
     pen.want("velocity", foot, found)
     velocity_arrows(pen, foot, point)
-
-
-def accelerate(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
-    """The acceleration plan: what is known of each cylinder along its guide, then as a dyad."""
-    for each in group.cylinders:
-        accelerate_foot(pen, shapes, each)
-    acceleration.dyad(pen, shapes, group.dyad)
 
 
 def accelerate_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
@@ -128,10 +122,10 @@ def accelerate_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
     images = pen.the("velocity", point), pen.the("velocity", foot)
     index = letter(foot) + letter(point)
     corner = end_on_driven(pen, cylinder.far, images, point, block, index)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+    with ACCELERATION.drawn(pen):
         steps = corner, line, rate
         name, way = second_image(foot), sense_of(cylinder)
-        with pen.calls_for(acceleration.sliding_effect(pen, rate)):
+        with pen.calls_for(sliding_effect(pen, rate)):
             found = slide_image(pen, letter(foot), block, steps, name=name, way=way)
         slide_arrow(pen, corner, found, cylinder.far, point, index=index)
     pen.want("acceleration", foot, found)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import end_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import driver_index, driver_of_rate, has_no_length, vector_of
@@ -41,6 +40,8 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.driven"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str
     speed: int
@@ -56,17 +57,12 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     # --- saying it -------------------------------------------------------------------------------
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
-
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Its ends, its guide, and its drawn length."""
-        steps = drawing.trace.program.steps
         return {
             **self.symbols(),
             "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
-            "name": symbol(steps[self.image].name),
+            "name": drawing.lettered(self.image),
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
             "drawn": length_drawn(drawing, self.start, self.image),
@@ -97,10 +93,6 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return key, f"*{letter}*_{{{driver_index(driver)}}}"
 
     # --- marks and relations ---------------------------------------------------------------------
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point at its end."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """What is given along the guide; where it is tried the motion along it."""

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined, which_side
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import lies_along
 from graphkin.construction.core.naming import heading
 from graphkin.construction.core.pen import Pen
@@ -15,9 +16,6 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Circle, Line, cross, line_circle_sine, line_meets_circle
 from graphkin.scene.link_points import lettered
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
@@ -44,6 +42,8 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     loci: ClassVar[str] = "the arc and the guide"
     apart: ClassVar[str] = "the arc misses the guide"
     has_mirror: ClassVar[bool] = True
+    told_after: ClassVar[tuple[str, ...]] = ("path", "arc")
+    between: ClassVar[tuple[str, ...]] = ("centre", "name")
 
     name: str
     centre: str
@@ -51,18 +51,9 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     arc: int
     pin: int
 
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The centre of the arc, and the pin."""
-        return self.centre, self.name
-
     def symbols(self) -> Mapping[str, str]:
         """The centre of the arc."""
         return {"p": symbol(lettered(self.centre))}
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The line and the arc."""
-        return self.path, self.arc
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where the arc cuts the line, and on which side of its centre that is."""
@@ -107,6 +98,6 @@ def cut_line(
 
 def centres_about(drawing: Drawing, points: Sequence[str]) -> Iterator[str]:
     """The centres of the arcs that find some points on their guides."""
-    for _, step, _ in drawing.mechanism_steps():
+    for _, step, _ in drawing.on_mechanism:
         if isinstance(step.of, DyadByArcAndGuide) and step.of.name in points:
             yield step.of.centre

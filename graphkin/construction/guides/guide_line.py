@@ -5,20 +5,18 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Mapping, Sequence
 from math import degrees
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount, heading, way_of
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, cross, dot
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.program import Step
 
 # --- the turning of a link -----------------------------------------------------------------------
 
@@ -128,20 +126,12 @@ class GuideLine(Construction, frozen=True, kw_only=True):
     """The ``line`` of the guide of a ``block``, through the point ``start`` if that has a name."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
+    between: ClassVar[tuple[str, ...]] = ("start",)
+    guided: ClassVar[str] = "block"
 
     block: str
     start: str
     line: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The point that it passes through."""
-        return (self.start,) if self.start else ()
-
-    @property
-    def lies_along(self) -> str:
-        """The guide itself."""
-        return f"the guide of {self.block}"
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """By the point that it passes through, or its block."""
@@ -179,15 +169,11 @@ class GuideThroughBlock(Construction, frozen=True, kw_only=True):
     """The ``line`` of a guide through its ``block``, which is turned to an ``axis`` already."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
+    guided: ClassVar[str] = "block"
 
     block: str
     axis: int
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """The guide itself."""
-        return f"the guide of {self.block}"
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through the point of the block; at an angle where that was found with a group."""
@@ -202,19 +188,12 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
     """The parallel ``line`` to the line ``guide`` of a ``block``, on which a point moves."""
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
+    told_after: ClassVar[tuple[str, ...]] = ("guide",)
+    guided: ClassVar[str] = "block"
 
     block: str
     guide: int
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """The guide."""
-        return f"the guide of {self.block}"
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The guide."""
-        return (self.guide,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """By the offset as it is drawn, and to which side."""
@@ -231,15 +210,12 @@ class GuidesMeet(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.guides"}
+    told_after: ClassVar[tuple[str, ...]] = ("one", "other")
 
     name: str
     one: int
     other: int
     point: int
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Both lines."""
-        return self.one, self.other
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet."""

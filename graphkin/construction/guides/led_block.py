@@ -10,6 +10,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import axis, known_guide, local_line, path_of
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.plan import Plan
 from graphkin.scene.model import Driver
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Leading, Sliding
@@ -61,10 +62,7 @@ class LedBlock(Struct, frozen=True):
     def finish(self, pen: Pen, shapes: LinkShapes) -> None:
         """Nothing more is to be found once the led point stands."""
 
-    def touch(self, pen: Pen) -> None:
-        """Nothing touches."""
-
-    def second_touch(self, pen: Pen) -> None:
+    def touch(self, pen: Pen, plan: Plan) -> None:
         """Nothing touches."""
 
     def rim(self, pen: Pen) -> int | None:

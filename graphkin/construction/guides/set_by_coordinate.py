@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import angle_symbol, drawn_amount, heading, place
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive
 from graphkin.construction.core.vocabulary import action
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Slide
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("set-at")
@@ -38,6 +36,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.set_at"}
+    told_after: ClassVar[tuple[str, ...]] = ("path",)
 
     link: str
     on: str
@@ -45,13 +44,9 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
     where: int
     point: int
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Its path."""
-        return (self.path,)
-
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its coordinate; by where it lies from the zero where a group was found to close."""
-        name = symbol(drawing.trace.program.steps[self.point].name)
+        name = drawing.lettered(self.point)
         if not is_found_by_closing(drawing.trace.program.steps[self.where]):
             return drawing.words("step.set-at", name=name, what=self.coordinate(drawing))
         size = float(drawing.trace.values[self.where])
@@ -80,13 +75,11 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
 class CarrierSetByCoordinate(SetByCoordinate, frozen=True, kw_only=True):
     """A ``point`` of the ``link`` that carries a guide, from where the block on it stands."""
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Nothing: the guide comes with its link."""
-        return ()
+    told_after: ClassVar[tuple[str, ...]] = ()
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By the coordinate of the block."""
-        name = symbol(drawing.trace.program.steps[self.point].name)
+        name = drawing.lettered(self.point)
         what = self.coordinate(drawing)
         return drawing.words("step.set-back", name=name, k=escape(self.link), what=what)
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
@@ -20,10 +22,6 @@ from graphkin.scene.link_points import lettered
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text.errors import Problem, Sought
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 # --- their values --------------------------------------------------------------------------------
 
@@ -108,6 +106,8 @@ class SwungGuide(Determined, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("turn", "line")
     directions: ClassVar[frozenset[str]] = frozenset({"turn"})
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
+    between: ClassVar[tuple[str, ...]] = ("pivot", "pin")
+    guided: ClassVar[str] = "block"
 
     link: str
     block: str
@@ -117,19 +117,9 @@ class SwungGuide(Determined, frozen=True, kw_only=True):
     line: int
 
     @property
-    def points(self) -> tuple[str, ...]:
-        """Both pins."""
-        return self.pivot, self.pin
-
-    @property
     def found_link(self) -> str:
         """The link that it turns."""
         return self.link
-
-    @property
-    def lies_along(self) -> str:
-        """The guide itself."""
-        return f"the guide of {self.block}"
 
     def symbols(self) -> Mapping[str, str]:
         """Both pins, and the link that turns."""
@@ -147,10 +137,7 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
 
     reasons: ClassVar[Mapping[str, str]] = {"turn": "why.lever"}
     has_angle: ClassVar[bool] = False
-
-    def title(self, role: str) -> str:
-        """By its pins."""
-        return f"the line {self.pivot}-{self.pin}"
+    titled: ClassVar[str] = "the line {pivot}-{pin}"
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """Joining them."""
@@ -191,16 +178,13 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         **SwungGuide.lines,
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
     }
+    laid_at: ClassVar[str] = "large"
 
     height: int
     small: int | None = None
     large: int | None = None
     foot: int | None = None
     tangent: int | None = None
-
-    def laid_length(self, role: str) -> tuple[str, str] | None:
-        """The distance of the pins, of which Thales's circle needs half."""
-        return (self.pivot, self.pin) if role == "large" else None
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """As much of both circles as finds the foot."""

@@ -6,19 +6,21 @@ What the last contact misses grows in proportion to how far the tried link has t
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import bases, contact_name
 from graphkin.construction.core.crossings import Determined
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
 from graphkin.construction.guides.coincident_points import carried
 from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
-from graphkin.construction.higher_class.misclosure import Misclosure, lacks_across
+from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point, plate_points
+from graphkin.construction.plan import Plan
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,
@@ -27,7 +29,7 @@ from graphkin.construction.rolling.rolling import (
     settle_turn,
     touch_wheels,
 )
-from graphkin.drawing.symbol_markup import bar, symbol
+from graphkin.drawing.symbol_markup import bar
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.scene.link_points import under
 from graphkin.structure.groups import CoupledTrain, Higher
@@ -35,40 +37,23 @@ from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, SlippingName
 from graphkin.text.errors import Problem, Sought
 
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
-
 FREE = 1e-12
 """Ratios that differ less than this leave the tried link free."""
 
 
-class ContactMisclosure(Misclosure, frozen=True, kw_only=True):
+class ContactMisclosure(LineMisclosure, frozen=True, kw_only=True):
     """The gap at a contact, across its radius: between the images of both wheels there.
 
     ``ends`` are the ends of the radius, ``start`` is the known wheel's image, ``tip`` the other's.
     """
 
     ends: tuple[str, str]
-    normal: int
-    start: int
-    tip: int
-
-    def point(self, drawing: Drawing) -> str:
-        """The image of the point of contact."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """The image of the known wheel; of accelerations the parallel to the radius through it."""
-        start = symbol(drawing.trace.program.steps[self.start].name)
+        start = drawing.lettered(self.start)
         key = "image" if drawing.kind == "velocity" else "radius"
         return key, {"bar": bar(*self.ends), "s": start}
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The gap, where no crossing settles it."""
-        if self.is_measured(canvas.drawing):
-            normal, start, tip = map(canvas.value, (self.normal, self.start, self.tip))
-            self.draw_gap(canvas, start, start, tip, 1j * normal.along / abs(normal.along))
 
 
 class SettledTurn(Determined, frozen=True, kw_only=True):
@@ -155,7 +140,7 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 # --- in the plans --------------------------------------------------------------------------------
 
 
-def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
+def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
     """The images of known wheels where those of a train touch them.
 
     The last of them by the name of the point of the train's own last wheel, which has the same
@@ -163,11 +148,11 @@ def known_rims(pen: Pen, group: CoupledTrain, quantity: str) -> dict[str, int]:
     """
     for contact in (*(wheel.contact for wheel in group.chain), group.last):
         for link in {*contact.links} - {*group.links}:
-            rim = carried(pen, link, contact_name(contact), quantity)
+            rim = carried(pen, link, contact_name(contact), plan)
     return {under(contact_name(group.last), group.closing): rim}
 
 
-def missed(pen: Pen, group: CoupledTrain | Higher, quantity: str, part: Part) -> ContactMisclosure:
+def missed(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> ContactMisclosure:
     """What a plan misses where a link touches another at last: across the radius.
 
     They must not slip. Of a group that is no train each has its own image there.
@@ -181,8 +166,8 @@ def missed(pen: Pen, group: CoupledTrain | Higher, quantity: str, part: Part) ->
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radius = (pen.the("position", point) for point in (wheel.centre, name))
         normal = pen.draw(line_through, *radius)
-    start, tip = (carried(pen, x, name, quantity) for x in (partner(contact, own), own))
-    with pen.on(part, Plane.NUMBERS):
+    start, tip = (carried(pen, x, name, plan) for x in (partner(contact, own), own))
+    with pen.on(plan.part, Plane.NUMBERS):
         size = pen.draw(lacks_across, normal, start, tip)
     ends = letter(wheel.centre), letter(name)
-    return ContactMisclosure(size=size, ends=ends, normal=normal, start=start, tip=tip)
+    return ContactMisclosure(size=size, ends=ends, along=normal, start=start, tip=tip)

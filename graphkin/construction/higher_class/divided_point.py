@@ -5,26 +5,20 @@ Where a line on which a point must lie is known, it cuts the line of that point'
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Container, Mapping
+from typing import ClassVar
 
-from msgspec import Struct
-
-from graphkin.construction.acceleration import acceleration
-from graphkin.construction.acceleration.tangential_direction import RoundPivot
-from graphkin.construction.core.bases import Base
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.pen import Pen, image, second_image
-from graphkin.construction.core.program import Part, Plane, Target
-from graphkin.construction.core.quantities import EPSILON, OMEGA
+from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import Target
 from graphkin.construction.core.relation import FINE, Relation, figure, within
 from graphkin.construction.core.vocabulary import action, meet
-from graphkin.construction.guides.coincident_points import image_under
+from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.guides.sliding import known_end
 from graphkin.construction.links.link_shapes import LinkShapes
-from graphkin.construction.velocity import velocity
-from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
+from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import TAGS, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -32,15 +26,8 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.link_points import is_under
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Leading, Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text import MINUS
-
-if TYPE_CHECKING:
-    from collections.abc import Container
-
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
-
 
 ROUNDING = 1e-12
 """A share of the way between two trials that is no more than this is zero but for rounding."""
@@ -109,8 +96,7 @@ class CrossedLine(Construction, frozen=True):
         """The line, by the names of the trials."""
         if role != "line":
             return ""
-        steps = drawing.trace.program.steps
-        a, b = (symbol(steps[number].name) for number in (self.first, self.second))
+        a, b = (drawing.lettered(number) for number in (self.first, self.second))
         return drawing.words("step.line-through", a=a, b=b)
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -187,9 +173,8 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
 
         ``first`` and ``second`` are the gaps, or parts of the line, of one sign on one side.
         """
-        steps = drawing.trace.program.steps
         numbers = (self.first, self.second, self.value)
-        one, two, point = (symbol(steps[number].name) for number in numbers)
+        one, two, point = (drawing.lettered(number) for number in numbers)
         parts = f"{one}{point} : {point}{two}"
         sizes = " : ".join(drawing.words.fixed(abs(size), 2) for size in (first, second))
         beyond = ""
@@ -202,50 +187,9 @@ class DividedPoint(Divided, frozen=True, kw_only=True):
 # --- the crossing --------------------------------------------------------------------------------
 
 
-class PlanQuantity(Struct, frozen=True):
-    """What differs between the plans of velocities and of accelerations."""
-
-    quantity: str
-    rate: str
-    given: str  # by a driver
-    part: Part
-    plane: Plane
-    named: Callable[[str], str]
-    turn_tip: Callable[[Pen, str, str, str], None]
-    slide_on: Callable[[Pen, LinkShapes, Leading, str, int], None]
-    plate_points: Callable[[Pen, LinkShapes, Base], None]
-    known_end: Callable[[Pen, Sliding, str, str], int]
-
-
-VELOCITY = PlanQuantity(
-    "velocity",
-    OMEGA,
-    "speed",
-    Part.VELOCITY,
-    Plane.VELOCITIES,
-    image,
-    velocity.turn_tip,
-    velocity.slide_on,
-    velocity.plate_points,
-    lambda pen, pair, link, point: image_under(pen, partner(pair, link), point),
-)
-ACCELERATION = PlanQuantity(
-    "acceleration",
-    EPSILON,
-    "acceleration",
-    Part.ACCELERATION,
-    Plane.ACCELERATIONS,
-    second_image,
-    acceleration.turn_tip,
-    acceleration.slide_on,
-    acceleration.plate_points,
-    known_end,
-)
-
-
-def trials_of(layers: list[dict[Target, int]], kind: PlanQuantity, point: str) -> tuple[int, int]:
+def trials_of(layers: list[dict[Target, int]], quantity: str, point: str) -> tuple[int, int]:
     """The images of a point in both trial plans."""
-    first, second = (layer[kind.quantity, point] for layer in layers)
+    first, second = (layer[quantity, point] for layer in layers)
     return first, second
 
 
@@ -253,21 +197,22 @@ def crossings(
     pen: Pen,
     shapes: LinkShapes,
     group: CoupledTrain | Higher,
-    kind: PlanQuantity,
+    images: GroupImages,
     layers: list[dict[Target, int]],
 ) -> dict[str, CrossedLine]:
     """The point that a line known before the trials finds by a crossing, and how."""
-    images = [of for what, of in layers[0] if what == kind.quantity]
-    tried = {of for of in images if len({*trials_of(layers, kind, of)}) > 1}
-    point = crossed_point(pen, group, kind, tried)
+    quantity = images.plan.quantity
+    moved = [of for what, of in layers[0] if what == quantity]
+    tried = {of for of in moved if len({*trials_of(layers, quantity, of)}) > 1}
+    point = crossed_point(pen, group, quantity, tried)
     if point is None:
         return {}
-    ends = trials_of(layers, kind, point)
-    return {point: crossing(pen, shapes, group, kind, point, ends)}
+    ends = trials_of(layers, quantity, point)
+    return {point: crossing(pen, shapes, group, images, point, ends)}
 
 
 def crossed_point(
-    pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity, tried: set[str]
+    pen: Pen, group: CoupledTrain | Higher, quantity: str, tried: set[str]
 ) -> str | None:
     """The point whose right image lies on a line that is known before the trials; None for none.
 
@@ -275,7 +220,7 @@ def crossed_point(
     """
     match group.last:
         case Tie(_, Pin(point=p), Pin(point=q)):
-            ends = [of for of, other in ((p, q), (q, p)) if pen.has(kind.quantity, other)]
+            ends = [of for of, other in ((p, q), (q, p)) if pen.has(quantity, other)]
             return next((of for of in ends if of in tried), None)
         case Tie(link, Pin(point=p), Sliding() as pair) if p in tried:
             return None if partner(pair, link) in group.links else p
@@ -286,42 +231,32 @@ def crossing(
     pen: Pen,
     shapes: LinkShapes,
     group: CoupledTrain | Higher,
-    kind: PlanQuantity,
+    images: GroupImages,
     of: str,
     ends: tuple[int, int],
 ) -> CrossedLine:
     """Where the line through both trials of a point cuts the line on which it must lie."""
-    locus = locus_of(pen, shapes, group, kind, of)
-    with pen.on(kind.part, kind.plane), pen.hands_way():
+    locus = locus_of(pen, shapes, group, images, of)
+    with images.plan.drawn(pen), pen.hands_way():
         line = pen.draw(line_through, *ends)
         return pen.make(CrossedLine(*ends, locus, line, pen.draw(meet, line, locus)))
 
 
 def locus_of(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity, of: str
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, images: GroupImages, of: str
 ) -> int:
     """The line on which a pin must lie in the plan: square to its bar, or parallel to its guide."""
-    last = group.last
+    last, plan = group.last, images.plan
     assert isinstance(last, Tie)
     if isinstance(last.second, Sliding):
-        return along_guide(pen, shapes, last.link, last.second, kind, of)
+        with plan.drawn(pen):
+            start = images.known_end(pen, shapes, last.second, last.link, of)
+        guide = known_guide(pen, shapes, last.second)
+        with plan.drawn(pen), pen.hands_way():
+            return parallel_through(pen, start, guide, last.second.links[0])
     ends = last.first, last.second
     other = next(end.point for end in ends if isinstance(end, Pin) and end.point != of)
-    if kind is VELOCITY:
-        with pen.on(kind.part, kind.plane), pen.hands_way():
-            return perpendicular_through(pen, other, of)
-    bar = RoundPivot(other, of)
-    vector = bar.component(pen)
-    with pen.on(kind.part, kind.plane), pen.hands_way():
-        return bar.line(pen, shapes, bar.end(pen, vector))
-
-
-def along_guide(
-    pen: Pen, shapes: LinkShapes, link: str, pair: Sliding, kind: PlanQuantity, of: str
-) -> int:
-    """The parallel to a guide of a known link from what is known of a sliding point's motion."""
-    with pen.on(kind.part, kind.plane):
-        start = kind.known_end(pen, pair, link, of)
-    guide = known_guide(pen, shapes, pair)
-    with pen.on(kind.part, kind.plane), pen.hands_way():
-        return parallel_through(pen, start, guide, pair.links[0])
+    bar = images.bar(other, of)
+    vector = bar.component(pen, shapes)
+    with plan.drawn(pen), pen.hands_way():
+        return bar.line(pen, shapes, vector)[1]

@@ -6,10 +6,13 @@ closes the group, or parallel to its guide. Of a driver it is what the plan has 
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import component_of, index_before, laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import scale_of, way_of
@@ -20,10 +23,6 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, larger, smaller
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import Driver
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("lacks")
@@ -94,49 +93,66 @@ class Misclosure(Construction, frozen=True, kw_only=True):
         return "why.gaps" if self.is_measured(drawing) else ""
 
 
-class BarMisclosure(Misclosure, frozen=True, kw_only=True):
+class DrawnMisclosure(Misclosure, frozen=True, kw_only=True):
+    """A gap in the plan, at the image ``tip`` of the point that is found last."""
+
+    tip: int
+
+    def point(self, drawing: Drawing) -> str:
+        """Its letter."""
+        return drawing.lettered(self.tip)
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """The gap, where no crossing settles it."""
+        if self.is_measured(canvas.drawing):
+            self.draw(canvas)
+
+    @abstractmethod
+    def draw(self, canvas: Canvas) -> None:
+        """Draw it."""
+
+
+class LineMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
+    """The gap across a ``line`` on which the image should lie: that through an image ``start``."""
+
+    along: int
+    start: int
+
+    def draw(self, canvas: Canvas) -> None:
+        """From the line to the point."""
+        along, start, tip = map(canvas.value, (self.along, self.start, self.tip))
+        self.draw_gap(canvas, start, start, tip, 1j * along.along / abs(along.along))
+
+
+class BarMisclosure(DrawnMisclosure, frozen=True, kw_only=True):
     """The gap along a bar between the images of its ends, ``wanted`` what is known along it."""
 
     p: int
     q: int
     foot: int
-    tip: int
     wanted: int
-
-    def point(self, drawing: Drawing) -> str:
-        """The image of the pin that is found last."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """Perpendicular to the bar, from the end of the component that is known."""
         steps = drawing.trace.program.steps
         p, q = steps[self.p].name, steps[self.q].name
-        fields = {"bar": bar(p, q), "s": symbol(steps[self.foot].name), "p": symbol(p)}
+        fields = {"bar": bar(p, q), "s": drawing.lettered(self.foot), "p": symbol(p)}
         component = component_of(drawing.trace.program, self.wanted)
         if component is None:
             return "square", fields
         return "square-end", {**fields, "a": component.symbol}
 
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The gap, where no crossing settles it."""
-        if self.is_measured(canvas.drawing):
-            ends = (self.p, self.q, self.foot, self.tip, self.wanted)
-            p, q, foot, tip, wanted = map(canvas.value, ends)
-            across = (q - p) / abs(q - p)
-            self.draw_gap(canvas, foot, foot + wanted, tip, across)
+    def draw(self, canvas: Canvas) -> None:
+        """From the end of what is known to the point."""
+        ends = (self.p, self.q, self.foot, self.tip, self.wanted)
+        p, q, foot, tip, wanted = map(canvas.value, ends)
+        self.draw_gap(canvas, foot, foot + wanted, tip, (q - p) / abs(q - p))
 
 
-class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
+class GuideMisclosure(LineMisclosure, frozen=True, kw_only=True):
     """The gap across the guide of a ``block``, of the image of its point from what is known."""
 
     block: str
-    guide: int
-    start: int
-    tip: int
-
-    def point(self, drawing: Drawing) -> str:
-        """The image of the block's point."""
-        return symbol(drawing.trace.program.steps[self.tip].name)
 
     def fields(self, drawing: Drawing) -> tuple[str, Mapping[str, str]]:
         """Parallel to the guide, from the end of what is laid off."""
@@ -147,12 +163,6 @@ class GuideMisclosure(Misclosure, frozen=True, kw_only=True):
             return "parallel", {**fields, "s": symbol(program.steps[self.start].name)}
         fields |= {"a": laid.component.symbol, "s": symbol(program.steps[laid.start].name)}
         return "parallel-end", fields
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The gap, where no crossing settles it."""
-        if self.is_measured(canvas.drawing):
-            guide, start, tip = map(canvas.value, (self.guide, self.start, self.tip))
-            self.draw_gap(canvas, start, start, tip, 1j * guide.along / abs(guide.along))
 
 
 class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
+from graphkin.construction.acceleration.acceleration import slid
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
-from graphkin.construction.core.arrows import (
-    acceleration_arrow,
-    arrow_between,
-    relative_arrow,
-    velocity_arrows,
-)
+from graphkin.construction.core.arrows import arrow_between, relative_arrow
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.vocabulary import Action, action
-from graphkin.construction.guides.sliding import slid
 from graphkin.construction.higher_class.divided_point import (
-    VELOCITY,
     CrossedLine,
     DividedPoint,
     DividedRate,
-    PlanQuantity,
     between,
 )
+from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of, is_under, under
@@ -71,7 +65,7 @@ def last_component(start: Point, tip: Point, component: Point) -> Vector:
 def settle(
     pen: Pen,
     group: CoupledTrain | Higher,
-    kind: PlanQuantity,
+    plan: Plan,
     layers: list[dict[Target, int]],
     divided: int,
     crossed: dict[str, CrossedLine],
@@ -82,20 +76,22 @@ def settle(
     settled: dict[tuple[int, int], str] = {}
     for (quantity, of), one in first.items():
         two = second[quantity, of]
-        if quantity == kind.rate and own_rate(pen, of):
+        if quantity == plan.rate and own_rate(pen, of):
             with pen.on(Part.RESULT, Plane.NUMBERS):
                 value = pen.want(quantity, of, pen.draw(between, one, two, divided, name=of))
             pen.make(DividedRate(first=one, second=two, share=divided, value=value))
-        elif quantity == kind.quantity and (one == two or of in rims):
+        elif quantity != plan.quantity:
+            continue
+        elif one == two or of in rims:
             pen.want(quantity, of, rims.get(of, one))
-        elif quantity == kind.quantity and pen.has(quantity, of):
+        elif pen.has(quantity, of):
             settled[one, two] = of  # of a known link, where the line of a crossing begins
-        elif quantity == kind.quantity and (one, two) in settled:
+        elif (one, two) in settled:
             pen.want(quantity, of, pen.the(quantity, settled[one, two]))
-        elif quantity == kind.quantity:
-            line, name = crossed.get(of), kind.named(of)
+        else:
+            line, name = crossed.get(of), plan.named(of)
             by_hand = line.crossing if line is not None else None
-            with pen.on(kind.part, kind.plane):
+            with plan.drawn(pen):
                 value = pen.draw(between, one, two, divided, name=name, by_hand=by_hand)
             pen.want(quantity, of, value)
             roles = {"first": one, "second": two, "share": divided, "value": value}
@@ -107,11 +103,11 @@ def settle(
             closing = in_order((p, q), [*settled.values()])
     for point in settled.values():
         if not is_under(point):
-            finish(pen, kind, point, closing)
-        elif kind is VELOCITY:
+            finish(pen, plan, point, closing)
+        elif plan is VELOCITY:
             relative_arrows(pen, point)
-    if closing and kind is VELOCITY:
-        velocity_arrows(pen, closing[1], closing[0])
+    if closing:
+        plan.arrows(pen, closing[1], closing[0])
 
 
 def in_order(ends: tuple[str, str], found: list[str]) -> tuple[str, ...]:
@@ -125,17 +121,14 @@ def own_rate(pen: Pen, link: str) -> bool:
     return base is not None and base.end is None and link not in pen.leads and pen.turns(link)
 
 
-def finish(pen: Pen, kind: PlanQuantity, point: str, closing: tuple[str, ...]) -> None:
+def finish(pen: Pen, plan: Plan, point: str, closing: tuple[str, ...]) -> None:
     """The arrows to a point of the right plan; none against the end of a bar that is found last."""
-    if kind is VELOCITY:
-        moved = [base for base in pen.bases.values() if pen.has("velocity", base.start)]
-        starts = {b.start for b in moved if point == b.end}
-        starts = starts or {b.start for b in moved if point in b.others}
-        pivots: list[str | None] = [*sorted(starts)]
-        for pivot in pivots or [None]:
-            velocity_arrows(pen, point, None if (point, pivot) == closing else pivot)
-    else:
-        acceleration_arrow(pen, point)
+    moved = [base for base in pen.bases.values() if pen.has(plan.quantity, base.start)]
+    starts = {b.start for b in moved if point == b.end}
+    starts = starts or {b.start for b in moved if point in b.others}
+    pivots: list[str | None] = [*sorted(starts)]
+    for pivot in pivots or [None]:
+        plan.arrows(pen, point, None if (point, pivot) == closing else pivot)
 
 
 # --- its arrows ----------------------------------------------------------------------------------

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import (
@@ -37,10 +37,6 @@ from graphkin.drawing.style import OWN_LINES
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol, tag_words
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.text.markup import AND
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-
 
 SECOND = tuple(TAGS)[1]
 """The tag of the second of two trial plans."""
@@ -329,8 +325,7 @@ def point_told(drawing: Drawing, number: int) -> str:
 
 def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -> str:
     """The words for several points of a trial plan."""
-    steps = drawing.trace.program.steps
-    listed = drawing.words("list_mark").join(symbol(steps[number].name) for number in numbers)
+    listed = drawing.words("list_mark").join(drawing.lettered(number) for number in numbers)
     return drawing.words(f"step.{key}", name=listed, list=listed, **fields)
 
 

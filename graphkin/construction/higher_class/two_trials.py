@@ -10,7 +10,6 @@ from typing import ClassVar
 
 from msgspec.structs import replace
 
-from graphkin.construction.acceleration.tangential_direction import RoundPivot
 from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction, constructions
@@ -28,16 +27,11 @@ from graphkin.construction.core.vocabulary import (
     product,
     sum_of,
 )
-from graphkin.construction.guides.coincident_points import image_under, omega_of
+from graphkin.construction.group_images import GroupImages
+from graphkin.construction.guides.coincident_points import carried
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.higher_class import coupled_train
-from graphkin.construction.higher_class.divided_point import (
-    ACCELERATION,
-    VELOCITY,
-    DividedPoint,
-    PlanQuantity,
-    crossings,
-)
+from graphkin.construction.higher_class.divided_point import DividedPoint, crossings
 from graphkin.construction.higher_class.higher import Each, inverse, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
@@ -50,6 +44,7 @@ from graphkin.construction.higher_class.misclosure import (
 from graphkin.construction.higher_class.right_plan import components, in_order, settle
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -166,13 +161,13 @@ class TwoTrials(Construction, frozen=True):
 
     def relations(self, drawing: Drawing) -> Iterator[Relation]:
         """Where between the trials the right plan lies: what they miss grows in proportion."""
-        steps, values = drawing.trace.program.steps, drawing.trace.values
+        values = drawing.trace.values
         points = [p for p in self.divided(drawing.trace.program) if p.value in values]
         crossed = [p for p in points if self.measured in values and p.is_crossed(values)]
         lead = (crossed or points)[0]
-        one, two, name = (symbol(steps[n].name) for n in (lead.first, lead.second, lead.value))
+        one, two, name = (drawing.lettered(n) for n in (lead.first, lead.second, lead.value))
         ratio = f"{one}{name}/{one}{two}"
-        others = [symbol(steps[point.value].name) for point in points if point not in crossed]
+        others = [drawing.lettered(point.value) for point in points if point not in crossed]
         fields = {
             "share": self.symbol,
             "ratio": ratio,
@@ -241,14 +236,14 @@ def divided_together(
     drawing: Drawing, found: list[Sentence], share: int, points: dict[Sentence, DividedPoint]
 ) -> list[Sentence]:
     """The points of one ``share`` said in one sentence."""
-    steps, values = drawing.trace.program.steps, drawing.trace.values
+    values = drawing.trace.values
     crossed = [said for said, point in points.items() if point.is_crossed(values)]
     divided = [said for said in points if said not in crossed]
     if crossed:
         found = [said for said in found if said.step != share]
     if not divided:
         return found
-    listed = drawing.words("list_mark").join(symbol(steps[s.step].name) for s in divided)
+    listed = drawing.words("list_mark").join(drawing.lettered(s.step) for s in divided)
     if not crossed:
         point = points[divided[0]]
         fields = point.ratio(drawing, *gaps_of(drawing, point))
@@ -278,7 +273,7 @@ def gaps_of(drawing: Drawing, point: DividedPoint) -> tuple[float, float]:
 
 def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
     """How the line of the trials of one point is divided: as the gaps are, or another's line is."""
-    steps, values = drawing.trace.program.steps, drawing.trace.values
+    values = drawing.trace.values
     alike = (
         p for p in constructions(drawing.trace.program, DividedPoint) if p.share == point.share
     )
@@ -286,8 +281,8 @@ def divided_alone(drawing: Drawing, point: DividedPoint) -> str:
     gaps = gaps_of(drawing, lead)
     return drawing.words(
         "step.divided-one",
-        line="".join(symbol(steps[end].name) for end in (point.first, point.second)),
-        name=symbol(steps[point.value].name),
+        line="".join(drawing.lettered(end) for end in (point.first, point.second)),
+        name=drawing.lettered(point.value),
         ratio=lead.ratio(drawing, *gaps)["ratio"],
         beyond=point.ratio(drawing, *gaps)["beyond"],
     )
@@ -310,35 +305,29 @@ def on_paper(drawing: Drawing) -> float:
 # --- planning them -------------------------------------------------------------------------------
 
 
-def velocity(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each) -> None:
-    """The velocity plan: two trials, the share between them that fits, and every point by it."""
-    two_trials(pen, shapes, group, each, VELOCITY)
-
-
-def acceleration(pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each) -> None:
-    """The acceleration plan in the same way; what follows from velocities is known by then."""
-    two_trials(pen, shapes, group, each, ACCELERATION)
-
-
 def two_trials(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each, kind: PlanQuantity
+    images: GroupImages, pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each
 ) -> None:
-    """Two wrong plans give the right one: what is missed is linear in what is tried."""
+    """Two wrong plans give the right one: what is missed is linear in what is tried.
+
+    What accelerations follow from velocities is known by then.
+    """
     layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
-    first, second = plans_of(pen, group, kind)
-    rims = known_rims(pen, group, kind)
-    for plan in (first, second):
+    plan = images.plan
+    first, second = plans_of(pen, group, plan)
+    rims = known_rims(pen, group, plan)
+    for trial in (first, second):
         begun.append(len(pen.steps))
-        with pen.aside(plan) as layer:
-            move_trial(pen, shapes, group, kind, plan.rate)
+        with pen.aside(trial) as layer:
+            move_trial(pen, shapes, group, images, trial.rate)
             for member in group.chain:
                 each(pen, shapes, member, bases(pen.scene, member))
-            gaps.append(missed(pen, shapes, group, kind))
+            gaps.append(missed(pen, shapes, group, images))
         layers.append(layer)
         pen.tried.append(layer)
     tried = range(begun[1], len(pen.steps))
-    crossed = crossings(pen, shapes, group, kind, layers)
-    with pen.on(kind.part, Plane.NUMBERS):
+    crossed = crossings(pen, shapes, group, images, layers)
+    with pen.on(plan.part, Plane.NUMBERS):
         by_hand = None
         for line in crossed.values():
             with pen.hands_way():
@@ -346,27 +335,25 @@ def two_trials(
         divided = pen.draw(share, *(gap.size for gap in gaps), by_hand=by_hand)
     one, two = (pen.make(replace(gap, settled=by_hand)) for gap in gaps)
     pen.make(TwoTrials(group, (first, second), (one, two), divided, by_hand))
-    settle(pen, group, kind, layers, divided, crossed, rims)
-    if kind is ACCELERATION and not pen.layers:
+    settle(pen, group, plan, layers, divided, crossed, rims)
+    if plan is ACCELERATION and not pen.layers:
         components(pen, group, tried)
     for last in ending(group):
         each(pen, shapes, last, bases(pen.scene, last))
     if not pen.layers:
         pen.tried.clear()
         for link in group.links:
-            omega_of(pen, link, kind.rate)
+            omega_of(pen, link, plan.rate)
 
 
-def plans_of(
-    pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity
-) -> tuple[TrialPlan, TrialPlan]:
+def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialPlan, TrialPlan]:
     """The two trial plans of a group; those of one within a group lie within its trial plans."""
     whole, link = pen.auxiliary, group.tried.link
     assert whole is None or isinstance(whole, TrialPlan)
     tag = whole.tag if whole is not None else ""
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        at_rest = pen.given("nought", name=f"{kind.rate} tried of {link}{tag}")
-        value = trial_value(pen, group, kind)
+        at_rest = pen.given("nought", name=f"{plan.rate} tried of {link}{tag}")
+        value = trial_value(pen, group, plan)
     alike = whole.first.within[group.links] if whole is not None and whole.first else None
     first = TrialPlan(tag + TAGS[0], link, at_rest, alike, whole)
     second = TrialPlan(tag + TAGS[1], link, value, alike or first, whole)
@@ -375,18 +362,18 @@ def plans_of(
     return first, second
 
 
-def known_rims(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> dict[str, int]:
+def known_rims(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> dict[str, int]:
     """The images of known wheels where those of a coupled train touch them, before any trial.
 
     Velocities are by the name of the point of the train's own last wheel, which has the same.
     """
     if not isinstance(group, CoupledTrain):
         return {}
-    found = coupled_train.known_rims(pen, group, kind.quantity)
-    return {} if kind is ACCELERATION else found
+    found = coupled_train.known_rims(pen, group, plan)
+    return {} if plan is ACCELERATION else found
 
 
-def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> int:
+def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
     """The second trial: as fast as the driver turns, or slides by a bar in that time.
 
     An acceleration is as large as the squares of that and of how fast the link has been found to
@@ -396,8 +383,8 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, kind: PlanQuantity) -> i
     rate = pen.draw(inverse, pen.seconds())
     turns = isinstance(group.tried.pair, Pin)
     bar = None if turns else pen.draw(far, *places_of(pen, group))
-    if kind is ACCELERATION:
-        with pen.on(kind.part, Plane.NUMBERS):
+    if plan is ACCELERATION:
+        with pen.on(plan.part, Plane.NUMBERS):
             own = omega_of(pen, group.tried.link) if bar is None else slid_rate(pen, group, bar)
             squares = (pen.draw(product, each, each) for each in (rate, own))
             rate = pen.draw(sum_of, *squares)
@@ -408,7 +395,7 @@ def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
     pair, point = group.tried.pair, pen.bases[group.tried.link].start
     assert not isinstance(pair, Pin)
-    under = image_under(pen, partner(pair, group.tried.link), point)
+    under = carried(pen, partner(pair, group.tried.link), point, VELOCITY)
     speed = pen.draw(distance, under, pen.the("velocity", point))
     return pen.draw(product, speed, pen.draw(inverse, bar))
 
@@ -421,68 +408,67 @@ def places_of(pen: Pen, group: CoupledTrain | Higher) -> list[int]:
 
 
 def move_trial(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity, value: int
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, images: GroupImages, value: int
 ) -> None:
     """The tried link in a trial plan."""
-    trial, base = group.tried, pen.bases[group.tried.link]
+    trial, base, plan = group.tried, pen.bases[group.tried.link], images.plan
     match trial.pair:
         case Pin(point=pivot):
-            pen.want(kind.rate, trial.link, value)
+            pen.want(plan.rate, trial.link, value)
             if base.end is not None:
-                kind.turn_tip(pen, trial.link, pivot, base.end)
+                plan.turn(pen, trial.link, pivot, base.end, steady=False, along=pivot)
         case _ as pair:
-            kind.slide_on(pen, shapes, pair, trial.link, value)
-    kind.plate_points(pen, shapes, base)
+            images.slide_on(pen, shapes, pair, trial.link, value)
+    images.plate_points(pen, shapes, base)
 
 
 def missed(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, kind: PlanQuantity
+    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, images: GroupImages
 ) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
-    last = group.last
+    last, plan = group.last, images.plan
     if not isinstance(last, Tie | Driver):
-        return coupled_train.missed(pen, group, kind.quantity, kind.part)
+        return coupled_train.missed(pen, group, plan)
     match last:
         case Tie(link, Pin(point=p), Pin(point=q)):
-            p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == kind.quantity])
-            ends = [pen.the(what, x) for what in ("position", kind.quantity) for x in (p, q)]
-            wanted = pen.given("origin")
-            if kind is ACCELERATION:
-                wanted = RoundPivot(p, q).component(pen)
-            with pen.on(kind.part, Plane.NUMBERS):
+            p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == plan.quantity])
+            ends = [pen.the(what, x) for what in ("position", plan.quantity) for x in (p, q)]
+            origin, known = pen.given("origin"), images.bar(p, q).component(pen, shapes)
+            wanted = origin if known is None else known
+            with pen.on(plan.part, Plane.NUMBERS):
                 size = pen.draw(lacks, *ends, wanted)
             roles = dict(zip(("p", "q", "foot", "tip"), ends, strict=True))
             return BarMisclosure(size=size, wanted=wanted, **roles)
         case Tie(link, Pin(point=p), Sliding() as pair):
             line = known_guide(pen, shapes, pair)
-            start = kind.known_end(pen, pair, link, p)
-            tip = pen.the(kind.quantity, p)
-            with pen.on(kind.part, Plane.NUMBERS):
+            start = images.known_end(pen, shapes, pair, link, p)
+            tip = pen.the(plan.quantity, p)
+            with pen.on(plan.part, Plane.NUMBERS):
                 size = pen.draw(lacks_across, line, start, tip)
-            return GuideMisclosure(size=size, block=pair.links[0], guide=line, start=start, tip=tip)
+            return GuideMisclosure(size=size, block=pair.links[0], along=line, start=start, tip=tip)
         case Driver(kind="turn") as driver:
-            given = getattr(pen.drive(driver), kind.given)
-            own = omega_of(pen, driver.link, kind.rate)
+            given = getattr(pen.drive(driver), plan.given)
+            own = omega_of(pen, driver.link, plan.rate)
             if driver.against != FRAME:
-                with pen.on(kind.part, Plane.NUMBERS):
-                    own = pen.draw(difference, own, omega_of(pen, driver.against, kind.rate))
-            with pen.on(kind.part, Plane.NUMBERS):
+                with pen.on(plan.part, Plane.NUMBERS):
+                    own = pen.draw(difference, own, omega_of(pen, driver.against, plan.rate))
+            with pen.on(plan.part, Plane.NUMBERS):
                 size = pen.draw(difference, own, given)
             return DrivenMisclosure(size=size, driver=driver, found=own)
         case Driver() as driver:
-            return missed_slide(pen, shapes, driver, kind)
+            return missed_slide(pen, shapes, driver, images)
     raise AssertionError(last)
 
 
-def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, kind: PlanQuantity) -> Misclosure:
+def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, images: GroupImages) -> Misclosure:
     """What a trial plan misses of a given sliding speed or acceleration."""
-    pair = slide_of(pen, driver)
+    pair, plan = slide_of(pen, driver), images.plan
     first = pen.scene.link(driver.link).points[0]
-    given = getattr(pen.drive(driver), kind.given)
+    given = getattr(pen.drive(driver), plan.given)
     line = known_guide(pen, shapes, pair)
-    start = kind.known_end(pen, pair, driver.link, first)
-    with pen.on(kind.part, Plane.NUMBERS):
-        tip = pen.the(kind.quantity, first)
+    start = images.known_end(pen, shapes, pair, driver.link, first)
+    with pen.on(plan.part, Plane.NUMBERS):
+        tip = pen.the(plan.quantity, first)
         found = pen.draw(part_along, line, start, tip)
         size = pen.draw(difference, found, given)
     return DrivenMisclosure(size=size, driver=driver, found=found, start=start, tip=tip)

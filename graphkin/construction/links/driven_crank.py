@@ -5,9 +5,11 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Mapping
 from math import degrees
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import is_found_by_closing
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import angle_symbol, axis_of
 from graphkin.construction.core.pen import Pen
@@ -19,10 +21,6 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import FRAME
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("mark-off")
@@ -52,21 +50,14 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("line", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.crank"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
+    between: ClassVar[tuple[str, ...]] = ("pivot", "name")
+    laid_at: ClassVar[str] = "tip"
 
     link: str
     pivot: str
     name: str
     line: int
     tip: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """Both ends of the bar."""
-        return self.pivot, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str] | None:
-        """The bar."""
-        return (self.pivot, self.name) if role == "tip" else None
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The end of the line, beyond the bar."""
@@ -107,21 +98,14 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    between: ClassVar[tuple[str, ...]] = ("pivot", "name")
+    laid_at: ClassVar[str] = "tip"
 
     link: str
     pivot: str
     name: str
     turn: int
     tip: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pivot and the tip."""
-        return self.pivot, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """From the pivot."""
-        return self.pivot, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its angle; by that of the bar in the plane where it was found with a group."""

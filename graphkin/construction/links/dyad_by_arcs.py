@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined, which_side
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
@@ -16,10 +18,6 @@ from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.scene.link_points import lettered
 from graphkin.text.errors import Problem, Sought
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("compass")
@@ -33,20 +31,13 @@ class CompassArc(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("arc",)
     lines: ClassVar[Mapping[str, str]] = {"arc": "the arc {centre}{point} about {centre}"}
+    between: ClassVar[tuple[str, ...]] = ("centre", "point")
+    laid_at: ClassVar[str] = "arc"
 
     centre: str
     point: str
     radius: int
     arc: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """Both ends of the bar."""
-        return self.centre, self.point
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """The opening of the compass."""
-        return self.centre, self.point
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """As much of the arc as finds the point."""
@@ -109,6 +100,8 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     loci: ClassVar[str] = "the arcs"
     apart: ClassVar[str] = "the arcs miss each other"
     has_mirror: ClassVar[bool] = True
+    told_after: ClassVar[tuple[str, ...]] = ("near", "far")
+    between: ClassVar[tuple[str, ...]] = ("left", "right", "name")
 
     name: str
     left: str
@@ -117,18 +110,9 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     far: int
     pin: int
 
-    @property
-    def points(self) -> tuple[str, ...]:
-        """Its outer pins and the inner one."""
-        return self.left, self.right, self.name
-
     def symbols(self) -> Mapping[str, str]:
         """The outer pins."""
         return {"p": symbol(lettered(self.left)), "q": symbol(lettered(self.right))}
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Both arcs."""
-        return self.near, self.far
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet, and on which side of the line of their centres."""

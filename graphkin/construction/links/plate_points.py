@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Mapping
 from math import degrees
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from msgspec.structs import replace
 
@@ -26,9 +26,6 @@ from graphkin.numbers.plane import Line, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.model import FRAME, OnLine
 
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-
 UNTURNED = 0.05
 """A wheel that has turned by less, in degrees, is drawn as at the start."""
 
@@ -39,20 +36,13 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.placed"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    between: ClassVar[tuple[str, ...]] = ("start", "name")
+    laid_at: ClassVar[str] = "point"
 
     link: str
     start: str
     name: str
     point: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """From which point it is laid off, and itself."""
-        return self.start, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """From that point."""
-        return self.start, self.name
 
     def turned(self, drawing: Drawing) -> float | None:
         """By how many degrees the link has turned since the start; None where it is not said."""
@@ -95,7 +85,7 @@ def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
             if turned is not None and abs(turned) < UNTURNED:
                 alike.setdefault((kind.link, kind.start), []).append(said)
     for (link, start), some in alike.items():
-        names = drawing.words("list_mark").join(symbol(steps[said.step].name) for said in some)
+        names = drawing.words("list_mark").join(drawing.lettered(said.step) for said in some)
         fields = {"g": escape(link), "p": symbol(start), "list": names}
         found = together(found, some, drawing.words("step.beside-start", **fields))
     return found
@@ -126,17 +116,13 @@ class PlatePoint(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("corner", "point")
     laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    between: ClassVar[tuple[str, ...]] = ("start", "end", "name")
 
     start: str
     end: str
     name: str
     point: int
     corner: int | None = None
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The base and the point."""
-        return self.start, self.end, self.name
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """Where a hand finds it."""
@@ -180,11 +166,9 @@ class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
 class PointInLine(PlatePoint, frozen=True, kw_only=True):
     """A point on the line of its base, laid off from its start by a ``length``."""
 
-    length: int
+    laid_at: ClassVar[str] = "corner"
 
-    def laid_length(self, role: str) -> tuple[str, str] | None:
-        """From the start of the base."""
-        return (self.start, self.name) if role == "corner" else None
+    length: int
 
     def by_hand(self, drawing: Drawing) -> str:
         """By its distance; beyond one of the ends on the bar produced."""
@@ -203,19 +187,12 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.on_lever"}
+    between: ClassVar[tuple[str, ...]] = ("start", "name")
+    laid_at: ClassVar[str] = "point"
 
     start: str
     name: str
     point: int
-
-    @property
-    def points(self) -> tuple[str, ...]:
-        """The pivot and the point."""
-        return self.start, self.name
-
-    def laid_length(self, role: str) -> tuple[str, str]:
-        """From the pivot."""
-        return self.start, self.name
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its distance."""

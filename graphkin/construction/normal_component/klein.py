@@ -12,11 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import Measured, PaletteAction
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
@@ -43,9 +44,6 @@ from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 from graphkin.text.markup import AND
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 # --- its value, and the steps of the hand's way --------------------------------------------------
 
@@ -121,6 +119,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     laid_off: ClassVar[frozenset[str]] = frozenset()
     lettered: ClassVar[tuple[str, ...]] = ("corner", "foot", "whole")
     palette: ClassVar[PaletteAction] = PaletteAction("klein", PICKED, SCRIPT, "triangle")
+    titled: ClassVar[str] = "Klein's construction for {q} about {p}"
 
     o: str
     centre: int
@@ -132,10 +131,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     chord: int | None = None
     foot: int | None = None
     whole: int | None = None
-
-    def title(self, role: str) -> str:
-        """What it is called in a report."""
-        return f"Klein's construction for {self.q} about {self.p}"
 
     def symbols(self) -> Mapping[str, str]:
         """The centre of the crank, and the pins."""

@@ -8,9 +8,10 @@ what the perpendicular cuts off (lab, figure 4).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
     Measured,
@@ -40,10 +41,6 @@ from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Scene
 from graphkin.text.markup import AND, COMMA, saying
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 # --- its value, and the steps of the hand's way --------------------------------------------------
 
@@ -107,6 +104,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     lettered: ClassVar[tuple[str, ...]] = ("tip", "cut", "end")
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
     palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT)
+    titled: ClassVar[str] = "the right triangle of {q} about {p}"
 
     p: str
     q: str
@@ -120,10 +118,6 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     line: int | None = None
     cut: int | None = None
     end: int | None = None
-
-    def title(self, role: str) -> str:
-        """What it is called in a report."""
-        return f"the right triangle of {self.q} about {self.p}"
 
     @property
     def speed(self) -> str:

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
-from typing import TYPE_CHECKING, Any, ClassVar, Concatenate, ParamSpec, TypeVar
+from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
 
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction, constructions
+from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
 from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.plan_pole import PlanPole
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Effect, Plane
+from graphkin.construction.core.program import Effect, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
@@ -27,10 +26,6 @@ from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel
 from graphkin.structure.groups import Geared, Spun, Train
 from graphkin.structure.pairs import Contact, contacts, meshes
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
-    from graphkin.construction.core.program import Step
 
 SAME = 1e-9
 """Radii and angles nearer than this, in parts of themselves or in radians, are the same."""
@@ -160,16 +155,12 @@ class Track(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
+    guided: ClassVar[str] = "wheel"
 
     wheel: str
     sign: str
     rolling: Rolling
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """As the guide of its wheel."""
-        return f"the guide of {self.wheel}"
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """By the point that it is drawn through, or its wheel."""
@@ -194,20 +185,13 @@ class CentrePath(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "the path of the centre of {wheel}"}
+    told_after: ClassVar[tuple[str, ...]] = ("track",)
+    guided: ClassVar[str] = "wheel"
 
     wheel: str
     sign: str
     track: int
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """As the guide of its wheel."""
-        return f"the guide of {self.wheel}"
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """The track."""
-        return (self.track,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Parallel to the track at the radius."""
@@ -328,7 +312,7 @@ class RackPoint(Construction, frozen=True, kw_only=True):
         key = "step.rack-at" if self.is_toothed(drawing) else "step.strand-at"
         return drawing.words(
             "step.bar-at" if self.wheel == FRAME else key,
-            name=symbol(drawing.trace.program.steps[self.point].name),
+            name=drawing.lettered(self.point),
             g=escape(self.rack),
             arc=drawn_amount(drawing, abs(float(drawing.trace.values[self.way]))),
         )
@@ -343,16 +327,13 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("where", "centre")
     reasons: ClassVar[Mapping[str, str]] = {"centre": "why.roller"}
+    told_after: ClassVar[tuple[str, ...]] = ("path",)
 
     path: int
     lean: int
     radii: tuple[int, int]
     where: int
     centre: int
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Its path."""
-        return (self.path,)
 
     def is_halfway(self, drawing: Drawing) -> bool:
         """Whether it has rolled as far on one of its tracks as on the other."""
@@ -361,7 +342,7 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its coordinate, or halfway."""
-        name = symbol(drawing.trace.program.steps[self.centre].name)
+        name = drawing.lettered(self.centre)
         if self.is_halfway(drawing):
             return drawing.words("step.set-halfway", name=name)
         what = drawn_amount(drawing, float(drawing.trace.values[self.where]))

@@ -12,8 +12,10 @@ G. Niemann and H. Winter, Maschinenelemente II, on epicyclic gears.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import plan_amount, scale_of
 from graphkin.construction.core.program import Plane
@@ -25,10 +27,6 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, dot
 from graphkin.text.markup import AND, NOTHING
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 PLAN = "kutzbach"
 """What a scene writes as [sheet] plan."""
@@ -147,8 +145,8 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
 
     def drawn(self, drawing: Drawing, start: int, end: int) -> str:
         """How long a way of the plan is drawn, by its letters."""
-        steps, values = drawing.trace.program.steps, drawing.trace.values
-        letters = symbol(steps[start].name) + symbol(steps[end].name)
+        values = drawing.trace.values
+        letters = drawing.lettered(start) + drawing.lettered(end)
         way = drawing.settled(abs(values[end] - values[start]))
         return f"{letters} = {plan_amount(drawing, Plane.VELOCITIES, way)}"
 
@@ -182,7 +180,7 @@ class LadderRay(Construction, frozen=True, kw_only=True):
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """Through which tips it goes."""
-        ends = (symbol(drawing.trace.program.steps[n].name) for n in (self.first, self.last))
+        ends = (drawing.lettered(n) for n in (self.first, self.last))
         fields = dict(zip("ab", ends, strict=True))
         return drawing.words("step.ladder-ray", k=escape(self.link), **fields)
 
@@ -213,8 +211,8 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How far apart both stand; the pole is free."""
-        steps, values = drawing.trace.program.steps, drawing.trace.values
-        pole, start = (symbol(steps[n].name) for n in (self.pole, self.start))
+        values = drawing.trace.values
+        pole, start = (drawing.lettered(n) for n in (self.pole, self.start))
         if role == "pole":
             return drawing.words("step.ladder-pole", pole=pole)
         way = abs(values[self.start] - values[self.pole])
@@ -262,14 +260,13 @@ class SpeedRead(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """What the parallel cuts off."""
-        steps = drawing.trace.program.steps
-        pole, name = (symbol(steps[number].name) for number in (self.scale.pole, self.cut))
+        pole, name = (drawing.lettered(number) for number in (self.scale.pole, self.cut))
         return drawing.words("step.ladder-speed", pole=pole, name=name, k=escape(self.link))
 
     def rate_relation(self, drawing: Drawing, link: str, tail: tuple[str, str, str]) -> Relation:
         """The scale of speeds times what the parallel cuts off."""
-        steps, values = drawing.trace.program.steps, drawing.trace.values
-        start, cut = (symbol(steps[number].name) for number in (self.scale.start, self.cut))
+        values = drawing.trace.values
+        start, cut = (drawing.lettered(number) for number in (self.scale.start, self.cut))
         scale = scale_of(drawing, Plane.VELOCITIES) / 1000 / self.scale.length(drawing)
         drawn = abs(float(values[self.rate or 0])) / scale
         figures = f"{figure(drawing, scale)}·{drawing.words.fixed(drawn, 2)}"
@@ -302,14 +299,14 @@ def with_ladder_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
 def short(drawing: Drawing, number: int) -> str:
     """What is said of one of several steps of a kind, after what is said of all."""
     steps = drawing.trace.program.steps
-    kind, name = construction(steps[number]), symbol(steps[number].name)
+    kind, name = construction(steps[number]), drawing.lettered(number)
     match kind:
         case LadderPoint() if steps[number].role == "foot":
             return f"{kind.drawn(drawing, kind.before, number)}"
         case LadderPoint(velocity=velocity) if velocity is not None:
             return f"{kind.drawn(drawing, kind.foot, number)} ({symbol(f'v_{kind.point}')})"
         case LadderRay():
-            ends = NOTHING.join(symbol(steps[end].name) for end in (kind.first, kind.last))
+            ends = NOTHING.join(drawing.lettered(end) for end in (kind.first, kind.last))
             return f"{escape(kind.link)}: {ends}"
         case SpeedRead():
             return f"{escape(kind.link)}: {name}"

@@ -11,6 +11,7 @@ from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import meet
 from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.plan import VELOCITY
 from graphkin.construction.rolling.kutzbach import (
     PLAN,
     LadderAxis,
@@ -205,7 +206,7 @@ class Ladder:
         for link in links:
             if self.pen.has("velocity", under(point, link)):
                 return self.pen.the("velocity", under(point, link))
-        return carried(self.pen, links[1], point, "velocity")
+        return carried(self.pen, links[1], point, VELOCITY)
 
     def wheels_about(self, centre: str) -> list[str]:
         """The links whose wheels turn about a moving centre."""

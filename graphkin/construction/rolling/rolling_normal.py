@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
@@ -12,6 +12,7 @@ from graphkin.construction.core.component import (
     Size,
     components_on,
 )
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
@@ -24,9 +25,6 @@ from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("rolling-normal")
@@ -64,6 +62,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     look: ClassVar[str] = "normal"
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.normal"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
     q: str
@@ -78,11 +77,6 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     def symbols(self) -> Mapping[str, str]:
         """The ends of the radius."""
         return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The image in which it ends."""
-        if role == "image":
-            canvas.image()
 
     # --- saying it -------------------------------------------------------------------------------
 
@@ -121,11 +115,10 @@ class RollingNormal(Component, frozen=True, kw_only=True):
 
     def told(self, drawing: Drawing, key: str, **fields: str) -> str:
         """A sentence of how it is laid off."""
-        steps = drawing.trace.program.steps
         return drawing.words(
             key,
-            s=symbol(steps[self.start].name),
-            name=symbol(steps[self.image].name),
+            s=drawing.lettered(self.start),
+            name=drawing.lettered(self.image),
             vector=self.symbol,
             omega=self.rate(drawing),
             drawn=in_mm(
@@ -271,7 +264,7 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The parallel to the radius."""
-        start = symbol(drawing.trace.program.steps[self.start].name)
+        start = drawing.lettered(self.start)
         key = "common-normal-belt" if self.belted else "common-normal"
         return drawing.words(f"step.{key}", s=start, **self.symbols())
 

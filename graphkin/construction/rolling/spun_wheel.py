@@ -6,24 +6,24 @@ turned as far as the rolling says.
 
 from __future__ import annotations
 
-from graphkin.construction.core.arrows import velocity_arrows
-from graphkin.construction.core.bases import contact_name
+from graphkin.construction.core.bases import bases, contact_name, leads_of, own_first
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import sum_of
+from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
+from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.links.counted_turn import counted_near
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point
+from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.rolling import rolling, wheel_images
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
-from graphkin.construction.velocity import velocity as velocities
 from graphkin.scene.link_points import under
-from graphkin.structure.groups import Geared, Spun
+from graphkin.structure.groups import Geared, Higher, Spun
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin
+from graphkin.structure.pairs import Pin
 
 # --- the mechanism -------------------------------------------------------------------------------
 
@@ -76,37 +76,40 @@ def as_rack(group: Spun) -> Geared:
 # --- the plans -----------------------------------------------------------------------------------
 
 
-def move(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
-    """Velocities: it turns at the given rate, and moves with the other where it touches."""
-    speed = pen.drive(group.driver).speed
-    pen.want(OMEGA, group.link, velocities.driven_rate(pen, group, OMEGA, speed))
-    if not isinstance(group.held, Pin):
-        wheel_images.geared(pen, shapes, as_rack(group))
-        return
-    move_centre(pen, group.link, group.contact, group.held.point)
+def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: Spun) -> None:
+    """A plan: it turns at the given rate, and where it touches moves as the other's point does;
+    their accelerations differ along the normal alone."""
+    images.turn_driven(pen, group)
+    if isinstance(group.held, Pin):
+        move_centre(pen, group, group.held.point, images.plan)
+    else:
+        draw = wheel_images.geared if images.plan is VELOCITY else wheel_images.second_geared
+        draw(pen, shapes, as_rack(group))
 
 
 @by_contact
-def move_centre(pen: Pen, link: str, contact: Contact, centre: str) -> None:
+def move_centre(pen: Pen, group: Spun, centre: str, plan: Plan) -> None:
     """The image of a wheel's centre from that of its point of contact."""
-    name = contact_name(contact)
-    start = wheel_images.touched(pen, contact, link, partner(contact, link))
-    pen.want("velocity", centre, wheel_images.turned_from_rim(pen, link, name, centre, start))
-    velocity_arrows(pen, centre, None)
+    contact, link = group.contact, group.link
+    wheel_images.image_of_rim(plan, pen, contact, link, partner(contact, link))
+    rim = under(contact_name(contact), link)
+    wheel_images.turn_from_rim(pen, link, rim, centre, plan)
 
 
-def accelerate(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
-    """Accelerations: the point of contact moves against the other's along the normal alone."""
-    given = pen.drive(group.driver).acceleration
-    pen.want(EPSILON, group.link, velocities.driven_rate(pen, group, EPSILON, given))
-    if not isinstance(group.held, Pin):
-        wheel_images.second_geared(pen, shapes, as_rack(group))
-        return
-    accelerate_centre(pen, group.link, group.contact, group.held.point)
+# --- wheels pinned at the instant where they touch their tracks -----------------------------------
 
 
-@by_contact
-def accelerate_centre(pen: Pen, link: str, contact: Contact, centre: str) -> None:
-    """The second image of a wheel's centre from that of its point of contact."""
-    wheel_images.second_image_of_rim(pen, contact, link, partner(contact, link))
-    wheel_images.turn_from_rim(pen, link, under(contact_name(contact), link), centre)
+def move_pinned(
+    images: GroupImages, pen: Pen, shapes: LinkShapes, group: Higher, each: Each
+) -> None:
+    """A plan: where wheels touch their tracks they have one velocity, and their accelerations
+    differ towards the centres only."""
+    for wheel in group.wheels:
+        wheel_images.image_of_rim(images.plan, pen, wheel.contact, wheel.own, wheel.known)
+    for link in group.links:
+        pen.leads.pop(link, None)
+    for member in group.at_instant:
+        found = tuple(map(own_first, bases(pen.scene, member)))
+        pen.bases |= {base.link: base for base in found}
+        pen.leads |= leads_of(member)
+        each(pen, shapes, member, found)

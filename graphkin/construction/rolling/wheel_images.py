@@ -3,44 +3,25 @@ touch."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import ClassVar
 
 from msgspec import Struct
 
 from graphkin.construction.acceleration.tangential_direction import known_and_free
-from graphkin.construction.acceleration.turned_acceleration import (
-    turned_image as accelerated_image,
-)
-from graphkin.construction.core.arrows import (
-    acceleration_arrow,
-    component_arrow,
-    relative_arrow,
-    velocity_arrows,
-)
-from graphkin.construction.core.bases import Base, bases, contact_name, leads_of, own_first
+from graphkin.construction.core.arrows import component_arrow, relative_arrow
+from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import rate_symbol
-from graphkin.construction.core.pen import (
-    Pen,
-    about,
-    against,
-    image,
-    letter,
-    second_image,
-)
+from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import EPSILON, OMEGA
+from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
-from graphkin.construction.guides.coincident_points import (
-    carried,
-    found_by_turning,
-    omega_of,
-    second_image_under,
-)
+from graphkin.construction.guides.coincident_points import carried, found_by_turning
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import radius_of, seen_from
@@ -51,13 +32,12 @@ from graphkin.construction.velocity.image_of_link import (
     translated_image,
 )
 from graphkin.construction.velocity.lines_through import parallel_through
-from graphkin.construction.velocity.turned_velocity import turned_image
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.numbers.arithmetic import Real
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
-from graphkin.structure.groups import Geared, Group, Higher, Train
+from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
 
@@ -127,18 +107,10 @@ def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
 
 
 @by_contact
-def touch(pen: Pen, contact: Contact) -> int:
-    """The image of a wheel's point of contact: that of the track's point under it."""
-    wheel, on = contact.links
-    return touched(pen, contact, wheel, on)
-
-
-@by_contact
 def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     """The image of one link's point of contact, from the other link."""
     name = contact_name(contact)
-    found = carried(pen, known, name, "velocity")
-    return pen.want("velocity", under(name, link), found)
+    return pen.want("velocity", under(name, link), carried(pen, known, name, VELOCITY))
 
 
 @by_contact
@@ -153,39 +125,44 @@ def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
         case Pin():
             return
         case Sliding():
-            point = pen.bases[link].start
+            point, rim = pen.bases[link].start, under(name, link)
             if pen.turns(link):
-                start = turned_from_rim(pen, link, name, point, start)
-            else:
-                with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                    start = translated_image(pen, start, (letter(name), point), image(point))
-            pen.want("velocity", point, start)
-            velocity_arrows(pen, point, under(name, link) if pen.turns(link) else None)
+                turn_from_rim(pen, link, rim, point, VELOCITY, along=rim)
+                return
+            with VELOCITY.drawn(pen):
+                ends, called = (letter(name), point), VELOCITY.named(point)
+                start = translated_image(pen, start, ends, called)
+            VELOCITY.settle(pen, point, start)
         case Contact() as own:
             first = touched(pen, own, link, partner(own, link))
-            names = [under(contact_name(own), link), under(name, link)]
-            centre, letters = own.wheel.centre, (letter(names[0]), letter(names[1]))
-            divided = on_line_of(pen, names, [first, start], centre)
-            with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-                found = image_of_link(
-                    pen,
-                    divided,
-                    (*letters, centre),
-                    name=image(centre),
-                    touching=(image(names[0]), image(names[1])),
-                )
-            pen.want("velocity", centre, found)
-            velocity_arrows(pen, centre, None)
-            relative_arrow(pen, names[1], names[0])
-            index = against(pen, names[1], names[0])
-            turning_of_contacts(pen, OMEGA, link, names, index, (first, start))
+            rims = [under(contact_name(own), link), under(name, link)]
+            images, centre = (first, start), own.wheel.centre
+            touching = VELOCITY.named(rims[0]), VELOCITY.named(rims[1])
+            found = image_between(pen, rims, images, centre, VELOCITY, touching=touching)
+            VELOCITY.settle(pen, centre, found)
+            relative_arrow(pen, rims[1], rims[0])
+            turning_of_contacts(pen, link, rims, images, VELOCITY)
 
 
-@by_contact
-def second_touch(pen: Pen, contact: Contact) -> int:
-    """The second image of a wheel's point of contact, from the track's point under it."""
-    wheel, on = contact.links
-    return second_touched(pen, contact, wheel, on)
+def image_between(
+    pen: Pen,
+    rims: Sequence[str],
+    images: Sequence[int],
+    centre: str,
+    plan: Plan,
+    *,
+    name: str = "",
+    touching: tuple[str, ...] = (),
+) -> int:
+    """The image of a wheel's centre, which divides the way of its two points of contact."""
+    places = [pen.the("position", each) for each in (*rims, centre)]
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        ratio = pen.draw(in_proportion, *places)
+    first, second = images
+    letters, called = (letter(rims[0]), letter(rims[1]), centre), name or plan.named(centre)
+    with plan.drawn(pen):
+        ends = first, second, ratio
+        return image_of_link(pen, ends, letters, name=called, touching=touching)
 
 
 @by_contact
@@ -198,11 +175,11 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     name = contact_name(contact)
     own = under(name, link)
     centre = pen.bases[link].start
-    other = carried(pen, known, name, "acceleration")
+    other = carried(pen, known, name, ACCELERATION)
     corner, line = known_and_free(pen, centre, own)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+    with ACCELERATION.drawn(pen):
         along = common_normal(pen, other, (centre, own), belted=contact.rolling.belt is not None)
-        found = crossed_image(pen, line, along, name=second_image(own), of=own)
+        found = crossed_image(pen, line, along, name=ACCELERATION.named(own), of=own)
         component_arrow(pen, corner, found, "τ", own, centre)
     return pen.want("acceleration", own, found)
 
@@ -213,21 +190,8 @@ def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     link, centre = group.wheel, group.centre.point
     names = [contact_name(contact) for contact in group.contacts]
     images = [touched(pen, each, link, partner(each, link)) for each in group.contacts]
-    divided = on_line_of(pen, names, images, centre)
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        letters = letter(under(names[0], link)), letter(under(names[1], link)), centre
-        found = image_of_link(pen, divided, letters, name=image(centre))
-    pen.want("velocity", centre, found)
-    velocity_arrows(pen, centre, None)
-
-
-def on_line_of(
-    pen: Pen, names: Sequence[str], images: list[int], centre: str
-) -> tuple[int, int, int]:
-    """Two images and the ratio in which a wheel's centre divides the way of its contacts."""
-    places = [pen.the("position", each) for each in (*names, centre)]
-    with pen.on(Part.SHAPE, Plane.NUMBERS):
-        return images[0], images[1], pen.draw(in_proportion, *places)
+    pen.want("velocity", centre, image_between(pen, names, images, centre, VELOCITY))
+    VELOCITY.arrows(pen, centre)
 
 
 @by_contact
@@ -240,19 +204,17 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     link, centre, pivot = group.wheel, group.centre.point, group.pivot.point
     names = [contact_name(contact) for contact in group.contacts]
     others = [
-        carried(pen, partner(each, link), contact_name(each), "acceleration")
+        carried(pen, partner(each, link), contact_name(each), ACCELERATION)
         for each in group.contacts
     ]
     corner, line = known_and_free(pen, pivot, centre)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        letters = letter(names[0]), letter(names[1]), centre
-        divided = on_line_of(pen, names, others, centre)
-        across = image_of_link(pen, divided, letters, name=f"m_{centre}")
+    with ACCELERATION.drawn(pen):
+        across = image_between(pen, names, others, centre, ACCELERATION, name=f"m_{centre}")
         along = common_normal(pen, across, (pivot, centre))
-        found = crossed_image(pen, line, along, name=second_image(centre), of=centre)
+        called = ACCELERATION.named(centre)
+        found = crossed_image(pen, line, along, name=called, of=centre)
         component_arrow(pen, corner, found, "τ", centre, pivot)
-    pen.want("acceleration", centre, found)
-    acceleration_arrow(pen, centre)
+    ACCELERATION.settle(pen, centre, found)
     second_touched(pen, group.contacts[0], link, partner(group.contacts[0], link))
 
 
@@ -284,10 +246,10 @@ def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) ->
     name, start = contact_name(contact), pen.bases[link].start
     pen.bases[link] = Base(link, start, None, pen.bases[link].others)
     touching = under(name, link)
-    pen.want("acceleration", touching, found_by_turning(pen, link, name, "acceleration"))
+    pen.want("acceleration", touching, found_by_turning(pen, link, touching, ACCELERATION))
     for point in pen.bases[link].others:
         if not pen.has("acceleration", point):
-            turn_from_rim(pen, link, start, point)
+            turn_from_rim(pen, link, start, point, ACCELERATION)
 
 
 def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
@@ -298,15 +260,14 @@ def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> 
         return
     point, wheel = pen.bases[link].start, contact.links[0]
     name = contact_name(contact)
-    start = second_image_under(pen, partner(slide, link), point)
-    other = carried(pen, wheel, name, "acceleration")
+    start = carried(pen, partner(slide, link), point, ACCELERATION)
+    other = carried(pen, wheel, name, ACCELERATION)
     guide = known_guide(pen, shapes, slide)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
+    with ACCELERATION.drawn(pen):
         line = parallel_through(pen, start, guide, link)
         along = common_normal(pen, other, (contact.wheel.centre, name))
-        found = crossed_image(pen, line, along, name=second_image(point), of=point)
-    pen.want("acceleration", point, found)
-    acceleration_arrow(pen, point)
+        found = crossed_image(pen, line, along, name=ACCELERATION.named(point), of=point)
+    ACCELERATION.settle(pen, point, found)
 
 
 def turning_rack(pen: Pen, group: Geared) -> None:
@@ -316,34 +277,19 @@ def turning_rack(pen: Pen, group: Geared) -> None:
     """
     link, contact = group.link, group.contact
     second_image_of_rim(pen, contact, link, contact.links[0])
-    turn_from_rim(pen, link, under(contact_name(contact), link), pen.bases[link].start)
+    rim, point = under(contact_name(contact), link), pen.bases[link].start
+    turn_from_rim(pen, link, rim, point, ACCELERATION)
 
 
-def turned_from_rim(pen: Pen, link: str, name: str, point: str, start: int) -> int:
-    """The image of a point of a link whose rate is known, from that of its point of contact."""
-    places = pen.the("position", name), pen.the("position", point)
-    index = against(pen, point, under(name, link))
-    with pen.on(Part.VELOCITY, Plane.VELOCITIES):
-        rate = omega_of(pen, link)
-        ends = letter(name), point
-        return turned_image(
-            pen, link, ends, start, places, name=image(point), omega=rate, index=index
-        )
-
-
-def turn_from_rim(pen: Pen, link: str, rim: str, point: str) -> None:
-    """Second image of a point of a link whose rates are known, from that of its point of contact or
-    of its pin.
+def turn_from_rim(
+    pen: Pen, link: str, rim: str, point: str, plan: Plan, along: str | None = None
+) -> None:
+    """The image of a point of a link whose rates are known, from that of its point of contact or
+    of its pin; ``along`` is the point from whose image a velocity leads too.
 
     There is no tangential component where a driver turns the link steadily.
     """
-    omega_of(pen, link)
-    steady = pen.is_nought(omega_of(pen, link, EPSILON))
-    start, ends = pen.the("acceleration", rim), (rim, point)
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        found = accelerated_image(pen, link, ends, start, name=second_image(point), steady=steady)
-    pen.want("acceleration", point, found)
-    acceleration_arrow(pen, point)
+    plan.turn(pen, link, rim, point, steady=plan.is_steady(pen, link), along=along)
 
 
 def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
@@ -355,57 +301,32 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
         for each, other in zip(contacts, known, strict=True)
     )
     names = [contact_name(each) for each in contacts]
-    divided = on_line_of(pen, names, [first, second], centre)
     rims = [under(name, link) for name in names]
-    with pen.on(Part.ACCELERATION, Plane.ACCELERATIONS):
-        points, called = (letter(rims[0]), letter(rims[1]), centre), second_image(centre)
-        found = image_of_link(pen, divided, points, name=called)
+    with ACCELERATION.drawn(pen):
+        found = image_between(pen, rims, (first, second), centre, ACCELERATION)
         if not any(map(pen.turns, known)):
             pairs = zip(known, names, strict=True)
-            tail, tip = (carried(pen, on, name, "acceleration") for on, name in pairs)
+            tail, tip = (carried(pen, on, name, ACCELERATION) for on, name in pairs)
             component_arrow(pen, tail, tip, "τ", rims[1], rims[0])
-    pen.want("acceleration", centre, found)
-    acceleration_arrow(pen, centre)
-    turning_of_contacts(pen, EPSILON, link, rims, about(pen, rims[1], rims[0]), (first, second))
+    ACCELERATION.settle(pen, centre, found)
+    turning_of_contacts(pen, link, rims, (first, second), ACCELERATION)
 
 
 def turning_of_contacts(
-    pen: Pen, rate: str, link: str, rims: Sequence[str], index: str, images: tuple[int, int]
+    pen: Pen, link: str, rims: Sequence[str], images: tuple[int, int], plan: Plan
 ) -> None:
     """The rate of a roller from the images of both its points of contact."""
     ends = pen.the("position", rims[0]), pen.the("position", rims[1])
-    letters = letter(rims[0]), letter(rims[1])
+    letters, index = (letter(rims[0]), letter(rims[1])), plan.index(pen, rims[1], rims[0])
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        found = turning_of_link(pen, rate, link, letters, index, (ends, images))
-    pen.want(rate, link, found)
+        found = turning_of_link(pen, plan.rate, link, letters, index, (ends, images))
+    pen.want(plan.rate, link, found)
 
 
-# --- pinned at the instant where they touch their tracks -----------------------------------------
-
-
-Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
-"""How one group is put down in a plan."""
-
-
-def move_pinned(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
-    """The velocity plan: every wheel moves with its track where they touch."""
-    for wheel in group.wheels:
-        touched(pen, wheel.contact, wheel.own, wheel.known)
-    for link in group.links:
-        pen.leads.pop(link, None)
-    for member in group.at_instant:
-        found = tuple(map(own_first, bases(pen.scene, member)))
-        pen.bases |= {base.link: base for base in found}
-        pen.leads |= leads_of(member)
-        each(pen, shapes, member, found)
-
-
-def accelerate_pinned(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
-    """The acceleration plan: there it moves against its track to its centre only."""
-    for wheel in group.wheels:
-        second_image_of_rim(pen, wheel.contact, wheel.own, wheel.known)
-    for member in group.at_instant:
-        each(pen, shapes, member, tuple(pen.bases[link] for link in member.links))
+def image_of_rim(plan: Plan, pen: Pen, contact: Contact, own: str, known: str) -> int:
+    """The image of one link's point of contact in a plan, from that of the other's."""
+    draw = touched if plan is VELOCITY else second_image_of_rim
+    return draw(pen, contact, own, known)
 
 
 @by_contact
@@ -416,7 +337,7 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int
     radius; a bar's away from the centre of the wheel on which the bar rolls.
     """
     name = contact_name(contact)
-    start = carried(pen, known, name, "acceleration")
+    start = carried(pen, known, name, ACCELERATION)
     rates, rim = (omega_of(pen, own), omega_of(pen, known)), under(name, own)
     if contact.track is not None:
         hubs = contact.wheel_of(own).centre, contact.wheel_of(known).centre
@@ -467,13 +388,10 @@ class LedWheel(Struct, frozen=True):
         """By how much it has turned farther than it has rolled, as a length at its rim."""
         return rolling.slip(pen, shapes, self.pair)
 
-    def touch(self, pen: Pen) -> None:
+    def touch(self, pen: Pen, plan: Plan) -> None:
         """The image of its point of contact."""
-        touch(pen, self.pair)
-
-    def second_touch(self, pen: Pen) -> None:
-        """The second image of its point of contact."""
-        second_touch(pen, self.pair)
+        draw = touched if plan is VELOCITY else second_touched
+        draw(pen, self.pair, *self.pair.links)
 
     def rim(self, pen: Pen) -> int | None:
         """The radius that ties its turning to its coordinate."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.pen import Pen
@@ -14,10 +15,6 @@ from graphkin.construction.core.vocabulary import action, meet, similar_point
 from graphkin.construction.velocity.relative_motion import known, stated
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("alike")
@@ -32,6 +29,7 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
     unmarked: ClassVar[frozenset[str]] = frozenset({"image"})
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
     q: str
@@ -45,12 +43,8 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """It falls on the same point."""
-        name = symbol(drawing.trace.program.steps[self.image].name)
+        name = drawing.lettered(self.image)
         return drawing.words("step.alike", name=name, p=symbol(self.p), q=symbol(self.q))
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, under its letter too."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Its vector is that of the other point."""
@@ -73,6 +67,8 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.meet"}
+    told_after: ClassVar[tuple[str, ...]] = ("first", "second")
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     point: str
     first: int
@@ -84,23 +80,15 @@ class CrossedImage(Construction, frozen=True, kw_only=True):
         """Its point."""
         return self.point
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """Both lines."""
-        return self.first, self.second
-
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """Where they meet."""
-        name = symbol(drawing.trace.program.steps[self.image].name)
+        name = drawing.lettered(self.image)
         return drawing.words("step.meet", name=name)
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
         """Where both lines meet."""
-        name = symbol(drawing.trace.program.steps[self.image].name)
+        name = drawing.lettered(self.image)
         return drawing.words("step.meet-apart", name=name)
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point, under its letter."""
-        canvas.image()
 
 
 def crossed_image(pen: Pen, first: int, second: int, *, name: str = "", of: str = "") -> int:
@@ -158,9 +146,8 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
 
     def figures(self, drawing: Drawing) -> dict[str, str]:
         """Its name, the two similar figures, and the points of the link."""
-        steps = drawing.trace.program.steps
-        name = symbol(steps[self.image].name)
-        images = symbol(steps[self.first].name) + symbol(steps[self.second].name)
+        name = drawing.lettered(self.image)
+        images = drawing.lettered(self.first) + drawing.lettered(self.second)
         figure = bar(self.p, self.q) + symbol(self.r)
         drawn = {"images": images, "image": images + name, "figure": figure}
         return {"name": name, **drawn, **self.symbols()}

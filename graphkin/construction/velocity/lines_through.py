@@ -6,9 +6,11 @@ Perpendicular to a bar, for it keeps its length; parallel to a guide, for slides
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import end_before, laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Plane
@@ -20,10 +22,6 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
 from graphkin.structure.pairs import is_in_scene
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 @action("square-to")
@@ -41,6 +39,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("line",)
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.perpendicular"}
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ {p}{q}"}
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
 
     start: int
     line: int
@@ -55,10 +54,6 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         """That the bar keeps its length; of a pivot at rest, that its image is the pole."""
         at_rest = self.index == self.whole and not self.touch
         return "why.perpendicular_at_rest" if at_rest else super().reason(drawing, role)
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through which point it is drawn; both points where links touch have one image."""
@@ -102,13 +97,10 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "∥ guide {guide}"}
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    guided: ClassVar[str] = "guide"
 
     line: int
-
-    @property
-    def lies_along(self) -> str:
-        """The guide."""
-        return f"the guide of {self.guide}"
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """Relative to its guide a block moves, and accelerates, along it only."""
@@ -118,10 +110,6 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
     def symbols(self) -> Mapping[str, str]:
         """The guide by its block."""
         return {"g": escape(self.guide)}
-
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through which point it is drawn, or which end of the component laid off before."""

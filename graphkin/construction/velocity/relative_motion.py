@@ -6,17 +6,14 @@ What lines and vectors of both plans have in common.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from graphkin.construction.core.component import index_before, laid_off
+from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import vector_of, way_of
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.link_points import ends_of, is_under, lettered, under
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.drawn_scene import Drawing
 
 
 def known(drawing: Drawing, point: str) -> Term:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
@@ -18,7 +18,7 @@ from graphkin.construction.core.naming import (
     turning_with,
     vector_of,
 )
-from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.pen import Pen, against, letter
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.segments import laid_off
@@ -26,9 +26,6 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
-
-if TYPE_CHECKING:
-    from graphkin.construction.core.canvas import Canvas
 
 
 class LaidOffByRate(Construction, frozen=True):
@@ -145,6 +142,8 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.turned"}
     laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    told_after: ClassVar[tuple[str, ...]] = ("start",)
+    imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     start: int
     omega: int
@@ -154,18 +153,13 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
         """The angular velocity."""
         return self.omega
 
-    def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
-        """What ends where it begins."""
-        return (self.start,)
-
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
         """Its ends, its bar, its rate and its drawn length."""
-        steps = drawing.trace.program.steps
         default = symbol(f"v_{self.index}")
         return {
             **self.symbols(),
-            "s": symbol(steps[self.start].name),
-            "name": symbol(steps[self.image].name),
+            "s": drawing.lettered(self.start),
+            "name": drawing.lettered(self.image),
             "vector": vector_of(drawing, self.start, self.image, default),
             "omega": rate_words(drawing, self.image, self.omega, self.link, "ω"),
             "rate": rate_symbol(drawing, self.omega),
@@ -178,10 +172,6 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
         if has_no_length(drawing, self.image):
             return drawing.words(falls(drawing, self.image, fields["s"]), **fields)
         return drawing.words(f"step.turned-velocity{by_bar(drawing, self.omega, fields)}", **fields)
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """The point at its end."""
-        canvas.image()
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem, and its size; a driver's crank has relations of its own."""
@@ -201,26 +191,14 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
         return rate_symbol(drawing, self.omega)
 
 
-def turned_image(
-    pen: Pen,
-    link: str,
-    letters: tuple[str, str],
-    start: int,
-    places: tuple[int, int],
-    *,
-    name: str,
-    omega: int | None = None,
-    index: str = "",
-) -> int:
-    """The image of a pin of a turning link, from the image ``start`` of its pivot.
-
-    ``letters`` and ``places`` are those of pivot and pin; the link's own ``omega`` turns it, unless
-    another step is told.
-    """
-    p, q = letters
-    rate = pen.the(OMEGA, link) if omega is None else omega
+def turned_image(pen: Pen, link: str, points: tuple[str, str], start: int, *, name: str) -> int:
+    """The image of the second of two ``points`` of a turning link, from that of the first, where it
+    is the ``start``."""
+    pivot, pin = points
+    places = pen.the("position", pivot), pen.the("position", pin)
+    rate = pen.the(OMEGA, link)
     image = pen.draw(turned_velocity, start, *places, rate, name=name)
-    index = index or q + ("" if p in pen.scene.frame.points else p)
-    names = {"p": p, "q": q, "index": index, "whole": q, "base": p}
+    p, q = map(letter, points)
+    names = {"p": p, "q": q, "index": against(pen, pin, pivot), "whole": q, "base": p}
     pen.make(TurnedVelocity(**names, link=link, start=start, omega=rate, image=image))
     return image

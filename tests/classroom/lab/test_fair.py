@@ -70,7 +70,7 @@ def test_triangles_are_relative_velocity_over_bar_as_drawn(judgement):
     _, _, found, singles = judgement
     for i, sheets in enumerate(singles):
         sheet = sheets[-1]
-        for step, value in [(s, v) for _, s, v in sheet.mechanism_steps() if "″" in s.name]:
+        for step, value in [(s, v) for _, s, v in sheet.on_mechanism if "″" in s.name]:
             name = step.of.speed
             if name in found.triangles and step.role == "tip":
                 pin, pivot = sheet.standing.spot(step.of.q), sheet.standing.spot(step.of.p)

@@ -1,0 +1,196 @@
+"""One plan group by group: lines through known images, and their crossings; images by known rates.
+
+Perpendiculars to bars and parallels to guides, in the plan of accelerations from the ends of the
+components that are known; the rest of a link by similarity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from msgspec import Struct
+
+from graphkin.construction.acceleration import acceleration
+from graphkin.construction.acceleration.acceleration import GuideAcceleration
+from graphkin.construction.acceleration.tangential_direction import BarAcceleration
+from graphkin.construction.acceleration.turned_acceleration import accelerated
+from graphkin.construction.core.bases import Base, crank_tip, sides_of
+from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.program import Effect, Part, Plane
+from graphkin.construction.core.vocabulary import difference
+from graphkin.construction.guides.led_block import led_by
+from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.plate_points import crosses_well
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.velocity import velocity
+from graphkin.construction.velocity.image_of_link import (
+    crossed_image,
+    image_of_link,
+    translated_image,
+)
+from graphkin.construction.velocity.velocity import BarVelocity, GuideVelocity
+from graphkin.structure.groups import Crank, Driven, Dyad, Spun, Tie, other_of
+from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
+
+Sides = list[tuple[Joint, str]]
+"""Two pairs that leave a point free on a line each, with the links that they hold."""
+
+
+class GroupImages(Struct, frozen=True):
+    """What draws a ``plan``: what a bar, and what a guide or track, says of a point in it, and how
+    a block slides."""
+
+    plan: Plan
+    bar: Callable[[str, str], BarVelocity | BarAcceleration]
+    guide: Callable[[Leading, str, str, str], GuideVelocity | GuideAcceleration]
+    sliding: Callable[[Pen, LinkShapes, str], None]
+
+    # --- driven links ----------------------------------------------------------------------------
+
+    def crank(self, pen: Pen, shapes: LinkShapes, group: Crank) -> None:
+        """Image of a driven tip, by the given rate and in its sense."""
+        driver, link, tip = group.driver, group.link, crank_tip(pen.scene, group)
+        self.turn_driven(pen, group)
+        if tip is not None:
+            steady = driver.acceleration.is_zero() and not pen.turns(other_of(driver, link))
+            self.plan.turn(pen, link, group.pivot, tip, steady=steady, along=group.pivot)
+
+    def turn_driven(self, pen: Pen, group: Crank | Spun) -> None:
+        """The rate of a driven link: the given one, on top of that of the link it turns against."""
+        driver, link, rate = group.driver, group.link, self.plan.rate
+        found: int = getattr(pen.drive(driver), self.plan.given)
+        against = other_of(driver, link)
+        if pen.turns(against):
+            from graphkin.construction.drivers.summed_rate import summed_rate
+
+            other = omega_of(pen, against, rate)
+            with pen.on(Part.RESULT, Plane.NUMBERS):
+                found = summed_rate(pen, driver, link, other, found)
+        elif driver.link != link:
+            with pen.on(Part.SHAPE, Plane.NUMBERS):
+                found = pen.draw(difference, pen.given("nought"), found)
+        pen.want(rate, link, found)
+
+    def driven(self, pen: Pen, shapes: LinkShapes, group: Driven) -> None:
+        """Image of a driven slider, or of a driven wheel's centre: along its guide as is given."""
+        given = led_by(group.pair).driven(pen, group.driver, self.plan.given)
+        self.slide_on(pen, shapes, group.pair, group.link, given)
+
+    def slide_on(self, pen: Pen, shapes: LinkShapes, pair: Leading, link: str, given: int) -> None:
+        """Image of the point of a link that is led along its line as is given, or tried."""
+        from graphkin.construction.drivers.driven_slide import slide_image
+
+        plan, point = self.plan, pen.bases[link].start
+        led = self.guide(pair, link, point, point)
+        way = 1 if pair.links[0] == link else -1
+        line = led_by(pair).direction(pen, shapes)
+        vector = led.component(pen, shapes)
+        with plan.drawn(pen):
+            start, name = led.end(pen, vector), plan.named(point)
+            with pen.calls_for(sliding_effect(pen, given)):
+                steps = start, line, given
+                found = slide_image(pen, point, pair.links[0], steps, name=name, way=way)
+            led.rest(pen, start, found)
+        pen.want(plan.quantity, point, found)
+        led.finish(pen, driven=True)
+
+    def known_end(self, pen: Pen, shapes: LinkShapes, pair: Leading, link: str, point: str) -> int:
+        """Where the known part of the motion of a point that a pair leads ends in the plan."""
+        led = self.guide(pair, link, point, point)
+        return led.end(pen, led.component(pen, shapes))
+
+    # --- dyads and ties --------------------------------------------------------------------------
+
+    def dyad(self, pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+        """Image of the point that closes a dyad."""
+        self.cross(pen, shapes, *sides_of(pen.bases, group))
+
+    def tie(self, pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+        """A link between known ones: on two guides its image is found, at two pins it is there."""
+        if isinstance(group.first, Sliding):
+            point, link = pen.bases[group.link].start, group.link
+            self.cross(pen, shapes, point, point, [(group.first, link), (group.second, link)])
+
+    def cross(self, pen: Pen, shapes: LinkShapes, name: str, point: str, sides: Sides) -> None:
+        """The image of a point where the lines meet that two pairs leave it free on."""
+        plan = self.plan
+        bound = [
+            self.bar(pair.point, name)
+            if isinstance(pair, Pin)
+            else self.guide(pair, link, name, point)
+            for pair, link in sides
+        ]
+        vectors = [each.component(pen, shapes, sides) for each in bound]
+        with plan.drawn(pen):
+            pairs = zip(bound, vectors, strict=True)
+            lines = [each.line(pen, shapes, vector) for each, vector in pairs]
+            crossing = (line for _, line in lines)
+            found = crossed_image(pen, *crossing, name=plan.named(name), of=name)
+            for each, (end, _) in zip(bound, lines, strict=True):
+                each.rest(pen, end, found)
+        pen.want(plan.quantity, name, found)
+        for each in bound:
+            each.finish(pen)
+
+    # --- the rest of a link ----------------------------------------------------------------------
+
+    def plate_points(self, pen: Pen, shapes: LinkShapes, base: Base) -> None:
+        """Images of the other points of a link: their figure is similar to the link (Mehmke)."""
+        if base.end is None:
+            self.led_points(pen, base)
+            return
+        plan = self.plan
+        pivots = base.start, base.end
+        for point in base.others:
+            if pen.has(plan.quantity, point):
+                continue
+            ratio, hand, ends = shapes.ratio_of(base, point), None, list[int]()
+            bars = [self.bar(pivot, point) for pivot in pivots]
+            if crosses_well(pen, ratio):
+                with pen.hands_way():
+                    hand, ends = self.two_lines(pen, shapes, bars)
+            letters = letter(base.start), letter(base.end), point
+            with plan.drawn(pen):
+                images = *pen.both(plan.quantity, *pivots), ratio
+                found = image_of_link(pen, images, letters, name=plan.named(point), hand=hand)
+                for bar, end in zip(bars, ends, strict=False):
+                    bar.rest(pen, end, found)
+            plan.settle(pen, point, found, base.start)
+            if base.end in pen.scene.link(base.link).points:
+                plan.arrows(pen, point, base.end)
+
+    def two_lines(
+        self, pen: Pen, shapes: LinkShapes, bars: Sequence[BarVelocity | BarAcceleration]
+    ) -> tuple[int, list[int]]:
+        """The hand's way to a plate point: by the bars to both ends of the base."""
+        lines = []
+        for bar in bars:
+            vector = bar.component(pen, shapes)
+            with self.plan.drawn(pen):
+                lines.append(bar.line(pen, shapes, vector))
+        with self.plan.drawn(pen):
+            return crossed_image(pen, *(line for _, line in lines)), [end for end, _ in lines]
+
+    def led_points(self, pen: Pen, base: Base) -> None:
+        """The other points of a link that turns with its guide; where it only shifts, one image."""
+        plan = self.plan
+        for point in base.others:
+            if pen.has(plan.quantity, point):
+                continue
+            if pen.turns(base.link):
+                steady = plan.is_steady(pen, base.link)
+                plan.turn(pen, base.link, base.start, point, steady=steady, along=base.start)
+                continue
+            start, names = pen.the(plan.quantity, base.start), (base.start, point)
+            with plan.drawn(pen):
+                found = translated_image(pen, start, names, plan.named(point))
+            plan.settle(pen, point, found)
+
+
+def sliding_effect(pen: Pen, given: int) -> Effect | None:
+    """A component along a guide is a driver's where that is accelerated."""
+    return Effect.DRIVER if accelerated(pen, given) else None
+
+
+VELOCITIES = GroupImages(VELOCITY, BarVelocity, GuideVelocity, velocity.sliding)
+ACCELERATIONS = GroupImages(ACCELERATION, BarAcceleration, GuideAcceleration, acceleration.sliding)
