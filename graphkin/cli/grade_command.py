@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from graphkin.classroom.grading.class_folder import ClassFolder
     from graphkin.classroom.grading.class_marking import Class
     from graphkin.classroom.grading.gradebook import Filled
-    from graphkin.classroom.roster.student_signs import Match, Signs
+    from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
 
 KINDS = ("html", "pdf")
@@ -48,7 +48,7 @@ SHOWN = 10
     "--lang",
     type=click.Choice(["ro", "en", "it"]),
     help="Language of the report, and of the feedback to those for whom the class list names none"
-    " (language, limba, lingua); the scene's by default. The terminal speaks English.",
+    " (language, limba, lingua); by default that of the class. The terminal speaks English.",
 )
 @formats_option("html,pdf", "html,pdf", "Kinds of feedback page to write for each student.")
 @click.option(
@@ -193,7 +193,7 @@ def grade(  # noqa: PLR0915
     if drawings != answers:
         note_followed(opened, drawings, given)
     turns = read_turns(answers, ids)
-    words = words_of(opened, lang)
+    words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     given.unread = open_cells(found.result, given.unread)
@@ -292,13 +292,6 @@ def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
     return kinds
 
 
-def words_of(opened: ClassFolder, lang: str | None) -> Words:
-    """The words of the pages."""
-    from graphkin.documents.sheet_documents import language_of
-
-    return language_of(opened.book.mechanism({}), lang)
-
-
 def all_files(
     opened: ClassFolder,
     found: Class,
@@ -367,8 +360,8 @@ def tell_books(
             rows = [f"{row} ({shown(who)})" for row, who in book.strangers.items()]
             more = len(rows) - SHOWN
             others = words("class.more", count=more) if more > 0 else ""
-            who = ", ".join(rows[:SHOWN]) + others
-            complain(words("class.not_ours", file=path.name, who=who))
+            told = ", ".join(rows[:SHOWN]) + others
+            complain(words("class.not_ours", file=path.name, who=told))
 
 
 def changes(files: dict[str, bytes], words: Words) -> None:
