@@ -89,15 +89,15 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
     written = write_class(folder, lab, found, roster, force=force, language=lang)
     tell(class_lines(lab, found))
     tell(["", *(str(path) for path in written)])
-    warn_of_languages(students)
+    warn_of_languages(roster.name, students)
     warn_of(found)
 
 
-def warn_of_languages(students: list[Student]) -> None:
+def warn_of_languages(roster: str, students: list[Student]) -> None:
     """Say which languages of a class list are none of the pages'."""
     from graphkin.classroom.roster.language_names import named_languages, unknown_lines
 
-    for line in unknown_lines(named_languages(students)):
+    for line in unknown_lines(named_languages(roster, students)):
         complain(line)
 
 

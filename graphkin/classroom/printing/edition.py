@@ -145,7 +145,7 @@ def refuse_changed(folder: Path, hashes: object) -> None:
     known = hashes.get(TABLE) if isinstance(hashes, dict) else None
     if known and table.exists() and sha256(table.read_bytes()).hexdigest() != known:
         expected = f"the table that was written with {MANIFEST}"
-        problems.append(Problem(str(table), "is another one", expected, f"{AGAIN} --force"))
+        problems.append(Problem(str(table), "was changed since", expected, f"{AGAIN} --force"))
     if problems:
         raise SceneError(problems)
 

@@ -172,9 +172,14 @@ def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
     except SceneError as error:
         return list(error.problems)
     return [
-        Problem("", f"number {student.number} gives {problem.found}", problem.expected)
+        Problem("", f"number {student.number} gives {which(problem.found)}", problem.expected)
         for problem in outside(mechanism.scene.parameters, given)
     ]
+
+
+def which(found: str) -> str:
+    """What is found of a value, as the end of a sentence: n = 31, which is out of range."""
+    return found.replace(" is ", ", which is ", 1)
 
 
 def by_ranges(

@@ -478,6 +478,18 @@ def tree(folder: Path) -> dict[str, bytes]:
     return {name: data for name, data in found.items() if name != "differences.csv"}
 
 
+def test_the_language_of_the_class_is_that_of_the_feedback(folder):
+    roster = str(folder / "roster.csv")
+    args = ["variants", "pump", roster, "-o", str(folder / "class"), "--lang", "it", "--force"]
+    assert CliRunner().invoke(app, args).exit_code == 0
+    for lang, language in ((), "it"), (("--lang", "en"), "en"):
+        found = run(folder, *lang, "--force", "--format", "html")
+        assert found.exit_code == 0, found.output
+        for name in ("class.html", "feedback/0001.html"):
+            page = (folder / "out" / name).read_text(encoding="utf-8")
+            assert f'lang="{language}"' in page
+
+
 def test_a_language_of_the_class_list_is_that_of_the_feedback(tmp_path):
     roster = tmp_path / "roster.csv"
     text = "nr;id;name;Limba\n7;1;A;it\n8;2;B;English\n9;3;C;\n10;4;D;klingon\n11;=5;E;ro\n"
