@@ -15,10 +15,12 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin import load
+from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.grading.graded import Taker
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Fair, Range, Ranges, ValueList
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import settings
+from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.roster.read_roster import read_roster
 from graphkin.classroom.roster.student import Student
@@ -295,6 +297,30 @@ def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistake
         assert word in lines[row - 2]
     assert len(lines) == 3
     assert not (tmp_path / "class").exists()
+
+
+def test_fields_that_hardly_any_drawing_settles_are_told_when_the_class_is_made():
+    """Those that the report of the marking names, where they earn points."""
+    lab = read_lab("slotted-lever")
+    students = [Student(i, f"01{i:02d}", i) for i in range(1, 13)]
+    found = assigned(lab, students)
+    book = Book(lab, lab.scene.read_text(encoding="utf-8"))
+    wanted: dict[str, list[str]] = {}
+    for each in found:
+        given = {name: exact_text(value) for name, value in each.settings.items()}
+        form = book.expectation(Taker(each.student, given, "", each.computed))
+        for field, allowed in form.tolerance.items():
+            if allowed.unsure and field not in each.computed:
+                wanted.setdefault(field, []).append(each.student.id)
+    assert wanted
+    lines = [*class_lines(lab, found)]
+    at = next(i for i, line in enumerate(lines) if line.startswith("unsure"))
+    rows = [line.split(None, 3) for line in lines[at + 1 : at + 1 + len(wanted)]]
+    told = {field: ids.split(", ") for field, _, _, ids in rows}
+    assert told == wanted
+    assert "off there by more than 25 % of the value" in lines[at + 1 + len(wanted)]
+    (alone,) = [each for each in found if each.student.id == wanted["omega_4"][0]]
+    assert any("omega_4" in line for line in class_lines(lab, [alone]))
 
 
 def test_whose_language_no_page_has_is_told_by_row_and_name(tmp_path):
