@@ -55,9 +55,14 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @folder_option("Folder of the class, made if it is missing.", required=True)
 @click.option(
+    "--lang",
+    type=click.Choice(["ro", "en", "it"]),
+    help="Language of the class, kept for print, read and grade; the scene's by default.",
+)
+@click.option(
     "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
 )
-def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
+def variants(name: str, roster: Path, folder: Path, lang: str | None, force: bool) -> None:
     """Give each student of a class data of their own.
 
     LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. ROSTER is a class
@@ -70,7 +75,7 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
 
     \b
     Example:
-      graphkin variants pump class.csv -o pump-2026
+      graphkin variants pump class.csv -o pump-2026 --lang en
     """
     from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.classroom.roster.read_roster import read_roster
@@ -81,18 +86,18 @@ def variants(name: str, roster: Path, folder: Path, force: bool) -> None:
     lab = read_lab(name)
     students = read_roster(roster, numbered=lab.rule.counts, check=check_of(lab), tell=complain)
     found = assigned(lab, students, roster.name)
-    written = write_class(folder, lab, found, roster, force=force)
+    written = write_class(folder, lab, found, roster, force=force, language=lang)
     tell(class_lines(lab, found))
     tell(["", *(str(path) for path in written)])
-    warn_of_languages(students)
+    warn_of_languages(roster.name, students)
     warn_of(found)
 
 
-def warn_of_languages(students: list[Student]) -> None:
+def warn_of_languages(roster: str, students: list[Student]) -> None:
     """Say which languages of a class list are none of the pages'."""
     from graphkin.classroom.roster.language_names import named_languages, unknown_lines
 
-    for line in unknown_lines(named_languages(students)):
+    for line in unknown_lines(named_languages(roster, students)):
         complain(line)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     from graphkin.classroom.grading.answers import Answers
     from graphkin.classroom.grading.class_folder import ClassFolder
     from graphkin.classroom.grading.class_marking import Class
-    from graphkin.classroom.roster.student_signs import Match, Signs
+    from graphkin.classroom.grading.gradebook import Filled
+    from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
 
 KINDS = ("html", "pdf")
@@ -45,7 +46,7 @@ SHOWN = 10
 )
 @lang_option(
     "Language of the report, and of the feedback to those for whom the class list names none"
-    " (language, limba, lingua); the scene's by default. The terminal speaks English."
+    " (language, limba, lingua); by default that of the class. The terminal speaks English."
 )
 @formats_option("html,pdf", "html,pdf", "Kinds of feedback page to write for each student.")
 @click.option(
@@ -161,6 +162,8 @@ def grade(  # noqa: PLR0915
         read_decisions,
         settled,
     )
+    from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook
+    from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
     from graphkin.classroom.grading.releases import releases
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.text import words as words_in
@@ -188,7 +191,7 @@ def grade(  # noqa: PLR0915
     if drawings != answers:
         note_followed(opened, drawings, given)
     turns = read_turns(answers, ids)
-    words = words_of(opened, lang)
+    words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     given.unread = open_cells(found.result, given.unread)
@@ -198,8 +201,14 @@ def grade(  # noqa: PLR0915
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
     files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
-    books = filled_books(gradebooks, column, found, spoken, full, opened.signs, match or "")
-    written = write_all(out, {**files, **books}, force)
+    points = points_by_id(found, full)
+    books = {
+        path: filled_gradebook(path, points, column, opened.signs, match or "")
+        for path in gradebooks
+    }
+    files |= {gradebook_name(path): book.data for path, book in books.items()}
+    written = write_all(out, files, force)
+    tell_books(books, found, spoken, full)
     for line in result_lines(found.result, spoken):
         say(line)
     if free.ids and opened.book.lab.rubric.hold:
@@ -281,13 +290,6 @@ def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
     return kinds
 
 
-def words_of(opened: ClassFolder, lang: str | None) -> Words:
-    """The words of the pages."""
-    from graphkin.documents.sheet_documents import language_of
-
-    return language_of(opened.book.mechanism({}), lang)
-
-
 def all_files(
     opened: ClassFolder,
     found: Class,
@@ -308,7 +310,7 @@ def all_files(
     title = scene.titles.get(words.language, scene.title)
     before = report / MARKS
     earlier = before.read_bytes() if before.is_file() else b""
-    told = ReportSettings(title, words, given.unread, scene.titles)
+    told = ReportSettings(title, words, given.unread, scene.titles, scene)
     files = report_files(found, opened.edition.lab, told, kinds, earlier)
     return files | returned(files, found.result.graded, given.senders, kinds)
 
@@ -325,29 +327,20 @@ def scale_of(text: str | None, context: click.Context) -> Fraction | None:
     return Fraction(written)
 
 
-def filled_books(
-    gradebooks: tuple[Path, ...],
-    column: str | None,
-    found: Class,
-    words: Words,
-    scale: Fraction | None,
-    signs: Signs,
-    match: Match,
-) -> dict[str, bytes]:
-    """The gradebooks with the points in them."""
-    from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook
-    from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
+def tell_books(
+    books: Mapping[Path, Filled], found: Class, words: Words, scale: Fraction | None
+) -> None:
+    """What came of gradebooks that were written: how many marks, whose are not in them, and whose
+    rows are of nobody in the class.
+    """
+    from graphkin.classroom.grading.answer_numbers import shown
     from graphkin.classroom.grading.marks_tables import number
 
-    files: dict[str, bytes] = {}
     graded = found.result.graded
     held = [each.taker.student.id for each in graded if each.held]
     waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
-    for path in gradebooks:
-        book = filled_gradebook(path, points_by_id(found, scale), column, signs, match)
-        files[gradebook_name(path)] = book.data
-        filled = words("class.filled", file=path.name, count=book.count, column=book.column)
-        say(filled)
+    for path, book in books.items():
+        say(words("class.filled", file=path.name, count=book.count, column=book.column))
         points = scale or max((each.points for each in graded), default=None)
         if book.worth != points:
             key = "class.worth_unknown" if book.worth is None else "class.worth"
@@ -361,7 +354,12 @@ def filled_books(
         kept = (("class.not_in", book.absent), ("class.waits", waiting), ("class.held_back", held))
         for key, who in kept:
             tell_some([words(key, file=path.name, who=each) for each in who], words)
-    return files
+        if book.strangers:
+            rows = [f"{row} ({shown(who)})" for row, who in book.strangers.items()]
+            more = len(rows) - SHOWN
+            others = words("class.more", count=more) if more > 0 else ""
+            told = ", ".join(rows[:SHOWN]) + others
+            complain(words("class.not_ours", file=path.name, who=told))
 
 
 def changes(files: dict[str, bytes], words: Words) -> None:
@@ -394,6 +392,8 @@ def notes(opened: ClassFolder, given: Answers, words: Words) -> None:
     tell_some([words("class.no_table", who=each.name) for each in given.empty], words)
     tell_some(list(language_lines(opened.takers, words)), words)
     tell_some(list(unread_lines(names, given.unread, words)), words)
+    if given.unread:
+        complain(words("class.mend"))
 
 
 def tell_some(lines: list[str], words: Words) -> None:

@@ -16,7 +16,7 @@ from graphkin.cli.options import (
     formats_option,
     ink_option,
     jobs_option,
-    language_option,
+    lang_option,
     named,
 )
 
@@ -39,7 +39,10 @@ TENTHS = 10
     show_default=True,
     help="What to print of each student; a task comes with its A4 form.",
 )
-@language_option
+@lang_option(
+    "Language of the pages; by default that of the class, as variants or the first print with"
+    " --lang was told (with --force any), else the scene's."
+)
 @ink_option
 @formats_option(
     "pdf,svg,html",
@@ -88,7 +91,7 @@ def print_sheets(
       graphkin print mechanics-331 --view steps --format pdf,svg --lang en
       graphkin print mechanics-331 --view task --format html
     """
-    from graphkin.classroom.printing.edition import read_edition
+    from graphkin.classroom.printing.edition import keep_language, read_edition
     from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
     from graphkin.classroom.printing.print_work import VIEWS
     from graphkin.classroom.printing.workers import CLUSTER, cores
@@ -101,8 +104,12 @@ def print_sheets(
         raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
     wishes = PrintRequest(chosen, kinds, lang, ink, force)
     with progress() as tell:
-        outcome = print_class(read_edition(folder), wishes, Means(jobs or cores(), cluster), tell)
+        edition = read_edition(folder)
+        outcome = print_class(edition, wishes, Means(jobs or cores(), cluster), tell)
     report(outcome)
+    if lang and lang != edition.language and (force or not edition.language):
+        keep_language(folder, lang)
+        say(f"{folder} keeps --lang {lang} for print, read and grade")
     if outcome.refused:
         context.exit(FAILED)
 

@@ -40,7 +40,8 @@ def quiz(
 ) -> None:
     """Write a lab as a bank of questions for Moodle.
 
-    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml.
+    LAB is the name of a shipped lab or a folder with scene.toml and lab.toml; or the folder of a
+    class, for its lab in its language.
 
     Writes LAB-moodle.xml (question bank, import, Moodle XML): a category for each fair variant,
     and in it one question with embedded answers: the task as pictures and as a PDF to be printed at
@@ -53,16 +54,20 @@ def quiz(
       graphkin quiz pump -o out --lang en
     """
     from graphkin.classroom.lab.read_lab import read_lab
+    from graphkin.classroom.printing.edition import read_edition
     from graphkin.classroom.printing.print_work import PrintOrder
     from graphkin.classroom.printing.workers import cores
     from graphkin.classroom.quiz.moodle_quiz import bank, questions, variants_of
+    from graphkin.classroom.variants.manifest import MANIFEST
     from graphkin.documents.sheet_documents import language_of
     from graphkin.mechanism import Mechanism
     from graphkin.scene.read_scene import read_text
     from graphkin.text.errors import Problem, SceneError
     from graphkin.writers.files import refuse_folder, write_all
 
-    lab = read_lab(name)
+    whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
+    lab = whole.lab if whole else read_lab(name)
+    lang = lang or (whole.language if whole else "")
     refuse_folder(folder, [f"{lab.name}-moodle.xml"], force=force)
     if not lab.rubric.points:
         hint = "give points in [marks] of lab.toml"

@@ -17,7 +17,6 @@ from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.csv_text import csv_text
-from graphkin.documents.sheet_documents import language_of
 from graphkin.reading.kept_readings import records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.read_sheet import SheetRecord, sheets_of, task_pages
@@ -53,7 +52,7 @@ def drawn_rows(opened: ClassFolder, out: Path) -> Iterator[DrawnRow]:
         records = {}
     form = drawn_items(opened)
     variants = {each.code: each for each in opened.edition.variants}
-    language = language_of(opened.book.mechanism({}), None).language
+    language = opened.words().language
     order = PrintOrder(opened.edition.lab, opened.edition.scene, language, "colour")
     for taker in opened.takers:
         own = {kind: record for (code, kind), record in records.items() if code == taker.code}

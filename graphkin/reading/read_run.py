@@ -19,7 +19,6 @@ from graphkin.classroom.printing.journal import key_of
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.csv_text import safe
-from graphkin.documents.sheet_documents import language_of
 from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.kept_readings import PICTURE, READING, kept
 from graphkin.reading.pictures import Photograph, hash_of_picture
@@ -48,7 +47,7 @@ class ReadOutcome(Struct):
 def read_order(opened: ClassFolder, grid: Grid, *, by_hand: bool = False) -> ReadOrder:
     """What the reading of a class shares."""
     edition = opened.edition
-    language = language_of(opened.book.mechanism({}), None).language
+    language = opened.words().language
     order = PrintOrder(edition.lab, edition.scene, language, "colour")
     variants = {each.code: each for each in edition.variants}
     return ReadOrder(order, variants, grid, by_hand, drawn_items(opened))

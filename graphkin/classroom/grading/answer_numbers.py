@@ -204,6 +204,12 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
     return Answer(text, value if sign in ("", "+") else -value, signed=bool(sign))
 
 
+def beyond_number(text: str) -> str:
+    """What stands after the number with which a text begins; all of it where none does."""
+    found = NUMBER.match(text.strip())
+    return text.strip()[found.end() :].strip() if found else text.strip()
+
+
 def rounding(answer: Answer) -> float:
     """How far a number may be rounded, in parts of it: half a unit of its last digit."""
     found = NUMBER.match(answer.text.strip())

@@ -14,6 +14,8 @@ from graphkin.classroom.roster.spreadsheets import columns, read_sheet
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.student_signs import EMAIL, Signs, signs
 from graphkin.classroom.variants.manifest import TABLE
+from graphkin.documents.sheet_documents import language_of
+from graphkin.text import Words
 
 
 class ClassFolder(Struct, frozen=True):
@@ -33,6 +35,10 @@ class ClassFolder(Struct, frozen=True):
             {who: taker.email for who, taker in every.items()},
             {who: taker.student.name for who, taker in every.items()},
         )
+
+    def words(self, language: str | None = None) -> Words:
+        """The words of its pages: in a language, else in that of the class, or of its scene."""
+        return language_of(self.book.mechanism({}), language or self.edition.language or None)
 
 
 def open_class(folder: Path) -> ClassFolder:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from statistics import mean, median
 
-from graphkin.classroom.grading.answer_numbers import shown
+from graphkin.classroom.grading.answer_numbers import beyond_number, shown
 from graphkin.classroom.grading.answers import Answers, Unread
 from graphkin.classroom.grading.class_pictures import pictures, slip_counts
 from graphkin.classroom.grading.feedback_rows import SLIPS, points_words
@@ -176,7 +176,7 @@ def unread_lines(
             who=names.get(cell.who, cell.who),
             field=cell.field,
             text=shown(cell.text.strip()),
-            why=unread_words(cell.problem, cell.unit, words),
+            why=unread_words(cell.problem, cell.unit, shown(beyond_number(cell.text)), words),
         )
 
 

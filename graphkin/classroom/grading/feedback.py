@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -16,35 +17,42 @@ from graphkin.classroom.grading.feedback_rows import (
     rows,
     safe,
 )
-from graphkin.classroom.grading.graded import Graded, Status
+from graphkin.classroom.grading.graded import Graded
 from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.classroom.printing.personal import called
+from graphkin.construction.core.given_data import set_parameters
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
+from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.writers.templates import filled
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
-WIDTHS = (28.0, 34.0, 29.0, 32.0, 24.0, 25.0)
-"""Widths of the columns, in mm."""
+WIDTHS = (26.0, 34.5, 34.5, 28.2, 19.0, 29.8)
+"""Widths of the columns, in mm; a sense in words has room in the second and the third alike."""
 LETTER, SMALL = 2.5, 1.8
 LEADING, ROOM = 4.2, 2.6
 """Distance of lines, and the room below a field, in mm."""
 INDENT = 4.0
 
 
-def feedback_html(graded: Graded, title: str, rubric: Rubric, words: Words) -> str:
-    """The page of one student for a browser; who handed in nothing is not told what was right."""
+def feedback_html(
+    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+) -> str:
+    """The page of one student for a browser; who handed in nothing is not told what was right.
+
+    ``scene`` tells what the parameters are of; without it they stand by their names.
+    """
     page = filled(
         "classroom/templates/feedback.html",
         words=words,
         title=title,
         student=graded.taker.student,
-        settings=settings_words(graded, words),
+        settings=settings_words(graded, words, scene),
         total=total(graded, words) if is_shown(graded) else "",
         notes=notes(graded, words),
         names=[words(HEADS[name]) for name in COLUMNS],
@@ -88,10 +96,15 @@ def notes(graded: Graded, words: Words) -> list[str]:
     return [*told, words("feedback.pending", pending=pending, fields=fields)]
 
 
-def settings_words(graded: Graded, words: Words) -> str:
-    """The data of a student's variant."""
-    settings = graded.taker.settings.items()
-    return "; ".join(f"{name} = {words.decimal(value)}" for name, value in settings)
+def settings_words(graded: Graded, words: Words, scene: Scene | None) -> str:
+    """The data of a student's variant as markup, as the sheets tell them."""
+    settings = graded.taker.settings
+    if scene is None:
+        told = [f"{escape(name)} = {words.decimal(value)}" for name, value in settings.items()]
+        return "; ".join(told)
+    exact = {name: Fraction(value) for name, value in settings.items()}
+    own = replace(scene, values={**scene.values, **exact})
+    return "; ".join(set_parameters(own, words, settings))
 
 
 def how(rubric: Rubric, words: Words) -> str:
@@ -106,30 +119,24 @@ def how(rubric: Rubric, words: Words) -> str:
 
 
 class Spacing(Struct, frozen=True):
-    """Distances of a page, in mm: from a field's cells to its reason, and the room below it.
-
-    ``is_brief`` leaves out the reason of what is right, which its points tell.
-    """
+    """Distances of a page, in mm: from a field's cells to its reason, and the room below it."""
 
     line: float
     room: float
-    is_brief: bool = False
 
 
-SPACINGS = (
-    Spacing(3.4, 2.6),
-    Spacing(3.1, 1.9),
-    Spacing(3.4, 2.6, is_brief=True),
-    Spacing(3.1, 1.7, is_brief=True),
-)
+SPACINGS = (Spacing(3.4, 2.6), Spacing(3.1, 1.7))
 """From wide to narrow: the first that fits one page is taken, else the first."""
 
 
-def feedback_pages(graded: Graded, title: str, rubric: Rubric, words: Words) -> tuple[Page, ...]:
+def feedback_pages(
+    graded: Graded, title: str, rubric: Rubric, words: Words, scene: Scene | None = None
+) -> tuple[Page, ...]:
     """The pages of one student on A4, one wherever that can be."""
-    tried = (list(paged(blocks(graded, rubric, words, spacing))) for spacing in SPACINGS)
+    settings = settings_words(graded, words, scene)
+    tried = (list(paged(blocks(graded, rubric, words, settings, by))) for by in SPACINGS)
     bodies = next((found for found in tried if len(found) == 1), None)
-    bodies = bodies or list(paged(blocks(graded, rubric, words, SPACINGS[0])))
+    bodies = bodies or list(paged(blocks(graded, rubric, words, settings, SPACINGS[0])))
     name = name_of(graded)
     return tuple(
         Page(
@@ -163,10 +170,11 @@ Block = tuple[float, list[Mark]]
 """The height of something that stays together, and its marks from a height of nought."""
 
 
-def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> Iterator[Block]:
+def blocks(
+    graded: Graded, rubric: Rubric, words: Words, settings: str, spacing: Spacing
+) -> Iterator[Block]:
     """What stands on the pages, from top to bottom."""
     yield text_block(name_of(graded), 3.5)
-    settings = escape(settings_words(graded, words))
     if settings:
         yield text_block(settings, LETTER)
     if is_shown(graded):
@@ -179,7 +187,7 @@ def blocks(graded: Graded, rubric: Rubric, words: Words, spacing: Spacing) -> It
     if told:
         yield head_block(words)
     for row in told:
-        yield row_block(row, spacing)
+        yield row_block(row, spacing, words("feedback.right"))
     yield text_block(how(rubric, words), SMALL)
 
 
@@ -215,12 +223,16 @@ def head_block(words: Words) -> Block:
     return LEADING + ROOM + 0.8, marks
 
 
-def row_block(row: FeedbackRow, spacing: Spacing) -> Block:
-    """A field: its cells, and below them why."""
+def row_block(row: FeedbackRow, spacing: Spacing, right: str) -> Block:
+    """A field: its cells, and below them why; that it is right and no more beside its points."""
     marks: list[Mark] = columns(row.cells, LEADING)
-    tells = not (spacing.is_brief and row.status is Status.RIGHT)
     room = RIGHT - LEFT - INDENT
-    why = flowed(list(pieces(row.why, room, SMALL)), " ", room, SMALL) if tells else []
+    why: Sequence[str] = ()
+    if row.why == right:
+        before = RIGHT - 2.5 - extent(row.cells[-1], LETTER)[0]
+        marks.append(Text(before, LEADING, right, "caption", SMALL, "end"))
+    else:
+        why = flowed(list(pieces(row.why, room, SMALL)), " ", room, SMALL)
     y = LEADING
     for line in why:
         y += spacing.line

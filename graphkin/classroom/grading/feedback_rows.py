@@ -7,7 +7,7 @@ from math import isnan
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.answer_numbers import shown
+from graphkin.classroom.grading.answer_numbers import beyond_number, shown
 from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Status
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import TURNING
@@ -172,11 +172,10 @@ def off_words(mark: EarnedMark, words: Words) -> str:
 
 def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     """Why a field earned what it did, in a sentence."""
-    if mark.status is Status.UNREADABLE and mark.is_ruled:
-        return unread(mark.answer.problem, unit_markup(mark.item.unit), words)
     if mark.status is Status.UNREADABLE:
-        reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words)
-        return words("feedback.unreadable", why=reason)
+        rest = escape(safe(beyond_number(mark.answer.text)))
+        reason = unread(mark.answer.problem, unit_markup(mark.item.unit), rest, words)
+        return reason if mark.is_ruled else words("feedback.unreadable", why=reason)
     if mark.status is Status.RIGHT and mark.source:
         return words("feedback.right_by", source=graded.mark(mark.source).item.symbol)
     if mark.is_together:
@@ -196,8 +195,10 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     if mark.status is Status.FOLLOWS and not mark.source:
         parts.append(words("feedback.follows_drawn", share=percent(mark)))
     elif mark.status is Status.FOLLOWS:
-        source = graded.mark(mark.source).item.symbol
-        parts.append(words("feedback.follows", source=source, share=percent(mark)))
+        source = graded.mark(mark.source)
+        parts.append(words("feedback.follows", source=source.item.symbol, share=percent(mark)))
+        if mark.slip and mark.slip == source.slip and mark.source != f"{mark.item.field}_mm":
+            parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
     elif mark.slip and mark.slip != REVERSED:
         parts.append(words("feedback.guess", slip=words(SLIPS[mark.slip])))
     if mark.status is Status.SLIP and mark.earned:
@@ -219,9 +220,9 @@ def advice(mark: EarnedMark, words: Words) -> list[str]:
     return [words("feedback.turning_advice")] if turning else []
 
 
-def unread(problem: str, unit: str, words: Words) -> str:
-    """Why a cell cannot be read, and what could be."""
-    return words(UNREAD[problem], unit=unit)
+def unread(problem: str, unit: str, rest: str, words: Words) -> str:
+    """Why a cell cannot be read, of which ``rest`` stands after a number, and what could be."""
+    return words(UNREAD[problem], unit=unit, rest=rest)
 
 
 def decision_words(decision: Decision, words: Words) -> str:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Protocol
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
 from graphkin.classroom.roster.spreadsheets import folded
@@ -39,6 +39,8 @@ GRADES = {folded(name) for name in ("grade", "notă", "valutazione", "voto")}
 """Heads of the column in which it wants the points."""
 COMPUTED = "(read only)"
 """What that row says of a column that Canvas computes."""
+NAMED = {folded(h) for what in ("name", "first", "last") for h in (what, *NAMES[what])}
+"""Heads of columns that say what somebody is called."""
 NOBODY = Signs()
 
 
@@ -79,7 +81,8 @@ class GradebookTable(Protocol):
 class MarkPlaces(Struct, frozen=True):
     """Where marks go: a column and its head, the student of each line, who of the class is not in.
 
-    Lines count from nought, the head's. ``worth`` is what the gradebook holds the column worth.
+    Lines count from nought, the head's. ``worth`` is what the gradebook holds the column worth,
+    ``strangers`` what those are called who are in no class list, by line.
     """
 
     column: int
@@ -88,13 +91,15 @@ class MarkPlaces(Struct, frozen=True):
     absent: tuple[str, ...]
     worth: Fraction | None = None
     replaced: int = 0
+    strangers: Mapping[int, str] = field(default_factory=dict)
 
 
 class Filled(Struct, frozen=True):
     """A gradebook with marks in it: its bytes, how many, and who of the class is not in it.
 
     ``worth`` is what it holds the column worth, where it says so, as Canvas does; ``replaced`` how
-    many marks took the place of something else.
+    many marks took the place of something else; ``strangers`` what those are called whose rows are
+    of nobody in the class, by the number of the row.
     """
 
     data: bytes
@@ -103,6 +108,14 @@ class Filled(Struct, frozen=True):
     absent: tuple[str, ...]
     worth: Fraction | None = None
     replaced: int = 0
+    strangers: Mapping[int, str] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, data: bytes, found: MarkPlaces) -> Filled:
+        """A gradebook with marks in some places."""
+        count, rows = len(found.lines), {line + 1: who for line, who in found.strangers.items()}
+        worth, replaced = found.worth, found.replaced
+        return cls(data, found.head, count, found.absent, worth, replaced, rows)
 
 
 def filled(
@@ -131,7 +144,7 @@ def filled(
     data = book.bom + text.encode(
         book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
     )
-    return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
+    return Filled.of(data, found)
 
 
 def places(
@@ -149,7 +162,8 @@ def places(
     lines: dict[int, str] = {}
     met: set[str] = set()
     twice: list[Problem] = []
-    for line, who in students(book, where, signs, match):
+    ours = tuple(students(book, where, signs, match))
+    for line, who in ours:
         if who not in marks:
             continue
         if who in met:
@@ -162,7 +176,8 @@ def places(
     before = {line: text_at(book.rows[line], target) for line in lines}
     replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
     head = book.rows[0][target].text
-    return MarkPlaces(target, head, lines, absent, worth_of(book, target), replaced)
+    worth, others = worth_of(book, target), strangers(book, where, {line for line, _ in ours})
+    return MarkPlaces(target, head, lines, absent, worth, replaced, others)
 
 
 def students(
@@ -183,6 +198,18 @@ def students(
             (who,) = found
             if who is not None and who not in known.values():
                 yield line, who
+
+
+def strangers(book: GradebookTable, where: int, ours: Collection[int]) -> dict[int, str]:
+    """What those are called who have an id or an address, but are nobody of the class, by line."""
+    names = [i for i, head in enumerate(book.rows[0]) if folded(head.text) in NAMED]
+    found: dict[int, str] = {}
+    for line, row in enumerate(book.rows[1:], 1):
+        sign = text_at(row, where)
+        if line in ours or is_possible(row) or sign in EMPTY:
+            continue
+        found[line] = " ".join(filter(None, (text_at(row, i) for i in names))) or sign
+    return found
 
 
 def refuse_names(book: GradebookTable, column: int, ids: int) -> None:

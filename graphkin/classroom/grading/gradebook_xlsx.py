@@ -171,7 +171,7 @@ def filled_workbook(
         data = with_cells(book, numbers)
     except (ExpatError, ValueError) as error:
         raise GradebookError(unreadable(book.name).problems) from error
-    return Filled(data, found.head, len(found.lines), found.absent, found.worth, found.replaced)
+    return Filled.of(data, found)
 
 
 def refuse_formulas(book: Workbook, found: MarkPlaces) -> None:

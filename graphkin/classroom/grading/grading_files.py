@@ -23,6 +23,7 @@ from graphkin.classroom.grading.submissions import Sender, packed_feedback
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
 from graphkin.classroom.roster.language_names import language_in
+from graphkin.scene.model import Scene
 from graphkin.text import Words, words
 from graphkin.writers.pdf import write_pdf
 
@@ -40,13 +41,15 @@ FEEDBACK = "feedback"
 
 class ReportSettings(Struct, frozen=True):
     """What is told with the marks: the lab's title, the language of the report and of whoever has
-    none of the own, cells that cannot be read; the title in other languages.
+    none of the own, cells that cannot be read; the title in other languages; the scene, which tells
+    what the parameters are of.
     """
 
     title: str
     words: Words
     unread: Sequence[Unread] = ()
     titles: Mapping[str, str] = field(default_factory=dict)
+    scene: Scene | None = None
 
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
@@ -85,10 +88,10 @@ def feedback_files(
         spoken = told.words_for(each)
         title = told.title_in(spoken.language)
         if "html" in formats:
-            text = feedback_html(each, title, lab.rubric, spoken)
+            text = feedback_html(each, title, lab.rubric, spoken, told.scene)
             files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
         if "pdf" in formats:
-            pages = feedback_pages(each, title, lab.rubric, spoken)
+            pages = feedback_pages(each, title, lab.rubric, spoken, told.scene)
             files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
     return files
 

@@ -140,7 +140,8 @@ class Marker:
 
         A slip is paid for once, at the first field with points that it explains; whatever else it
         explains follows from it. A slip for which the rubric has no share earns nothing. ``paid``
-        gathers the field at which each was paid for.
+        gathers the field at which each was paid for. What only a drawing tells after own values of
+        the same slip is the slip's: nobody finds such a chain on the own paper.
         """
         rubric, field = self.standard.rubric, mark.item.field
         found = slipped.get(field)
@@ -152,8 +153,11 @@ class Marker:
                 follows = None
         if share and paid_at:
             share = max(share, rubric.follow)
-        drawn = mark.answer.followed and rubric.follow > 0
-        if (follows is not None or drawn) and rubric.follow >= share:
+            drawn = follows.sources if follows is not None and follows.drawn else ()
+            if drawn and all(f in slipped and slipped[f].slip.name == name for f in drawn):
+                follows = None
+        on_paper = mark.answer.followed and rubric.follow > 0
+        if (follows is not None or on_paper) and rubric.follow >= share:
             earned = mark.points * Fraction(str(rubric.follow))
             source = follows.sources[0] if follows is not None else ""
             mark = replace(mark, status=Status.FOLLOWS, earned=earned, source=source)

@@ -173,6 +173,8 @@ def change_lines(table: bytes, words: Words) -> Iterable[str]:
     yield words("class.changes", count=len(rows), students=len({row[0] for row in rows}))
     for who, column, before, after in rows[:FIRST]:
         yield f"  {who}, {column}: {before or '–'} → {after or '–'}"
+    if len(rows) > FIRST:
+        yield f" {words('class.more', count=len(rows) - FIRST)}"
 
 
 def differences_table(found: Iterable[tuple[str, str, str, str]]) -> bytes:

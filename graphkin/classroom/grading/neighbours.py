@@ -60,14 +60,13 @@ def standards_of(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> list[
     return standards(mechanism, text, items(mechanism, lab), lab.rubric, named)
 
 
-def compare(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> Neighbours | None:
-    """What right values earn on other sheets, of some variants that can be drawn.
-
-    None where there is nobody to compare with, or nothing earns points.
+def compared(found: Sequence[Standard]) -> Neighbours | None:
+    """What right values earn on other sheets, of some variants that can be drawn; None where there
+    is nobody to compare with, or nothing earns points.
     """
-    if len(many) < 2 or not any(lab.rubric.points.values()):
+    if len(found) < 2 or not any(found[0].rubric.points.values()):
         return None
-    return neighbours(standards_of(lab, mechanism, many))
+    return neighbours(found)
 
 
 class RightValues(Struct, frozen=True):
@@ -166,6 +165,17 @@ def worst_drawn(standard: Standard) -> tuple[str, float]:
         if standard.key[field] and field not in standard.computed
     }
     return max(errors.items(), key=lambda each: each[1], default=("", 0.0))
+
+
+def unsure_fields(standard: Standard) -> tuple[str, ...]:
+    """The fields that earn points of which a careful drawing is off by more than the rubric's cap
+    of the value: hardly any drawing tells them. What is computed is not drawn.
+    """
+    return tuple(
+        field
+        for field, allowed in standard.tolerance.items()
+        if allowed.unsure and points_of(standard, field) and field not in standard.computed
+    )
 
 
 def pencil_fault(lab: Lab, standard: Standard) -> Fault | None:

@@ -41,7 +41,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     if isinstance(lab.rule, Ranges):
         yield from labelled("again", [again_words(lab.rule, outcome.spoiled_share)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(outcome.names)]
-    yield from labelled("compute", list(computed_lines(computed, who)))
+    yield from labelled("compute", list(fields_by_whom(computed, who)))
     drawn = fairness.closes & fairness.fits
     spread = spread_lines(
         fairness.flattest[drawn], fairness.shortest[drawn], fairness.flattest_rays[drawn]
@@ -187,10 +187,10 @@ def worst_words(worst: tuple[str, Fault]) -> str:
     return "" if unit is None else f"{fault.value:.3g}{unit} against {fault.bound:g}{unit}"
 
 
-def computed_lines(computed: Iterable[tuple[str, Sequence[str]]], who: str) -> Iterator[str]:
-    """The fields that are computed for want of something to measure, and by whom."""
+def fields_by_whom(many: Iterable[tuple[str, Sequence[str]]], who: str) -> Iterator[str]:
+    """The fields that are named for some students or numbers, and whose they are."""
     found: dict[str, list[str]] = {}
-    for name, fields in computed:
+    for name, fields in many:
         for field in fields:
             found.setdefault(field, []).append(name)
     rows = [(field, str(len(names)), f"{who} {some(names)}") for field, names in found.items()]

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.neighbours import Neighbours, pencil_faults
+from graphkin.classroom.grading.neighbours import Neighbours, compared, pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.items import asked_fields, items
 from graphkin.classroom.lab.lab_model import Lab, Ranges
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.variants.assign import Assigned, assigned, neighbours_of
+from graphkin.classroom.variants.assign import Assigned, assigned, held_against
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
@@ -122,7 +122,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         tuple(unasked if sound else ()),
         tuple(unmarked),
         tuple(drawn_at_all),
-        neighbours_of(lab, drawn_at_all),
+        compared(held_against(lab, drawn_at_all)),
         pencilled,
         coarse,
         {item.field: f"{item.symbol}, {item.unit.replace('²', '^2')}" for item in form},

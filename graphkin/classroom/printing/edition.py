@@ -16,8 +16,10 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.roster.csv_text import safe
 from graphkin.classroom.roster.language_names import HEADS, language_in
 from graphkin.classroom.roster.spreadsheets import columns, read_sheet
-from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE
+from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, as_text
+from graphkin.text import LANGUAGES
 from graphkin.text.errors import Problem, SceneError
+from graphkin.writers.files import put_in_place
 
 FILES = ("scene.toml", "lab.toml")
 """The files of the lab, whose hashes the manifest holds."""
@@ -46,12 +48,17 @@ class Variant(Struct, frozen=True):
 
 
 class Edition(Struct, frozen=True):
-    """A class folder: its lab, the text of its scene, and its students in roster order."""
+    """A class folder: its lab, the text of its scene, and its students in roster order.
+
+    ``language`` is that of who has no own, as variants or print was told; nothing where it is the
+    scene's.
+    """
 
     folder: Path
     lab: Lab
     scene: str
     variants: tuple[Variant, ...] = ()
+    language: str = ""
 
 
 def read_edition(folder: Path) -> Edition:
@@ -70,13 +77,30 @@ def read_edition(folder: Path) -> Edition:
         if (found := variant(student, place, problems)) is not None
     ]
     problems += twins(variants)
+    language = raw.get("language", "")
+    if language not in ("", *LANGUAGES):
+        wrong = f'language: "{language}" is no language of the pages'
+        problems.append(Problem(MANIFEST, wrong, " or ".join(LANGUAGES)))
     if problems:
         raise SceneError(problems)
     own = languages(folder)
     variants = [replace(each, language=own.get(safe(each.id), "")) for each in variants]
     lab = replace(read_lab(folder / COPY), name=str(raw.get("lab", COPY)))
     scene = (folder / COPY / FILES[0]).read_text(encoding="utf-8-sig")
-    return Edition(folder, lab, scene, tuple(variants))
+    return Edition(folder, lab, scene, tuple(variants), language)
+
+
+def keep_language(folder: Path, language: str) -> None:
+    """Write into the manifest of a class which language its pages are in."""
+    record = tables(folder)
+    students = record.pop("students")
+    put_in_place(
+        {
+            folder / MANIFEST: as_text(
+                {**record, "language": language, "students": students}
+            ).encode()
+        }
+    )
 
 
 def tables(folder: Path) -> dict[str, Any]:
@@ -121,7 +145,7 @@ def refuse_changed(folder: Path, hashes: object) -> None:
     known = hashes.get(TABLE) if isinstance(hashes, dict) else None
     if known and table.exists() and sha256(table.read_bytes()).hexdigest() != known:
         expected = f"the table that was written with {MANIFEST}"
-        problems.append(Problem(str(table), "is another one", expected, f"{AGAIN} --force"))
+        problems.append(Problem(str(table), "was changed since", expected, f"{AGAIN} --force"))
     if problems:
         raise SceneError(problems)
 

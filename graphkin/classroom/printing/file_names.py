@@ -63,8 +63,9 @@ def inside(folder: Path, name: str) -> Path:
     return path
 
 
-def in_the_way(folder: Path, names: Sequence[str]) -> Problem:
-    """The problem of files that stand where others are to go."""
+def in_the_way(folder: Path, names: Sequence[str], unlike: Sequence[str] = ()) -> Problem:
+    """The problem of files that stand where others are to go; ``unlike`` says what differs."""
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-    found = f"{', '.join(names[:SHOWN])}{more}: there already, made from other data or settings"
+    why = "; ".join(unlike) or "made from other data or settings"
+    found = f"{', '.join(names[:SHOWN])}{more}: there already, {why}"
     return Problem(str(folder), found, hint="--force replaces what is in the way")

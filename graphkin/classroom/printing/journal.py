@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from hashlib import file_digest, sha256
 from pathlib import Path
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin.writers.files import put_in_place
 
@@ -20,15 +20,20 @@ JOURNAL = ".journal.jsonl"
 
 
 class Entry(Struct, frozen=True):
-    """A part of what is printed: its name, a hash of all that decides it, its files' hashes."""
+    """A part of what is printed: its name, a hash of all that decides it, its files' hashes.
+
+    ``settings`` are what goes into that hash, by name, so that what differs can be told.
+    """
 
     part: str
     key: str
     files: Mapping[str, str]
+    settings: Mapping[str, str] = field(default_factory=dict)
 
     def line(self) -> bytes:
         """The entry as a line of JSON."""
         entry = {"part": self.part, "key": self.key, "files": dict(self.files)}
+        entry |= {"settings": dict(self.settings)} if self.settings else {}
         return json.dumps(entry, ensure_ascii=True).encode() + b"\n"
 
 
@@ -94,7 +99,8 @@ def entry_of(line: bytes) -> Entry | None:
     try:
         raw = json.loads(line)
         files = {str(name): str(found) for name, found in raw["files"].items()}
-        return Entry(str(raw["part"]), str(raw["key"]), files)
+        settings = {str(name): str(found) for name, found in raw.get("settings", {}).items()}
+        return Entry(str(raw["part"]), str(raw["key"]), files, settings)
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
 

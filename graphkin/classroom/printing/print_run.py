@@ -19,7 +19,7 @@ from graphkin.classroom.printing.journal import Entry, Journal, hash_of, key_of
 from graphkin.classroom.printing.personal import lost
 from graphkin.classroom.printing.print_work import Made, PrintOrder, StudentSheets, make
 from graphkin.classroom.printing.workers import chunks, engine, results
-from graphkin.classroom.roster.language_names import unknown_lines
+from graphkin.classroom.roster.language_names import called, unknown_lines
 from graphkin.documents.sheet_documents import language_of
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
@@ -33,6 +33,16 @@ FOLDER = "print"
 """Where the files come, in the class folder."""
 FEWEST = 4
 """Students that are worth a process of their own."""
+
+
+UNLIKE = {
+    "language": "printed in {stood}, now in {now} (--lang)",
+    "ink": "printed with --ink {stood}, now {now}",
+    "graphkin": "printed by graphkin {stood}, now {now}",
+    "lab": "printed from another text of the lab",
+    "student": "printed with other data, or another name or group",
+}
+"""What is said of a setting with which files that stand there were made."""
 
 
 class PrintRequest(Struct, frozen=True):
@@ -114,22 +124,27 @@ class PrintRun:
         variants = edition.variants
         names = stems([one.id for one in variants], [one.code for one in variants])
         self.stems = dict(zip((one.code for one in variants), names, strict=True))
-        self.keys = dict(self.all_keys())
+        self.keys, self.settings = dict[str, str](), dict[str, Mapping[str, str]]()
+        self.note_parts()
         self.outcome = Outcome(journal.folder, len(variants))
         self.outcome.lost = [one for one in variants if lost(one.name) or lost(one.group)]
-        self.outcome.strange = list(unknown_lines(one.language for one in variants))
+        named = ((called(one.id, one.name), one.language) for one in variants)
+        self.outcome.strange = list(unknown_lines(named))
 
-    def all_keys(self) -> Iterator[tuple[str, str]]:
-        """Each part with a hash of all that decides its bytes."""
+    def note_parts(self) -> None:
+        """Note of each part what it is made with, and a hash of all that decides its bytes."""
         order = self.order
         texts = [sha256(text.encode()).hexdigest() for text in (order.scene, order.lab.text)]
         for one in self.edition.variants:
             language = one.spoken or order.language
             shared = (__version__, order.lab.name, language, order.ink)
             own = (one.name, one.group, one.id, one.code, dict(one.settings), one.compute)
+            made = {"language": language, "ink": order.ink, "graphkin": __version__}
+            made |= {"lab": key_of(order.lab.name, texts), "student": key_of(own)}
             for view, kind in self.parts():
-                key = key_of(shared, texts, own, self.stems[one.code], view, kind)
-                yield part_of(one.code, view, kind), key
+                part = part_of(one.code, view, kind)
+                self.keys[part] = key_of(shared, texts, own, self.stems[one.code], view, kind)
+                self.settings[part] = made
 
     def parts(self) -> list[tuple[str, str]]:
         """What is wished of each student: view and format."""
@@ -139,10 +154,18 @@ class PrintRun:
         """Raise PageError when files of other settings would be replaced without force."""
         if self.wishes.force:
             return
-        ways = [self.journal.otherwise(part, key) for part, key in self.keys.items()]
-        names = [name for way in ways for name in way]
+        ways = {part: self.journal.otherwise(part, key) for part, key in self.keys.items()}
+        names = [name for way in ways.values() for name in way]
         if names:
-            raise PageError(in_the_way(self.journal.folder, names))
+            told = [line for part, way in ways.items() if way for line in self.unlike(part)]
+            raise PageError(in_the_way(self.journal.folder, names, list(dict.fromkeys(told))))
+
+    def unlike(self, part: str) -> Iterator[str]:
+        """What a part that stands there was made with, and is not now."""
+        stood, now = self.journal.entries[part].settings, self.settings[part]
+        for name, said in UNLIKE.items():
+            if name in stood and stood[name] != now[name]:
+                yield said.format(stood=stood[name], now=now[name])
 
     def wanted(self) -> list[StudentSheets]:
         """What is not finished, student by student."""
@@ -193,7 +216,7 @@ class PrintRun:
                 part = part_of(one.code, view, kind)
                 targets |= self.targets(part, files)
                 hashes = {name: sha256(data).hexdigest() for name, data in files.items()}
-                entries.append(Entry(part, self.keys[part], hashes))
+                entries.append(Entry(part, self.keys[part], hashes, self.settings[part]))
         for folder in {path.parent for path in targets}:
             folder.mkdir(exist_ok=True)
         self.journal.write(entries)
@@ -239,12 +262,12 @@ def part_of(code: str, view: str, kind: str) -> str:
 
 
 def spoken(edition: Edition, wishes: PrintRequest) -> str:
-    """The language of who has no own: the one wished, or the scene's.
+    """The language of who has no own: the one wished, or the class's, or the scene's.
 
     Raises SceneError for one that is not there.
     """
     mechanism = Mechanism(read_text(edition.scene, edition.lab.name))
-    return language_of(mechanism, wishes.language).language
+    return language_of(mechanism, wishes.language or edition.language or None).language
 
 
 Members = Sequence[tuple[Variant, Sequence[str]]]

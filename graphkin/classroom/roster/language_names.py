@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from graphkin.classroom.roster.spreadsheets import folded
@@ -16,6 +15,8 @@ NAMES = {
     "it": "it ita italian italiana italiano italieneste",
 }
 """What each language may be called, without diacritics."""
+FEW = 3
+"""Students that are named of many with the same language."""
 CODES = {name: code for code, names in NAMES.items() for name in names.split()}
 
 
@@ -24,16 +25,29 @@ def language_in(text: str) -> str | None:
     return CODES.get(folded(text)) or CODES.get(folded(text.partition("-")[0]))
 
 
-def named_languages(students: Iterable[Student]) -> Iterator[str]:
-    """What a class list says of its students' languages."""
+def named_languages(roster: str, students: Iterable[Student]) -> Iterator[tuple[str, str]]:
+    """What a class list says of its students' languages, each with its cell and whose it is."""
     heads = {folded(head) for head in HEADS}
-    return (text for each in students for head, text in each.extra.items() if folded(head) in heads)
+    for each in students:
+        for head, text in each.extra.items():
+            if folded(head) in heads:
+                cell = f'{roster}, row {each.row}, column "{head}"'
+                yield f"{cell}, {called(each.id, each.name)}", text
 
 
-def unknown_lines(named: Iterable[str]) -> Iterator[str]:
-    """A line for each language that is none of the pages', with how many students it is of."""
-    unknown = Counter(text for text in named if text and language_in(text) is None)
-    for text, count in unknown.items():
-        who = "1 student" if count == 1 else f"{count} students"
+def called(student: str, name: str) -> str:
+    """A student as notes name one: by name and id."""
+    return f"{name} ({student})" if name else student
+
+
+def unknown_lines(named: Iterable[tuple[str, str]]) -> Iterator[str]:
+    """A line for each language that is none of the pages', with the first students whose it is."""
+    unknown: dict[str, list[str]] = {}
+    for who, text in named:
+        if text and language_in(text) is None:
+            unknown.setdefault(text, []).append(who)
+    for text, every in unknown.items():
+        more = f" and {len(every) - FEW} more" if len(every) > FEW else ""
         found = f'"{text[:40]}" is no language of the pages'
-        yield f"{who}: {found} (ro, en, it); theirs are in that of the class"
+        whose = f"{'; '.join(every[:FEW])}{more}"
+        yield f"{whose}: {found} (ro, en, it); theirs are in that of the class"

@@ -221,7 +221,8 @@ def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> di
         if what not in where:
             heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
             is_head = not any(cell.isdecimal() for cell in sheet.head)
-            hints = (meant(cell, what) for cell in sheet.head if is_head)
+            free = [cell for i, cell in enumerate(sheet.head) if i not in where.values()]
+            hints = (meant(cell, what) for cell in free if is_head)
             hint = next(filter(None, hints), "")
             why = "; the lab's formula needs the student's number" if what == "number" else ""
             told.add(

@@ -25,8 +25,8 @@ from graphkin.classroom.roster.sheet_rows import (
     too_large,
 )
 from graphkin.scene.file_limits import file_bytes
-from graphkin.scene.findings import Findings, visible
-from graphkin.text.errors import MOST, Problem, RosterError
+from graphkin.scene.findings import Findings, nearest, visible
+from graphkin.text.errors import MOST, Hint, Problem, RosterError
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
@@ -153,10 +153,21 @@ def bytes_of(path: Path) -> bytes:
         data = file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "cannot be opened"
-        raise RosterError(Problem(str(path), f"the table cannot be read: {reason}")) from None
+        found = f"cannot be read: {reason[:1].lower()}{reason[1:]}"
+        raise RosterError(Problem(str(path), found, "a table, CSV or XLSX", beside(path))) from None
     if len(data) > LARGEST:
         raise RosterError(Problem(path.name, "is too large", f"at most {LARGEST >> 20} MiB"))
     return data
+
+
+def beside(path: Path) -> Hint:
+    """A hint for a table that cannot be read: the name that is nearest to its in that folder."""
+    folder = path.parent
+    if not folder.is_dir():
+        return f"there is no folder {folder}"
+    tables = [each.name for each in folder.iterdir() if each.suffix.lower() in (".csv", ".xlsx")]
+    near = nearest(path.name, tables) if path.name not in tables else ""
+    return near or "a spreadsheet program saves one as XLSX or as CSV UTF-8"
 
 
 def text_of(data: bytes, name: str) -> str:

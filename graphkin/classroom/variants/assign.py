@@ -9,9 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.neighbours import (
-    Neighbours,
     RightValues,
-    compare,
     pencil_fault,
     standards_of,
 )
@@ -139,10 +137,10 @@ def with_room(
     return found
 
 
-def neighbours_of(lab: Lab, every: Sequence[Assigned]) -> Neighbours | None:
-    """What right values of students who can draw earn on one another's sheets."""
+def held_against(lab: Lab, every: Sequence[Assigned]) -> list[Standard]:
+    """What the answers of students who can draw are held against."""
     asked = [(each.settings, each.computed) for each in every]
-    return compare(lab, Mechanism(read_scene(lab.scene)), asked)
+    return standards_of(lab, Mechanism(read_scene(lab.scene)), asked) if asked else []
 
 
 def refuse_misfits(
@@ -172,9 +170,14 @@ def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
     except SceneError as error:
         return list(error.problems)
     return [
-        Problem("", f"number {student.number} gives {problem.found}", problem.expected)
+        Problem("", f"number {student.number} gives {which(problem.found)}", problem.expected)
         for problem in outside(mechanism.scene.parameters, given)
     ]
+
+
+def which(found: str) -> str:
+    """What is found of a value, as the end of a sentence: n = 31, which is out of range."""
+    return found.replace(" is ", ", which is ", 1)
 
 
 def by_ranges(

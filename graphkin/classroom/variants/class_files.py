@@ -22,20 +22,27 @@ SALT = 16
 
 
 def write_class(
-    folder: Path, lab: Lab, students: Sequence[Assigned], roster: Path, *, force: bool
+    folder: Path,
+    lab: Lab,
+    students: Sequence[Assigned],
+    roster: Path,
+    *,
+    force: bool,
+    language: str | None = None,
 ) -> list[Path]:
     """Write the folder of a class; raises PageError before anything is touched.
 
-    A class that is written again keeps its salt, so that codes that were printed stay true.
+    A class that is written again keeps its salt, so that codes that were printed stay true, and its
+    language unless another is named.
     """
     scene = lab.scene.read_bytes()
     rule = lab.text.encode("utf-8")
-    salt = kept_salt(folder) if force else ""
-    salt = salt or secrets.token_hex(SALT)
+    salt = (kept(folder, "salt") if force else "") or secrets.token_hex(SALT)
+    language = language or (kept(folder, "language") if force else "")
     table = csv_text(table_rows(students, salt)).encode("utf-8")
     hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule), TABLE: digest(table)}
     hashes["roster"] = digest(roster.read_bytes())
-    record = manifest(lab, students, hashes, roster.name, salt)
+    record = manifest(lab, students, hashes, roster.name, salt, language)
     files = {
         TABLE: table,
         f"{COPY}/scene.toml": scene,
@@ -50,13 +57,13 @@ def digest(data: bytes) -> str:
     return sha256(data).hexdigest()
 
 
-def kept_salt(folder: Path) -> str:
-    """The salt of the manifest that stands in a folder; empty where none can be read."""
+def kept(folder: Path, name: str) -> str:
+    """A text of the manifest that stands in a folder; empty where none can be read."""
     try:
-        salt = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))["salt"]
+        text = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))[name]
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return ""
-    return salt if isinstance(salt, str) else ""
+    return text if isinstance(text, str) else ""
 
 
 def table_rows(students: Sequence[Assigned], salt: str) -> Iterator[list[object]]:

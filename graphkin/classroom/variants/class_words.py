@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from graphkin.classroom.grading.neighbours import compared, unsure_fields
 from graphkin.classroom.lab.fairness_words import (
     apart_lines,
     data_words,
+    fields_by_whom,
     limit_words,
     pencil_lines,
     rule_words,
@@ -15,7 +17,7 @@ from graphkin.classroom.lab.fairness_words import (
 )
 from graphkin.classroom.lab.lab_model import Formula, Lab
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.variants.assign import Assigned, neighbours_of
+from graphkin.classroom.variants.assign import Assigned, held_against
 from graphkin.text.plain_table import labelled, table
 
 MOST = 40
@@ -39,9 +41,12 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     rays = [each.rays for each in drawn if each.rays is not None]
     yield from labelled("spread", spread_lines(angles, lengths, rays))
     names = [each.student.id for each in drawn]
-    neighbours = neighbours_of(lab, drawn)
+    standards = held_against(lab, drawn)
+    neighbours = compared(standards)
     yield from labelled("apart", apart_lines(neighbours, names, "id"))
     yield from labelled("pencil", pencil_lines(neighbours))
+    unsure = list(zip(names, map(unsure_fields, standards), strict=True))
+    yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
     if isinstance(lab.rule, Formula):
         yield from labelled("note", alike_lines([each.student for each in found]))
 
@@ -65,6 +70,17 @@ def computed_lines(found: Sequence[Assigned]) -> list[str]:
     """Each student who computes some fields instead of measuring them."""
     rows = [(*who(each.student), " ".join(each.computed)) for each in found]
     return listed(("row", "number", "id", "name", "computed instead of measured"), rows)
+
+
+def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[str]:
+    """The fields that hardly any drawing settles, and whose: before the exam, as after it."""
+    if not any(fields for _, fields in unsure):
+        return ["none"]
+    return [
+        *fields_by_whom(unsure, "id"),
+        f"a careful drawing is off there by more than {cap} of the value;"
+        " pencil in [fair] limits that",
+    ]
 
 
 def alike_lines(students: Sequence[Student]) -> list[str]:

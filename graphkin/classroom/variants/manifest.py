@@ -35,8 +35,12 @@ def manifest(
     hashes: Mapping[str, str],
     roster: str,
     salt: str,
+    language: str = "",
 ) -> dict[str, Any]:
-    """The manifest of a class; ``hashes`` are of scene.toml, lab.toml, the table and the roster."""
+    """The manifest of a class; ``hashes`` are of scene.toml, lab.toml, the table and the roster.
+
+    ``language`` is that of its pages, where it is not the scene's.
+    """
     import numpy
 
     from graphkin import __version__
@@ -51,6 +55,7 @@ def manifest(
         "roster": roster,
         "sha256": dict(hashes),
         "salt": salt,
+        **({"language": language} if language else {}),
         "students": [entry(each, salt) for each in students],
     }
 

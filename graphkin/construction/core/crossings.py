@@ -14,7 +14,6 @@ from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
 from graphkin.text.errors import Problem
 
-
 LOCI = "loci that cross"
 """What a point needs that is found where two loci cross."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
 from msgspec import Struct
@@ -20,6 +20,7 @@ from graphkin.construction.core.parameter_words import (
     is_derived,
     lone,
     other_parameters,
+    parameter,
     reckoned,
 )
 from graphkin.construction.core.quantities import in_degrees, number_of, written
@@ -260,6 +261,12 @@ def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
     for text, bars in equal.items():
         by = tuple(filter(None, [lone(scene, first[text])]))
         yield Datum(name=" = ".join(bars), value=text, of=first[text], parameters=by)
+
+
+def set_parameters(scene: Scene, words: Words, names: Iterable[str]) -> list[str]:
+    """Some parameters as the sheet's data tell them, as markup: the length of a bar by its name."""
+    bars = {name: datum.said for datum in lengths(scene, words) for name in datum.parameters}
+    return [bars.get(name) or parameter(scene, words, name) for name in names]
 
 
 def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:

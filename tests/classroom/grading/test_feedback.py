@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import pi
 
 import pytest
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_report import summary
-from graphkin.classroom.grading.feedback import feedback_pages
+from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
 from graphkin.classroom.grading.feedback_rows import rows
 from graphkin.classroom.grading.graded import Answer, Graded, Result, Status
 from graphkin.classroom.grading.marks_tables import marks_table, read_marks
-from graphkin.drawing.marks import Text
+from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.text import LANGUAGES, words
-from tests.classroom.grading.students import given, key_answers, marker_of, taker
+from tests.classroom.grading.students import book_of, given, key_answers, marker_of, taker
 
 
 def graded(changes: dict[str, Answer], name: str = "pump", n: int = 7) -> Graded:
@@ -167,6 +169,65 @@ def test_points_of_a_segment_that_is_computed_stand_in_the_row_of_its_value():
     symbols = [row.cells[0] for row in rows(found, words("en"))]
     assert "*a*_{D}, m/s^2" in symbols
     assert "*a*_{D}, mm" not in symbols
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_follows_from_a_slip_names_it_too_but_not_a_value_beside_its_own_segment(language):
+    marker, spoken = marker_of("slotted-lever", 7), words(language)
+    key, ratio = marker.standard.key, 30 / pi
+    fast = {f: key[f] * ratio for f in ("v_C", "v_A3", "omega_3", "omega_4", "v_slide_2")}
+    slip = plain(spoken("feedback.guess", slip=spoken("feedback.slip_rpm_as_rad")))
+    follows = plain(spoken("feedback.follows", source="*v*_{A3}", share="80"))
+    told = why(graded(given(fast), "slotted-lever"), "omega_3", language)
+    assert slip in told
+    assert follows in told
+    found = mistaken("slotted-lever", "coriolis_reversed")
+    assert found.mark("a_C").slip == found.mark("a_C_mm").slip == "coriolis_reversed"
+    assert "Coriolis" not in why(found, "a_C", language)
+
+
+def letters(page: Page) -> dict[str, list[Text]]:
+    """What is written on a page, each with where and how large it stands."""
+    found: dict[str, list[Text]] = {}
+    for mark in page.marks:
+        if isinstance(mark, Text):
+            found.setdefault(plain(mark.markup), []).append(mark)
+    return found
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_right_stands_beside_the_points_of_each_row_on_full_pages_and_on_others(language):
+    """As on the page for a browser; the senses of answer and key are one size."""
+    rubric, spoken = marker_of("slotted-lever", 7).standard.rubric, words(language)
+    for found in (graded({}, "slotted-lever"), mistaken("slotted-lever", "rpm_as_rad")):
+        (page,) = feedback_pages(found, "Lab", rubric, spoken)
+        told = letters(page)
+        right = [row for row in rows(found, spoken) if row.why == spoken("feedback.right")]
+        assert len(told[spoken("feedback.right")]) == len(right)
+        for key in ("anticlockwise", "clockwise", "forward", "backward"):
+            sense = told.get(plain(spoken(f"feedback.{key}")), [])
+            assert {mark.height for mark in sense} <= {2.5}
+
+
+def test_data_on_the_page_are_those_of_the_sheet():
+    """The crank's length has the letter r in the scene alone."""
+    scene = book_of("slotted-lever").mechanism({}).scene
+    student = replace(taker(), settings={"n": "7", "r": "96"})
+    found = replace(graded({}, "slotted-lever"), taker=student)
+    rubric = marker_of("slotted-lever", 7).standard.rubric
+    (page,) = feedback_pages(found, "Lab", rubric, words("en"), scene)
+    assert "n = 7; O1A = 96 mm" in letters(page)
+    assert "<i>n</i> = 7; <i>O</i><sub>1</sub><i>A</i> = 96 mm" in feedback_html(
+        found, "Lab", rubric, words("en"), scene
+    )
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_stands_after_a_number_and_is_no_unit_is_named(language):
+    item = marker_of("pump", 7).standard.by_field["v_D"].item
+    told = why(graded({"v_D": read_answer("8.4furlong", item)}), "v_D", language)
+    assert "furlong" in told
+    assert "m/s" in told
 
 
 # --- long names ---------------------------------------------------------------------------------

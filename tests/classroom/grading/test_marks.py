@@ -224,3 +224,18 @@ def test_what_comes_after_a_slip_names_the_field_at_which_it_was_paid_for():
     assert others
     assert {m.source for m in others} == {first.item.field}
     assert {m.earned / m.points for m in others} == {Fraction("0.8")}
+
+
+def test_what_only_a_drawing_tells_after_a_slip_is_told_by_the_slip():
+    """ω4 = v_CB/l hangs on v_A3 through the plan alone, whose lengths are right: rev/min it is.
+    ω3 = v_A3/l is in the own numbers, and both are told of it.
+    """
+    marker = marker_of("slotted-lever", 7)
+    key, ratio = marker.standard.key, 30 / pi
+    rates = {f: key[f] * ratio for f in ("v_C", "v_A3", "omega_3", "omega_4", "v_slide_2")}
+    found = marked(marker, **rates)
+    told = found["omega_4"]
+    assert (told.status, told.slip, told.source) == (Status.SLIP, "rpm_as_rad", "v_C")
+    assert told.earned == found["omega_3"].earned == told.points * Fraction("0.8")
+    assert (found["omega_3"].status, found["omega_3"].source) == (Status.FOLLOWS, "v_A3")
+    assert found["omega_3"].slip == "rpm_as_rad"

@@ -144,6 +144,7 @@ def test_moodle_keeps_all_but_the_marks(tmp_path):
     assert found.data.decode("utf-8") == expected
     assert found.count == 2
     assert found.absent == ("X9",)
+    assert found.strangers == {4: "Guest X"}
 
 
 def test_canvas_keeps_its_row_of_points_and_its_quotes(tmp_path):
@@ -151,6 +152,7 @@ def test_canvas_keeps_its_row_of_points_and_its_quotes(tmp_path):
     expected = CANVAS.replace("A,,88.5", "A,8.5,88.5").replace("stefan,A,,", "stefan,A,12,")
     assert found.data.decode("utf-8") == expected
     assert found.column == "Lab 3 (4711)"
+    assert not found.strangers  # the row of points is no student's
     bare = CANVAS.replace("88.5", "")  # nothing is marked yet: what Canvas computes is empty, too
     assert filled(book(tmp_path, bare), MARKS).column == found.column
 
@@ -290,12 +292,50 @@ def test_the_command_marks_a_class_and_fills_the_gradebook(folder):
     assert "stefan,A,," in text
 
 
+def test_a_refused_report_says_of_no_gradebook_that_marks_are_in_it(folder):
+    assert run(folder, *NO_PAGES).exit_code == 0
+    found = run(folder, "--gradebook", str(folder / "canvas.csv"), *NO_PAGES)
+    assert found.exit_code == 2
+    assert "Lab 3 (4711)" not in found.output
+    assert not (folder / "out" / "gradebook-canvas.csv").exists()
+    again = run(folder, "--gradebook", str(folder / "canvas.csv"), *NO_PAGES, "--force")
+    assert "canvas.csv: marks in column “Lab 3 (4711)”: 1" in again.output
+
+
+def test_rows_of_nobody_in_the_class_are_told_by_name(folder):
+    lines = "".join(f'"Nobody, Zed {i}",{90 + i},90{i:02d},zed{i},A,,\n' for i in range(12))
+    (folder / "canvas.csv").write_text(CANVAS + lines, encoding="utf-8")
+    found = run(folder, "--gradebook", str(folder / "canvas.csv"), *NO_PAGES)
+    (told,) = [line for line in found.output.splitlines() if "rows of nobody" in line]
+    assert "5 (Nobody, Zed 0), 6 (Nobody, Zed 1)" in told
+    assert told.endswith("14 (Nobody, Zed 9) and 2 more")
+    text = (folder / "out" / "gradebook-canvas.csv").read_text(encoding="utf-8")
+    assert lines in text
+
+
+def test_a_new_marking_shows_the_first_changes_and_how_many_more(folder):
+    run(folder, *NO_PAGES)
+    text = (folder / "answers.csv").read_text(encoding="utf-8")
+    (folder / "answers.csv").write_text(re.sub(r"\n0001;.*", "\n0001;", text), encoding="utf-8")
+    found = run(folder, *NO_PAGES, "--force").output.splitlines()
+    rows = read_table(folder / "out" / "differences.csv")
+    at = found.index(f"cells changed: {len(rows)}, students: 1 (differences.csv)")
+    assert [line.split(",")[0] for line in found[at + 1 : at + 6]] == ["  0001"] * 5
+    assert found[at + 6].strip() == f"and {len(rows) - 5} more"
+
+
+def read_table(path: Path) -> list[list[str]]:
+    """The rows of a table of the report below its head."""
+    return list(csv.reader(path.read_text(encoding="utf-8-sig").splitlines()))[1:]
+
+
 def test_cells_that_cannot_be_read_are_told_with_status_1(folder):
     text = (folder / "answers.csv").read_text(encoding="utf-8")
     (folder / "answers.csv").write_text(blotted(text), encoding="utf-8")
     found = run(folder)
     assert found.exit_code == 1
     assert "answers.csv, row 2, O'Neil, Ana (0001), v_D_mm: “" in found.output
+    assert "mark again with --force" in found.output
     table = read_marks((folder / "out" / "marks.csv").read_bytes())
     assert table["0001"]["v_D_mm"] == ""
     assert table["0001"]["pending"] == "2"
@@ -436,6 +476,18 @@ def tree(folder: Path) -> dict[str, bytes]:
     files = (path for path in folder.rglob("*") if path.is_file() and path.name[0] != ".")
     found = {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
     return {name: data for name, data in found.items() if name != "differences.csv"}
+
+
+def test_the_language_of_the_class_is_that_of_the_feedback(folder):
+    roster = str(folder / "roster.csv")
+    args = ["variants", "pump", roster, "-o", str(folder / "class"), "--lang", "it", "--force"]
+    assert CliRunner().invoke(app, args).exit_code == 0
+    for lang, language in ((), "it"), (("--lang", "en"), "en"):
+        found = run(folder, *lang, "--force", "--format", "html")
+        assert found.exit_code == 0, found.output
+        for name in ("class.html", "feedback/0001.html"):
+            page = (folder / "out" / name).read_text(encoding="utf-8")
+            assert f'lang="{language}"' in page
 
 
 def test_a_language_of_the_class_list_is_that_of_the_feedback(tmp_path):

@@ -223,3 +223,16 @@ def test_the_command_writes_the_bank_and_leaves_out_what_is_unfair(tmp_path):
     assert len(moodle.imported((tmp_path / "pump-moodle.xml").read_bytes())) == 2
     assert CliRunner().invoke(app, args).exit_code == 2
     assert CliRunner().invoke(app, [*args, "--force"]).exit_code == 0
+
+
+def test_a_class_gives_the_quiz_of_its_lab_in_its_language(tmp_path):
+    roster = tmp_path / "class.csv"
+    roster.write_text("nr;id\n7;1\n", encoding="utf-8")
+    folder = str(tmp_path / "class")
+    args = ["variants", "pump", str(roster), "-o", folder, "--lang", "it"]
+    assert CliRunner().invoke(app, args).exit_code == 0
+    for out, source, more in (("a", folder, ()), ("b", "pump", ("--lang", "it"))):
+        args = ["quiz", source, "-o", str(tmp_path / out), "--count", "1", "--jobs", "1"]
+        assert CliRunner().invoke(app, [*args, *more]).exit_code == 0
+    first, second = ((tmp_path / s / "pump-moodle.xml").read_bytes() for s in "ab")
+    assert first == second

@@ -482,6 +482,12 @@ def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
     assert all(word in line for word, line in zip(expected, found, strict=True)), found
 
 
+def test_a_column_that_is_known_is_not_proposed_for_another(saved):
+    """Nume is the name, however near to number."""
+    (found,) = problems(saved("Matricol;Nume\n0042;Ana\n"))
+    assert found.endswith("the first row names the columns")
+
+
 def test_a_column_that_is_missing_hides_no_other_mistake(saved):
     found = problems(saved("Numer;id\n1;2;x\n3;\n4;5\n"))
     assert "no column number" in found[0]

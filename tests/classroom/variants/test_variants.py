@@ -15,10 +15,12 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin import load
+from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.grading.graded import Taker
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Fair, Range, Ranges, ValueList
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import settings
+from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.roster.read_roster import read_roster
 from graphkin.classroom.roster.student import Student
@@ -99,7 +101,7 @@ def test_numbers_that_the_scene_does_not_allow_are_all_told_with_their_rows():
         assigned(read_lab("pump"), students, "class.csv")
     found = [str(problem) for problem in caught.value.problems]
     assert found == [
-        f"class.csv, row {row}: number {number} gives n = {number} is out of range; "
+        f"class.csv, row {row}: number {number} gives n = {number}, which is out of range; "
         "expected n from 1 to 30 in steps of 1"
         for row, number in ((3, 31), (4, 0))
     ]
@@ -209,7 +211,7 @@ def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp
     for command in (("print", folder), ("grade", folder, other)):
         refused = run(*command)
         assert refused.exit_code == 2
-        assert "variants.csv: is another one; expected the table that was written with" in (
+        assert "variants.csv: was changed since; expected the table that was written with" in (
             refused.stderr
         )
     assert run(*args).exit_code == 0
@@ -286,11 +288,76 @@ def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistake
     said = run("variants", "pump", path, "-o", tmp_path / "class")
     assert said.exit_code == 2
     lines = said.stderr.splitlines()
-    for row, word in ((2, "n = 31 is out of range"), (3, "no whole number"), (4, "row 2 already")):
+    for row, word in (
+        (2, "n = 31, which is out of range"),
+        (3, "no whole number"),
+        (4, "row 2 already"),
+    ):
         assert f"row {row}" in lines[row - 2]
         assert word in lines[row - 2]
     assert len(lines) == 3
     assert not (tmp_path / "class").exists()
+
+
+def test_fields_that_hardly_any_drawing_settles_are_told_when_the_class_is_made():
+    """Those that the report of the marking names, where they earn points."""
+    lab = read_lab("slotted-lever")
+    students = [Student(i, f"01{i:02d}", i) for i in range(1, 13)]
+    found = assigned(lab, students)
+    book = Book(lab, lab.scene.read_text(encoding="utf-8"))
+    wanted: dict[str, list[str]] = {}
+    for each in found:
+        given = {name: exact_text(value) for name, value in each.settings.items()}
+        form = book.expectation(Taker(each.student, given, "", each.computed))
+        for field, allowed in form.tolerance.items():
+            if allowed.unsure and field not in each.computed:
+                wanted.setdefault(field, []).append(each.student.id)
+    assert wanted
+    lines = [*class_lines(lab, found)]
+    at = next(i for i, line in enumerate(lines) if line.startswith("unsure"))
+    rows = [line.split(None, 3) for line in lines[at + 1 : at + 1 + len(wanted)]]
+    told = {field: ids.split(", ") for field, _, _, ids in rows}
+    assert told == wanted
+    assert "off there by more than 25 % of the value" in lines[at + 1 + len(wanted)]
+    (alone,) = [each for each in found if each.student.id == wanted["omega_4"][0]]
+    assert any("omega_4" in line for line in class_lines(lab, [alone]))
+
+
+def test_whose_language_no_page_has_is_told_by_row_and_name(tmp_path):
+    path = tmp_path / "class.csv"
+    rows = [f"{i};{i};{name};{'fr' if i != 1 else 'en'}" for i, name in enumerate("ABCDEF", 1)]
+    path.write_text("\n".join(["id;number;name;Limba", *rows]), encoding="utf-8")
+    result = run("variants", "pump", path, "-o", tmp_path / "class")
+    assert result.exit_code == 0, result.stderr
+    column = 'column "Limba"'
+    assert f"class.csv, row 3, {column}, B (2); class.csv, row 4, {column}, C (3);" in result.stderr
+    assert '(4) and 2 more: "fr" is no language of the pages (ro, en, it)' in result.stderr
+
+
+def test_a_class_list_that_is_not_there_is_told_with_what_to_do(tmp_path):
+    (tmp_path / "class.csv").write_text("number;id\n1;1\n", encoding="utf-8")
+    for name, said in (
+        ("clas.csv", "expected a table, CSV or XLSX; did you mean class.csv?"),
+        ("none/x.csv", f"there is no folder {tmp_path / 'none'}"),
+        ("qqqqqqq", "a spreadsheet program saves one as XLSX or as CSV UTF-8"),
+    ):
+        result = run("variants", "pump", tmp_path / name, "-o", tmp_path / "out")
+        assert result.exit_code == 2
+        assert f"{tmp_path / name}: cannot be read: no such file or directory" in result.stderr
+        assert said in result.stderr
+
+
+def test_a_class_has_a_language_that_it_keeps_when_it_is_written_again(tmp_path, roster):
+    folder = tmp_path / "class"
+    for args, language in (
+        ((), ""),
+        (("--lang", "en", "--force"), "en"),
+        (("--force",), "en"),
+        (("--lang", "it", "--force"), "it"),
+    ):
+        run("variants", "offset-slider-crank", roster, "-o", folder, *args)
+        assert read_edition(folder).language == language
+        assert ('"language"' in (folder / "manifest.json").read_text("utf-8")) == bool(language)
 
 
 # ------------------------------------------------------------------------------ lists of values
