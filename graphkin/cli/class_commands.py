@@ -9,7 +9,7 @@ import click
 
 from graphkin.cli.console import FAILED, READING, complain
 from graphkin.cli.folder_options import folder_option
-from graphkin.cli.options import force_option, leave, tell
+from graphkin.cli.options import force_option, lang_option, leave, tell
 
 if TYPE_CHECKING:
     from graphkin.classroom.roster.student import Student
@@ -54,11 +54,7 @@ def new_lab(name: str, folder: Path, force: bool) -> None:
 @click.argument("name", metavar="LAB")
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @folder_option("Folder of the class, made if it is missing.", required=True)
-@click.option(
-    "--lang",
-    type=click.Choice(["ro", "en", "it"]),
-    help="Language of the class, kept for print, read and grade; the scene's by default.",
-)
+@lang_option("Language of the class, kept for print, read and grade; the scene's by default.")
 @click.option(
     "--force", is_flag=True, help="Replace a class that stands there; it keeps its codes."
 )
