@@ -7,7 +7,7 @@ import pytest
 from graphkin.construction.core.link_poses import LinkPoses
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
-from tests.chosen import SCENES
+from tests.chosen import CHOSEN
 from tests.documents.sheet_tools import mechanism_named
 from tests.documents.test_words import RARE, rare
 
@@ -17,12 +17,12 @@ def poses(mechanism: Mechanism) -> LinkPoses:
     return LinkPoses(mechanism.scene, mechanism.trace(mechanism.program.targets))
 
 
-EVERY = {**dict.fromkeys(SCENES, mechanism_named), **dict.fromkeys(RARE, rare)}
+MADE = {**dict.fromkeys(CHOSEN, mechanism_named), **dict.fromkeys(RARE, rare)}
 
 
 def test_every_block_is_as_far_from_its_guide_as_is_written():
     seen = 0
-    for name, made in EVERY.items():
+    for name, made in MADE.items():
         for way in poses(made(name)).guideways:
             assert abs(way.along) == pytest.approx(1), name
             off = float(cross(way.along, way.at - way.zero))
@@ -33,7 +33,7 @@ def test_every_block_is_as_far_from_its_guide_as_is_written():
 
 def test_every_wheel_touches_its_track_at_its_rim():
     seen = 0
-    for name, made in EVERY.items():
+    for name, made in MADE.items():
         for touch in poses(made(name)).touches:
             if touch.rolling.belt is not None:
                 continue

@@ -13,7 +13,9 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.program import Plane
+from graphkin.construction.core.segments import TINY
 from graphkin.construction.drivers.driver_relations import drawn_bars
+from graphkin.construction.result_tables import vectors
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.drawing.richtext import plain
@@ -215,3 +217,29 @@ def test_the_calculation_tells_no_rounding_and_nothing_twice(name):
         said = [" ".join(relation.parts(solved=True)) for relation in some if relation.result]
         assert not [text for text in said if re.search("10⁻¹[0-9⁰¹²³⁴-⁹]", text)]
         assert len({*said}) == len(said)
+
+
+# --- what is too short to be drawn ---------------------------------------------------------------
+
+LEFT_OUT = "what is too short to be drawn is left out: "
+SHORT = [*((name, None) for name in ("watt-1", "lifter", "stephenson-1")), ("pump", 29)]
+SHORT += [("pump-collinear", 22), *(each for each in ALL if each != ("plates-ring", None))]
+"""But for one of which a trial plan lays one off on its own, with the tangential component."""
+
+
+def short_ones(drawing: Drawing) -> set[str]:
+    """The vectors of the plan that are shorter than what a hand draws, but not nought."""
+    return {name for name, _, length, size in vectors(drawing) if size and length < TINY}
+
+
+@pytest.mark.parametrize("which", SHORT, ids=named)
+def test_no_sentence_lays_off_what_is_too_short_or_draws_its_triangle(which):
+    for drawing in drawings(*which):
+        for name in (each for each in short_ones(drawing) if re.search(r"\^[νc]$", each)):
+            own, told = plain(symbol(name)), 0
+            for sentence in sentences(drawing):
+                text = plain(sentence.markup)
+                before, _, after = text.partition(LEFT_OUT)
+                assert own not in before, text
+                told += own in after
+            assert told == 1, name
