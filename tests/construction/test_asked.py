@@ -14,10 +14,7 @@ from graphkin.mechanism import Mechanism, point_of
 from graphkin.scene.model import FRAME
 from tests.chance.checking import case
 from tests.chosen import CHOSEN, EVERY
-from tests.documents.sheet_tools import (
-    KINDS,
-    mechanism_named,
-)
+from tests.documents.sheet_tools import KINDS, mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text
 

@@ -61,7 +61,7 @@ def assert_hand_and_value_agree(mechanism) -> set[Part]:
     return seen
 
 
-@settings(LAW, max_examples=60)
+@settings(LAW, max_examples=40)
 @given(mechanisms())
 def test_the_hands_way_and_the_value_of_every_composite_step_agree(made):
     assert_hand_and_value_agree(made.mechanism())

@@ -124,10 +124,10 @@ PAIRS = list(product(TIPS, MOTIONS) if EVERY else zip(in_turn(TIPS), MOTIONS))
 
 @pytest.mark.parametrize(("tip", "motion"), PAIRS)
 def test_both_routes_and_the_law_agree_all_the_way_round(tip, motion):
-    """At 12 positions: v = s'ω and a = s"ω² + s'ε, by the equivalent linkage and by the loops."""
+    """At 8 positions: v = s'ω and a = s"ω² + s'ε, by the equivalent linkage and by the loops."""
     rng = np.random.default_rng([len(tip), len(motion), list(MOTIONS).index(motion)])
     scene, data = drawn(rng, tip, motion)
-    for at in np.linspace(-180, 180, 12, endpoint=False) + 3.3:
+    for at in np.linspace(-180, 180, 8, endpoint=False) + 3.3:
         here = replace(scene, values={**scene.values, "at": Fraction(float(at))})
         mechanism = Mechanism(here)
         solution = mechanism.solve()
@@ -179,8 +179,7 @@ def test_on_the_base_circle_a_lever_rests_at_its_radius():
 
 @pytest.mark.parametrize("face", [0, 1, 2])
 @pytest.mark.parametrize(
-    "scene",
-    ["cam-roller", "cam-rocker", "cam-lever", "cam-plate", "cam-plate-lever", "cam-fixed"],
+    "scene", ["cam-roller", "cam-rocker", "cam-lever", "cam-plate", "cam-plate-lever", "cam-fixed"]
 )
 def test_a_wrong_law_in_the_construction_does_not_pass_the_witness(face, scene, monkeypatch):
     plate = ("plate_lift", "plate_rate", "plate_bend")

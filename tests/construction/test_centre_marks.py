@@ -9,12 +9,7 @@ from math import hypot
 import pytest
 from shapely import LineString, Point
 
-from graphkin.construction.core.curve_marks import (
-    UNSEEN,
-    clipped_path,
-    middle_of,
-    ring,
-)
+from graphkin.construction.core.curve_marks import UNSEEN, clipped_path, middle_of, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.solution import Curve

@@ -254,7 +254,7 @@ def test_a_rod_pulls_a_plank_on_rollers_of_one_size():
         assert motion.links[roller].omega == pytest.approx(-expected / 2 / 0.04)
 
 
-@pytest.mark.parametrize("radii", [(60, 60), (30, 60), (60, 30)])
+@pytest.mark.parametrize("radii", [(60, 60), (60, 30)])
 def test_a_plank_on_two_drums_that_turn_in_place(radii):
     """Without slip on both: it turns no further, and moves along itself as the rims do."""
     wheels = {"first": radii[0], "second": radii[1]}

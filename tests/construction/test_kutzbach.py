@@ -21,7 +21,7 @@ from tests.scene_files import scene_text
 from tests.textbook.book import within
 
 FOLDER = Path(__file__).parents[2] / "examples" / "scenes"
-TRAINS = ("gears-ring", "gears-simpson", "gears-ravigneaux", "gears-double-planet", "gears-pair")
+TRAINS = ("gears-ring", "gears-simpson", "gears-ravigneaux", "gears-pair")
 HEAD = """
 graphkin = 1
 title = "Train"
@@ -142,9 +142,7 @@ def test_a_wrong_speed_is_seen(monkeypatch):
     """The law above is none that any drawing passes."""
     wrong = kutzbach.tip_over.value
     monkeypatch.setattr(
-        ladder,
-        "tip_over",
-        action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1])),
+        ladder, "tip_over", action("ladder-tip")(lambda *known: wrong(*known[:-1], -known[-1]))
     )
     mechanism = example.__wrapped__("gears-ring")
     omega = mechanism.solve().links["2"].omega

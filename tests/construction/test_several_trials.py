@@ -128,7 +128,9 @@ def test_cells_are_left_out_where_misfits_grow_without_bound():
     assert max(ranges) < 10, "metres: four times as far as most of it"
 
 
-@pytest.mark.parametrize(("kind", "power"), [("quad", -3), ("plates", 4)])
+@pytest.mark.parametrize(
+    ("kind", "power"), [("quad", -3), ("plates", 4)] if EVERY else [("plates", -3)]
+)
 def test_the_place_from_which_lengths_are_taken_is_a_closure(kind, power):
     """Of sizes from micrometres to kilometres."""
     size = 10.0**power
@@ -183,20 +185,21 @@ def test_examples_stand_and_move_as_rods_between_pins(name):
     ("name", "tried", "starts", "least"),
     [("three-plates", 3, 6000, 4), ("four-plates", 4, 2000, 1)]
     if EVERY
-    else [("three-plates", 3, 600, 1)],
+    else [("three-plates", 3, 0, 0)],
 )
 def test_three_and_four_links_are_tried_at_once(name, tried, starts, least):
     """Both close in four ways, as random places of all pins tell (6000 of them, seed 1)."""
     path = SCENES / f"{name}.toml"
     rods, found = rods_of(path), Mechanism(read_text(path.read_text(encoding="utf-8"), name))
     assert len(found.groups[1].nested) == tried
-    size = 500.0 if tried == 3 else 400.0
-    ours, theirs = points_of(found), rods.closures(starts, seed=1, size=size)
-    assert len(ours) == 4
-    assert least <= len(theirs) <= 4
-    for pins in theirs:
-        assert sum(same(each, pins) for each in ours) == 1
     assert found.witness(found.solve()).agrees
+    if starts:
+        ours, size = points_of(found), 500.0 if tried == 3 else 400.0
+        theirs = rods.closures(starts, seed=1, size=size)
+        assert len(ours) == 4
+        assert least <= len(theirs) <= 4
+        for pins in theirs:
+            assert sum(same(each, pins) for each in ours) == 1
 
 
 @pytest.mark.parametrize(
@@ -277,8 +280,7 @@ def test_a_closure_that_is_none_is_not_proved():
 
 
 @pytest.mark.parametrize(
-    ("name", "idle"),
-    [("plates-coupled", []), ("mobility-parallel-cranks", ["3"])],
+    ("name", "idle"), [("plates-coupled", []), ("mobility-parallel-cranks", ["3"])]
 )
 def test_a_bar_at_which_a_group_within_closes_is_not_idle(name, idle):
     """It is tried until it fits; the third parallel crank fits by itself."""

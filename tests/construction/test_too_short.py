@@ -14,10 +14,7 @@ from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from tests.documents.sheet_tools import (
-    HEAD,
-    drawings,
-)
+from tests.documents.sheet_tools import HEAD, drawings
 from tests.scene_files import scene_text
 
 TOGGLE = scene_text("construction/toggle")
