@@ -20,6 +20,7 @@ from graphkin.documents.calculation import (
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN, HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
@@ -259,3 +260,18 @@ def test_what_a_relation_uses_is_found_before_it_and_no_rate_enters_a_plan_in_de
         if relation.unit.startswith("°/s"):
             assert any(r.left == relation.left and r.unit.startswith("rad/s") for r in whole)
     assert not late
+
+
+@pytest.mark.parametrize("name", HALVES[1])
+def test_what_is_read_off_a_plan_is_the_motion(name):
+    """To a twentieth of a millimetre of the plan, and to the three digits that a ruler gives."""
+    both, compared = drawings(name), 0
+    for drawing in both:
+        told = {r.left: r.result for _, some in relations(both) for r in some if r.result}
+        scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+        for (what, of), number in drawing.trace.program.targets.items():
+            printed = told.get(symbol(f"{drawing.vector.letter}_{of}"))
+            if what == drawing.kind and printed and number in drawing.trace.values:
+                size, compared = abs(drawing.trace.values[number]), compared + 1
+                assert value_of(printed) == pytest.approx(size, rel=5e-3, abs=6e-5 * scale), of
+    assert compared
