@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from graphkin.construction.core.relation import Term, VectorEquation
+from graphkin.drawing.glyphs import advance
 from graphkin.drawing.marks import LineMark, Mark, Polyline, Text
-from graphkin.drawing.richtext import extent
+from graphkin.drawing.richtext import TextRun, extent, laid
 from graphkin.text import Words
 
 LETTER, NOTE = 2.5, 1.8
@@ -68,8 +69,7 @@ def equation_marks(
         marks.append(Text(left, y, markup, "caption equation", LETTER))
         if term is None:
             continue
-        over = RAISED if "^" in markup else OVER
-        marks += vector_mark(left, y - over, markup, words("calculation.vector_mark"))
+        marks += vector_mark(left, y, laid(markup, LETTER)[0], words("calculation.vector_mark"))
         if not solved:
             continue
         for i in range(term.known):
@@ -83,10 +83,11 @@ def equation_marks(
     return marks
 
 
-def vector_mark(x: float, y: float, markup: str, kind: str) -> Iterator[Mark]:
-    """The arrow, or the bar, above the letter of a vector."""
-    letter = markup.partition("_")[0]
-    end = x + extent(letter, LETTER)[0] + BEYOND
+def vector_mark(x: float, y: float, runs: Sequence[TextRun], kind: str) -> Iterator[Mark]:
+    """The arrow, or the bar, above the letter of a vector, the first of its runs."""
+    letter, *scripts = runs
+    y -= RAISED if any(run.y < 0 for run in scripts) else OVER
+    end = x + advance(letter.text, letter.italic) * letter.size + BEYOND
     yield LineMark(x, y, end, y, "panel", "vector")
     if kind == "arrow":
         head = ((end - HEAD, y - HEAD / 2), (end, y), (end - HEAD, y + HEAD / 2))

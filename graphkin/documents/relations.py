@@ -52,13 +52,15 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     driven at follows once that is found. Without a plan of accelerations none of a driver are told.
     """
     first = drawings[0]
-    unused = () if any(each.kind == "acceleration" for each in drawings) else ("m/s^2", KA)
-    driver = [r for d in first.scene.drivers for r in of_driver(first, d) if r.unit not in unused]
-    scales = [r for r in of_scales(first) if r.unit not in unused]
+    whole = any(each.kind == "acceleration" for each in drawings)
+    driver = [r for d in first.scene.drivers for r in of_driver(first, d, accelerated=whole)]
+    scales = [r for r in of_scales(first) if whole or r.unit != KA]
     own = [section for drawing in drawings for section in sections_of(drawing)]
-    cams = list(of_cams(first, [r.symbols for _, found in [("", driver), *own] for r in found]))
-    after = tuple(f"·{relation.left}" for relation in cams if relation.result)
-    driven = [relation for relation in driver if after and relation.symbols.endswith(after)]
+    cams = list(
+        of_cams(first, {b for _, some in [("", driver), *own] for r in some for b in r.over})
+    )
+    after = {ends for relation in cams for ends in relation.over}
+    driven = [relation for relation in driver if after.intersection(relation.over)]
     sections: list[Section] = [
         ("data", [data_line(first, solved=solved)]),
         ("structure", list(of_structure(first)) if solved else []),
@@ -86,6 +88,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
         *reading(mm).times(drawing, drawing.scales.kL / 1000),
         "m",
         drawing.words("calculation.measured"),
+        over=((p, q),),
     )
 
 

@@ -14,7 +14,7 @@ from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.step_numbers import stage_of
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import BETWEEN, NOTE
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, style_class
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.style import NOW
 from graphkin.drawing.symbol_markup import symbol
@@ -85,7 +85,7 @@ def grown(
 
 def is_leader(mark: Mark) -> bool:
     """True for the line that leads from a label to what it names."""
-    return mark.cls.startswith("leader")
+    return style_class(mark) == "leader"
 
 
 def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:

@@ -59,10 +59,16 @@ class Count(Struct, frozen=True):
         return self.pairs + self.singles - self.moving
 
     @property
+    def sum(self) -> str:
+        """The sum as it is written: 3·5 − 2·7."""
+        return f"3·{self.moving} − 2·{self.pairs}" + (
+            f" − 1·{self.singles}" if self.singles else ""
+        )
+
+    @property
     def words(self) -> str:
-        """The sum as it is written: 3·5 − 2·7 = 1."""
-        singles = f" − 1·{self.singles}" if self.singles else ""
-        return f"3·{self.moving} − 2·{self.pairs}{singles} = {self.mobility}".replace("= -", "= −")
+        """It with what it gives: 3·5 − 2·7 = 1."""
+        return f"{self.sum} = {self.mobility}".replace("= -", "= −")
 
 
 def count(scene: Scene) -> Count:
@@ -139,8 +145,7 @@ def driver_problem(scene: Scene, true: int | None = None, by: str = RANK) -> Pro
     drivers = len(scene.drivers)
     if freedoms == drivers:
         return None
-    total, _, left = counted.words.replace("−", "-").partition(" = ")
-    leaves = f"the count {total} leaves {left}"
+    leaves = f"the count {counted.sum} leaves {counted.mobility}".replace("−", "-")
     if freedoms != counted.mobility:
         leaves = f"{by} leaves {freedoms} ({leaves})"
     else:

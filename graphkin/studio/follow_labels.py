@@ -17,7 +17,7 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
 from graphkin.drawing.label import GAP, Label
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import LineMark, Mark, Text
+from graphkin.drawing.marks import LineMark, Mark, Text, style_class
 from graphkin.drawing.placement import Spot
 from graphkin.drawing.richtext import extent
 
@@ -45,9 +45,9 @@ class FollowLabels(Struct, frozen=True):
 
 def seats_of(labels: Sequence[Label], marks: Sequence[Mark]) -> FollowLabels:
     """Where the labels that a board wished for stand among its finished marks."""
-    texts = [mark for mark in marks if isinstance(mark, Text) and mark.cls.startswith(LETTERS)]
+    texts = [mark for mark in marks if isinstance(mark, Text) and style_class(mark) == LETTERS]
     placed = dict(zip(keys((t.cls, t.name, t.step) for t in texts), texts, strict=True))
-    leaders = {m.name for m in marks if isinstance(m, LineMark) and m.cls.startswith("leader")}
+    leaders = {m.name for m in marks if isinstance(m, LineMark) and style_class(m) == "leader"}
     found: dict[Key, LabelPlace] = {}
     for key, label in keyed(labels):
         text = placed.get(key)

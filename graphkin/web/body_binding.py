@@ -22,7 +22,7 @@ from graphkin.construction.links.mechanism_symbols import draw_links
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, style_class
 from graphkin.numbers.plane import Vector, dot
 from graphkin.web.body_pose import BodyPose
 from graphkin.web.field_binder import SPACING, Binding, FieldBinder, Told, only_at_start, still
@@ -90,7 +90,7 @@ def following(
         poses = [next((to for by, to in borne if pose.is_same(by)), pose) for pose in poses]
     if all(binder.is_constant(part) for pose in poses for part in pose):
         return still
-    if len(places) == 2 and mark.cls.startswith("arrowhead"):
+    if len(places) == 2 and style_class(mark) == "arrowhead":
         tip, tail = (place.on_page for place in places)
         return binder.heading(tail, tip)
     if all(pose.is_same(poses[0]) for pose in poses):
@@ -195,7 +195,7 @@ class StepStrokes(Struct, frozen=True):
         stroke = self.stroke(mark)
         if stroke is None:
             return only_at_start
-        return stroke.head if mark.cls.startswith("arrowhead") else stroke.mark
+        return stroke.head if style_class(mark) == "arrowhead" else stroke.mark
 
     def label(self, mark: Mark) -> Binding:
         """How the label of a step follows."""

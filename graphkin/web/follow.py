@@ -121,7 +121,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
             stroke, after = self.steps.stroke(mark), self.marks[k + 1 : k + 2]
             undrawn = self.steps.canvas(mark.step).undrawn
             if stroke is not None and stroke.is_vector:
-                if not (after and after[0].cls.startswith("arrowhead")):
+                if not (after and style_class(after[0]) == "arrowhead"):
                     found = stroke.head(mark)
                     if found is not None:
                         yield k, "polygon", f"arrowhead {first}", found

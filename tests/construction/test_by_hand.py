@@ -11,26 +11,15 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.solution import gathered
 from graphkin.numbers.plane import Ratio
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
+from tests.scene_files import scene_text
 
 CLOSE = 1e-9
-SLIDER_CRANK = """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 1
-[links.2]
-A-B = 3
-[links.3]
-B = [0, 0]
-slides = {{ on = 0, through = "O", angle = 0 }}
-[[drivers]]
-turn = 1
-angle = {angle}
-speed = {speed}
-acceleration = {acceleration}
-[branches]
-3 = "forward"
-"""
+
+
+def slider_crank(angle: float, speed: float, acceleration: float):
+    """A slider-crank at an angle of its crank."""
+    values = {"angle": angle, "speed": speed, "acceleration": acceleration}
+    return mechanism_of(scene_text("construction/slider-crank-speeding-up", **values))
 
 
 def largest(trace, plane: Plane) -> float:
@@ -72,7 +61,7 @@ def assert_hand_and_value_agree(mechanism) -> set[Part]:
     return seen
 
 
-@settings(LAW, max_examples=60)
+@settings(LAW, max_examples=40)
 @given(mechanisms())
 def test_the_hands_way_and_the_value_of_every_composite_step_agree(made):
     assert_hand_and_value_agree(made.mechanism())
@@ -126,8 +115,7 @@ def test_the_right_triangle_is_figure_4_of_the_lab():
 @pytest.mark.parametrize("acceleration", [0, 3])
 def test_where_a_hand_cannot_draw_the_value_stands_alone(angle, acceleration):
     """Dead points, where v_B = 0, and instants of translation: no crossing of normals there."""
-    text = SLIDER_CRANK.format(angle=angle, speed=2, acceleration=acceleration)
-    mechanism = mechanism_of(text)
+    mechanism = slider_crank(angle, 2, acceleration)
     trace = mechanism.trace(by_hand=True)
     assert_hand_and_value_agree(mechanism)
     centre = trace.value("centre", "2")
@@ -142,7 +130,7 @@ def test_where_a_hand_cannot_draw_the_value_stands_alone(angle, acceleration):
 
 @pytest.mark.parametrize("acceleration", [0, 3])
 def test_a_crank_momentarily_at_rest_is_drawn_at_the_scale_one(acceleration):
-    mechanism = mechanism_of(SLIDER_CRANK.format(angle=40, speed=0, acceleration=acceleration))
+    mechanism = slider_crank(40, 0, acceleration)
     trace = mechanism.trace(by_hand=True)
     assert trace.values[mechanism.program.seconds] == 1.0
     assert trace.value("velocity", "B") == 0

@@ -21,9 +21,10 @@ from graphkin.motion.cycle import cycle
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.quantity import exact
 from graphkin.scene.read_scene import read_scene, read_text
-from graphkin.text.errors import ClosureError, SceneError, StructureError
+from graphkin.text.errors import ClosureError
 from tests.chosen import EVERY
 from tests.mechanisms import mechanism_of
+from tests.scene_files import scene_text
 
 CAMS = [f"cam-{name}" for name in ("roller", "knife", "flat", "rocker", "lever", "table")]
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -39,67 +40,51 @@ PEAKS = {
 }
 """The largest velocity and acceleration of each motion, as the textbooks' factors C_v and C_a."""
 
-TEXT = """
-graphkin = 1
-title = "cam"
-units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
-[parameters]
-at = {{ value = {at}, min = -720, max = 720 }}
-[frame]
-O = [{x}, {y}]
-[links.cam]
-O-A = {arm}
-[links.follower]
-B = [0, 0]
-slides = {{ on = 0, through = "O", angle = {lean}, offset = {offset} }}
-[links.follower.cam]
-on = "cam"
-tip = "{tip}"
-base = {base}
-{roller}
-start = {start}
-clockwise = {clock}
-law = [
-  {{ to = 110, rise = {rise}, motion = "{motion}" }}, {{ to = 170 }},
-  {{ to = 310, rise = -{rise}, motion = "{back}" }}, {{ to = 360 }},
-]
-[[drivers]]
-turn = "cam"
-angle = "at"
-speed = {speed}
-acceleration = {push}
-"""
+
+def turning(rng, motion, size, base):
+    """What cams of random size have in common."""
+    speed = 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1])
+    return {
+        "at": rng.uniform(-180, 180), "O": [size * rng.uniform(-3, 3), size * rng.uniform(-3, 3)],
+        "base": size * base, "start": rng.uniform(-180, 180), "clock": bool(rng.integers(2)),
+        "speed": speed, "push": speed**2 * rng.uniform(-2, 2),
+        "motion": motion, "back": str(rng.choice(list(MOTIONS))),
+    }  # fmt: skip
 
 
 def drawn(rng, tip, motion):
     """A cam of random size, from a micrometre to kilometres, and what it is made of."""
     size, base = 10 ** rng.uniform(-3, 6), rng.uniform(0.5, 1.5)
-    data = {
-        "at": rng.uniform(-180, 180),
-        "x": size * rng.uniform(-3, 3),
-        "y": size * rng.uniform(-3, 3),
+    data = turning(rng, motion, size, base) | {
         "arm": size * rng.uniform(0.1, 1),
         "lean": rng.uniform(-180, 180),
         "offset": 0 if tip == "flat" else size * base * rng.uniform(-0.4, 0.4),
-        "base": size * base,
-        "start": rng.uniform(-180, 180),
-        "clock": str(bool(rng.integers(2))).lower(),
         "rise": size * rng.uniform(0.1, 0.4),
-        "speed": 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1]),
-        "motion": motion,
-        "back": rng.choice(list(MOTIONS)),
+        "roller": size * rng.uniform(0.1, 0.3) if tip == "roller" else None,
     }
-    data["push"] = data["speed"] ** 2 * rng.uniform(-2, 2)
-    radius = size * rng.uniform(0.1, 0.3)
-    roller = f"roller = {radius:.17g}" if tip == "roller" else ""
-    numbers = {k: f"{v:.17g}" if isinstance(v, float) else v for k, v in data.items()}
-    scene = read_text(TEXT.format(tip=tip, roller=roller, **numbers), "cam")
-    return scene, data
+    text = scene_text("construction/cam", tip=tip, fall=-data["rise"], **data)
+    return read_text(text, "cam"), data
+
+
+def drawn_lever(rng, tip, motion):
+    """A lever of random size on either side of its cam, and what it is made of."""
+    size, way = 10 ** rng.uniform(-3, 6), rng.uniform(-np.pi, np.pi)
+    apart, radius = size * rng.uniform(1.8, 2.6), size * rng.uniform(0.1, 0.3)
+    data = turning(rng, motion, size, rng.uniform(0.5, 0.8)) | {
+        "arm": apart * rng.uniform(0.8, 1.1),
+        "side": str(rng.choice(["left", "right"])),
+        "rise": rng.uniform(5, 25),
+        "roller": radius if tip == "roller" else None,
+        "face": radius if tip == "flat" else None,
+    }
+    data["Q"] = [data["O"][0] + apart * np.cos(way), data["O"][1] + apart * np.sin(way)]
+    text = scene_text("construction/cam-with-a-lever", tip=tip, fall=-data["rise"], **data)
+    return read_text(text, "lever"), data
 
 
 def by_hand(data, at):
     """s' and s" (m by radian of the cam, counter-clockwise) of the law of ``TEXT``, by itself."""
-    sense = -1 if data["clock"] == "true" else 1
+    sense = -1 if data["clock"] else 1
     angle = np.radians((sense * (at - data["start"])) % 360)
     low, high, rise, motion = 0.0, 0.0, 0.0, "uniform"
     pieces = ((110, data["rise"], data["motion"]), (170, 0, "uniform"))
@@ -139,10 +124,10 @@ PAIRS = list(product(TIPS, MOTIONS) if EVERY else zip(in_turn(TIPS), MOTIONS))
 
 @pytest.mark.parametrize(("tip", "motion"), PAIRS)
 def test_both_routes_and_the_law_agree_all_the_way_round(tip, motion):
-    """At 24 positions: v = s'ω and a = s"ω² + s'ε, by the equivalent linkage and by the loops."""
+    """At 8 positions: v = s'ω and a = s"ω² + s'ε, by the equivalent linkage and by the loops."""
     rng = np.random.default_rng([len(tip), len(motion), list(MOTIONS).index(motion)])
     scene, data = drawn(rng, tip, motion)
-    for at in np.linspace(-180, 180, 24, endpoint=False) + 3.3:
+    for at in np.linspace(-180, 180, 8, endpoint=False) + 3.3:
         here = replace(scene, values={**scene.values, "at": Fraction(float(at))})
         mechanism = Mechanism(here)
         solution = mechanism.solve()
@@ -155,74 +140,14 @@ def test_both_routes_and_the_law_agree_all_the_way_round(tip, motion):
         assert mechanism.witness(solution).agrees
 
 
-LEVER = """
-graphkin = 1
-title = "lever"
-units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
-[parameters]
-at = {{ value = {at}, min = -720, max = 720 }}
-[frame]
-O = [{x}, {y}]
-Q = ["{x} + {qx}", "{y} + {qy}"]
-[links.cam]
-O-A = {base}
-[links.lever]
-Q-B = {arm}
-[links.lever.cam]
-on = "cam"
-tip = "{tip}"
-side = "{side}"
-base = {base}
-{told}
-start = {start}
-clockwise = {clock}
-law = [
-  {{ to = 110, rise = {rise}, motion = "{motion}" }}, {{ to = 170 }},
-  {{ to = 310, rise = -{rise}, motion = "{back}" }}, {{ to = 360 }},
-]
-[[drivers]]
-turn = "cam"
-angle = "at"
-speed = {speed}
-acceleration = {push}
-"""
-
-
-def drawn_lever(rng, tip, motion):
-    """A lever of random size on either side of its cam, and what it is made of."""
-    size, base, way = 10 ** rng.uniform(-3, 6), rng.uniform(0.5, 0.8), rng.uniform(-np.pi, np.pi)
-    apart = size * rng.uniform(1.8, 2.6)
-    data = {
-        "at": rng.uniform(-180, 180),
-        "x": size * rng.uniform(-3, 3),
-        "y": size * rng.uniform(-3, 3),
-        "qx": apart * np.cos(way),
-        "qy": apart * np.sin(way),
-        "arm": apart * rng.uniform(0.8, 1.1),
-        "side": rng.choice(["left", "right"]),
-        "base": size * base,
-        "start": rng.uniform(-180, 180),
-        "clock": str(bool(rng.integers(2))).lower(),
-        "rise": rng.uniform(5, 25),
-        "speed": 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1]),
-        "motion": motion,
-        "back": rng.choice(list(MOTIONS)),
-    }
-    data["push"] = data["speed"] ** 2 * rng.uniform(-2, 2)
-    told = {"roller": "roller = {:.17g}", "flat": "face = {:.17g}", "knife": ""}[tip]
-    told = told.format(size * rng.uniform(0.1, 0.3))
-    numbers = {k: f"{v:.17g}" if isinstance(v, float) else v for k, v in data.items()}
-    return read_text(LEVER.format(tip=tip, told=told, **numbers), "lever"), data
-
-
 @pytest.mark.parametrize(("tip", "motion"), PAIRS)
 def test_a_lever_swings_by_its_law_all_the_way_round(tip, motion):
-    """At 12 positions: ω = ψ'ω₁ and ε = ψ"ω₁² + ψ'ε₁ away from the cam, by both routes."""
+    """At 8 positions: ω = ψ'ω₁ and ε = ψ"ω₁² + ψ'ε₁ away from the cam, by both routes."""
     rng = np.random.default_rng([7, len(tip), list(MOTIONS).index(motion)])
     scene, data = drawn_lever(rng, tip, motion)
     away = -1 if data["side"] == "left" else 1
     swung = {**data, "rise": np.radians(data["rise"]) * 1000}  # by_hand divides by it
-    for at in np.linspace(-180, 180, 12, endpoint=False) + 3.3:
+    for at in np.linspace(-180, 180, 8, endpoint=False) + 3.3:
         mechanism = Mechanism(replace(scene, values={**scene.values, "at": Fraction(float(at))}))
         solution = mechanism.solve()
         lever = solution.links["lever"]
@@ -252,35 +177,16 @@ def test_on_the_base_circle_a_lever_rests_at_its_radius():
     assert abs(beside) == pytest.approx(0.044, abs=1e-15)
 
 
-def test_a_lever_too_short_to_rest_on_its_cam_is_refused():
-    text = (SCENES / "cam-rocker.toml").read_text(encoding="utf-8")
-    short = text.replace("Q-B = 65", "Q-B = 30")
-    with pytest.raises(StructureError, match="Q-B is 30 mm long; expected a triangle"):
-        Mechanism(read_text(short, "cam")).solve()
-
-
+@pytest.mark.parametrize("face", [0, 1, 2])
 @pytest.mark.parametrize(
-    ("old", "new", "place"),
-    [
-        ('side = "left"', 'side = "lef"', "links.2.cam.side"),
-        ("roller = 10", "roller = 10\nface = 3", "links.2.cam.face"),
-        ("Q-B = 65", "P-B = 65", "links.2.cam"),
-        ("rise = -24", "rise = -23", "links.2.cam.law"),
-    ],
+    "scene", ["cam-roller", "cam-rocker", "cam-lever", "cam-plate", "cam-plate-lever", "cam-fixed"]
 )
-def test_one_mistake_of_a_lever_is_one_error(old, new, place):
-    text = (SCENES / "cam-rocker.toml").read_text(encoding="utf-8")
-    with pytest.raises(SceneError) as error:
-        read_text(text.replace(old, new), "cam")
-    assert [problem.place for problem in error.value.problems] == [place]
-
-
-@pytest.mark.parametrize("scene", ["cam-roller", "cam-rocker", "cam-lever"])
-@pytest.mark.parametrize("face", ["lift", "lift_rate", "lift_bend"])
 def test_a_wrong_law_in_the_construction_does_not_pass_the_witness(face, scene, monkeypatch):
-    right = getattr(cam_centre, face)
+    plate = ("plate_lift", "plate_rate", "plate_bend")
+    name = (plate if "plate" in scene else ("lift", "lift_rate", "lift_bend"))[face]
+    right = getattr(cam_centre, name)
     wrong = replace(right, value=lambda *args: right.value(*args) * 1.001)
-    monkeypatch.setattr(cam_centre, face, wrong)
+    monkeypatch.setattr(cam_centre, name, wrong)
     mechanism = load(SCENES / f"{scene}.toml")
     assert not mechanism.witness(mechanism.solve()).agrees
 
@@ -326,12 +232,6 @@ def test_a_cam_with_too_small_a_base_circle_is_undercut():
     for written, sharp in ((text, False), (small, True)):
         profile = CamProfile(read_text(written, "cam"), "2")
         assert (profile.sharpest[0] <= 0) is sharp
-
-
-def test_a_follower_that_passes_beside_its_cam_is_refused():
-    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
-    with pytest.raises(StructureError, match=r"60 mm beside O; expected less than .* 50 mm"):
-        Mechanism(read_text(text.replace("offset = -10", "offset = -60"), "cam")).solve()
 
 
 @pytest.mark.parametrize("angle", [0, 20, 90, 120, 150, 180, 230, 270, 300])
@@ -417,7 +317,7 @@ def by_second_derivatives(x, y):
 
 
 def test_a_table_moves_the_follower_by_the_periodic_spline_through_it():
-    """The spline by its second derivatives, at 40 positions, between the points and at them."""
+    """The spline by its second derivatives, at 20 positions, between the points and at them."""
     rng = np.random.default_rng(24)
     text = (SCENES / "cam-table.toml").read_text(encoding="utf-8")
     angles = [0, *sorted(rng.choice(np.arange(12, 350), 11, replace=False).tolist())]
@@ -427,7 +327,7 @@ def test_a_table_moves_the_follower_by_the_periodic_spline_through_it():
     radians = np.radians([*angles, 360])
     spline = by_second_derivatives(radians, np.array([*lifts, 0]) / 1000)
     omega = 200 * np.pi / 30
-    for at in [*rng.uniform(0, 360, 28), *angles]:
+    for at in [*rng.uniform(0, 360, 8), *angles]:
         here = replace(scene, values={**scene.values, "angle": Fraction(float(at))})
         mechanism = Mechanism(here)
         solution = mechanism.solve()
@@ -461,6 +361,17 @@ def test_the_second_roller_touches_the_conjugate_profile_all_the_way_round(slide
         single = read_text(text.replace("conjugate = ", "# "), "cam")
         alone = Mechanism(replace(single, values=here.scene.values)).solve()
         assert alone.points["B"].acceleration == solution.points["B"].acceleration
+
+
+def test_where_the_pitch_curve_is_straight_the_centre_lies_at_infinity():
+    """Between hollow and hump r² + 2r'² = r r", where K runs to infinity: told, never made up."""
+    numbers = {"at": 340.2436726472059, "O": [0, 0], "arm": 20, "lean": 90, "offset": 0}
+    numbers |= {"base": 30, "roller": 8, "start": 0, "rise": 30, "fall": -30, "speed": 5, "push": 0}
+    words = {"tip": "roller", "motion": "3-4-5", "back": "3-4-5", "clock": True}
+    text = scene_text("construction/cam", **numbers, **words).replace("to = 110", "to = 60")
+    straight = r"K lies at infinity: the pitch curve of link cam is straight at the contact"
+    with pytest.raises(ClosureError, match=straight):
+        Mechanism(read_text(text, "straight")).solve()
 
 
 def test_lifts_of_a_table_may_be_expressions():
@@ -512,181 +423,38 @@ def test_a_cam_that_any_link_turns_lifts_by_its_law(name):
         assert mechanism.witness(solution).agrees
 
 
-def test_a_law_wrong_by_a_thousandth_on_a_rocker_s_cam_is_seen(monkeypatch):
-    """The loops take the cam's angle from their own equations."""
-    right = cam_centre.lift_rate.value
-    wrong = cam_centre.action("cam-lift")(lambda *known: 1.001 * right(*known))
-    monkeypatch.setattr(cam_centre, "lift_rate", wrong)
-    mechanism = Mechanism(read_scene(Path(__file__).parent / "scenes" / "cam-on-a-rocker.toml"))
-    assert not mechanism.witness(mechanism.solve()).agrees
-
-
-@pytest.mark.parametrize(
-    ("table", "place"),
-    [
-        ([[0, 0], [90, 5], [180, 9]], ".law"),
-        ([[0, 0], [90, 5], [80, 9], [270, 5]], ".law[2]"),
-        ([[0, 0], [90, 5], [180, -9], [270, 5]], ".law[2]"),
-        ([[0, 0], [90, 5], [180, 9], [360, 0]], ".law[3]"),
-        ([[10, 0], [90, 5], [180, 9], [270, 5]], ".law[0]"),
-        ([[0, 0], [90], [180, 9], [270, 5]], ".law[1]"),
-    ],
-)
-def test_a_mistake_of_a_table_is_one_error(table, place):
-    text = (SCENES / "cam-table.toml").read_text(encoding="utf-8")
-    with pytest.raises(SceneError) as error:
-        read_text(turned_tables(text, table), "cam")
-    assert [problem.place for problem in error.value.problems] == [f"links.2.cam{place}"]
-
-
-def test_every_mistake_of_a_cam_is_told_at_its_place():
-    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
-    for old, new in (
-        ('tip = "roller"', 'tip = "rolle"'),
-        ("base = 40", "base = -40"),
-        ('motion = "cycloidal"', 'motion = "cycloid"'),
-        ("{ to = 180 }", "{ to = 100 }"),
-        ("rise = -20", "ris = -20"),
-    ):
-        text = text.replace(old, new)
-    with pytest.raises(SceneError) as error:
-        read_text(text, "cam")
-    places = {problem.place for problem in error.value.problems}
-    cam = "links.2.cam"
-    assert {f"{cam}.tip", f"{cam}.base", f"{cam}.law[0].motion"} <= places
-    assert {f"{cam}.law[2].ris", f"{cam}.law[2].rise"} <= places
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "place"),
-    [
-        ("{ to = 180 }", "{ to = 100 }", "links.2.cam.law[1].to"),
-        ("{ to = 360 }", "{ to = 350 }", "links.2.cam.law"),
-        ("rise = -20", "rise = -19", "links.2.cam.law"),
-        ("rise = 20", "rise = -20", "links.2.cam.law[0].rise"),
-        ("on = 1\n", "on = 7\n", "links.2.cam.on"),
-        ("roller = 10\n", "", "links.2.cam.roller"),
-        ("slides = { on = 0,", "slides = { on = 1,", "links.2.cam"),
-    ],
-)
-def test_one_mistake_is_one_error(old, new, place):
-    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
-    assert old in text
-    with pytest.raises(SceneError) as error:
-        read_text(text.replace(old, new), "cam")
-    assert place in {problem.place for problem in error.value.problems}
-
-
-def test_a_cam_that_slides_or_stands_still_is_told_what_to_write():
-    """Laws are of discs on a pin of the frame; a flank is a guide, an arc its centre."""
-    text = (SCENES / "cam-roller.toml").read_text(encoding="utf-8")
-    standing = text.replace("on = 1\n", "on = 0\n")
-    carried = text.replace("slides = { on = 0,", "slides = { on = 1,")
-    for wrong in (standing, carried):
-        with pytest.raises(SceneError, match="a straight flank as a guide on it, an arc with"):
-            read_text(wrong, "cam")
-
-
-def test_where_the_pitch_curve_is_straight_the_centre_lies_at_infinity():
-    """Between hollow and hump r² + 2r'² = r r", where K runs to infinity: told, never made up."""
-    text = TEXT.format(
-        at="340.2436726472059",
-        x=0,
-        y=0,
-        arm=20,
-        lean=90,
-        offset=0,
-        tip="roller",
-        base=30,
-        roller="roller = 8",
-        start=0,
-        clock="true",
-        rise=30,
-        motion="3-4-5",
-        back="3-4-5",
-        speed=5,
-        push=0,
-    ).replace("to = 110", "to = 60")
-    straight = r"K lies at infinity: the pitch curve of link cam is straight at the contact"
-    with pytest.raises(ClosureError, match=straight):
-        Mechanism(read_text(text, "straight")).solve()
-
-
-PLATE = """
-graphkin = 1
-title = "plate"
-units = {{ length = "mm", angle = "deg", speed = "rad/s" }}
-[parameters]
-at = {{ value = 0, min = -1e9, max = 1e9 }}
-[frame]
-O = [{x}, {y}]
-{pin}
-[links.plate]
-A = [0, 0]
-slides = {{ on = 0, through = "O", angle = {way}, offset = {beside} }}
-[links.follower]
-{joint}
-[links.follower.cam]
-on = "plate"
-tip = "{tip}"
-{side}
-base = {base}
-{roller}
-start = {start}
-backward = {back}
-law = [{{ to = {first}, rise = {rise}, motion = "{motion}" }},
-       {{ to = {second}, rise = {fall}, motion = "harmonic" }}]
-[[drivers]]
-slide = "plate"
-position = "at"
-speed = {speed}
-acceleration = {push}
-"""
 CURVED = sorted(MOTIONS.keys() - {"uniform"})
 
 
 def plate(rng, motion, *, swings):
     """A plate of random size under a follower of either kind, and what it is made of."""
     size, base, way = 10 ** rng.uniform(-3, 6), rng.uniform(0.2, 0.5), rng.uniform(-np.pi, np.pi)
-    tip = ("roller", "knife")[rng.integers(2)]
-    roller = size * rng.uniform(0.05, 0.1) if tip == "roller" else 0.0
+    roller = size * rng.uniform(0.05, 0.1) if rng.integers(2) else None
     place, e = size * complex(*rng.uniform(-3, 3, 2)), np.exp(1j * way)
     beside, up = size * rng.uniform(-0.5, 0.5), 1j * e * rng.choice([-1, 1])
-    arm, path = size * rng.uniform(0.6, 0.9), place + 1j * e * size * 0
-    prime = size * base + roller
-    pin = path + 1j * e * beside + up * (prime + arm * rng.uniform(0.2, 0.6))
-    pin += e * size * rng.uniform(-1, 1)
-    lean = np.angle(up, deg=True) + rng.uniform(-40, 40)
+    arm = size * rng.uniform(0.6, 0.9)
+    pin = place + 1j * e * beside + e * size * rng.uniform(-1, 1)
+    pin += up * (size * base + (roller or 0) + arm * rng.uniform(0.2, 0.6))
+    speed = size * 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1])
+    rise = rng.uniform(5, 20) if swings else size * rng.uniform(0.1, 0.3)
     data = {
-        "x": place.real, "y": place.imag, "way": np.degrees(way), "beside": beside,
-        "base": size * base, "start": size * rng.uniform(-2, 2), "tip": tip, "motion": motion,
+        "O": [place.real, place.imag], "way": np.degrees(way), "beside": beside,
+        "base": size * base, "roller": roller, "tip": "roller" if roller else "knife",
+        "start": size * rng.uniform(-2, 2), "back": bool(rng.integers(2)), "motion": motion,
         "first": size * rng.uniform(0.8, 1.2), "second": size * rng.uniform(1.7, 2.1),
-        "rise": rng.uniform(5, 20) if swings else size * rng.uniform(0.1, 0.3),
-        "speed": size * 10 ** rng.uniform(-2, 3) * rng.choice([-1, 1]),
-        "back": str(bool(rng.integers(2))).lower(), "side": "", "pin": "",
+        "rise": rise, "fall": -rise * rng.uniform(0.3, 1),
+        "speed": speed, "push": speed**2 / size * rng.uniform(-2, 2),
     }  # fmt: skip
-    data["fall"] = -data["rise"] * rng.uniform(0.3, 1)
-    data["push"] = data["speed"] ** 2 / size * rng.uniform(-2, 2)
-    numbers = {k: f"{v:.17g}" if isinstance(v, float) else v for k, v in data.items()}
-    if swings:
-        data["side"] = ("left", "right")[rng.integers(2)]
-        numbers |= {
-            "pin": f"Q = [{pin.real:.17g}, {pin.imag:.17g}]",
-            "joint": f"Q-B = {arm:.17g}",
-            "side": f'side = "{data["side"]}"',
-        }
-    else:
-        where = f"[{pin.real:.17g}, {pin.imag:.17g}]"
-        numbers["joint"] = (
-            f"B = [0, 0]\nslides = {{ on = 0, through = {where}, angle = {lean:.17g} }}"
-        )
-    numbers["roller"] = f"roller = {roller:.17g}" if roller else ""
-    return read_text(PLATE.format(**numbers), "plate"), data
+    lean, side = np.angle(up, deg=True) + rng.uniform(-40, 40), ("left", "right")[rng.integers(2)]
+    at = [pin.real, pin.imag]
+    swung = {"Q": at, "arm": arm, "side": side}, {"B": [0, 0], "guide": at, "lean": lean}
+    data |= dict.fromkeys(key for some in swung for key in some) | swung[not swings]
+    return read_text(scene_text("construction/cam-plate", **data), "plate"), data
 
 
 def along_plate(data, x):
     """s' and s" of the law of ``PLATE`` at a coordinate x, in its own units."""
-    sense = -1 if data["back"] == "true" else 1
+    sense = -1 if data["back"] else 1
     way = sense * (x - data["start"])
     low, high, rise, name = 0.0, data["first"], data["rise"], data["motion"]
     if way > high:
@@ -695,14 +463,15 @@ def along_plate(data, x):
     return sense * rise * found.rate / span, rise * found.bend / span**2
 
 
-@pytest.mark.parametrize("swings", [False, True])
-@pytest.mark.parametrize("motion", CURVED)
+@pytest.mark.parametrize(
+    ("motion", "swings"),
+    [*product(CURVED, [False, True])] if EVERY else [*zip(CURVED, in_turn([False, True]))],
+)
 def test_a_plate_lifts_and_swings_by_its_law(motion, swings):
     """v = s'ẋ and a = s"ẋ² + s'ẍ, ω = ψ'ẋ and ε = ψ"ẋ² + ψ'ẍ, by both routes along the law."""
     rng = np.random.default_rng([11, swings, CURVED.index(motion)])
     scene, data = plate(rng, motion, swings=swings)
-    sense = -1 if data["back"] == "true" else 1
-    away = {"left": -1, "right": 1, "": 1}[data["side"]]
+    sense, away = -1 if data["back"] else 1, -1 if data["side"] == "left" else 1
     unit = np.pi / 180 if swings else 1e-3
     for share in (0.06, 0.17, 0.36, 0.44, 0.63, 0.81, 0.94):
         x = data["start"] + sense * share * data["second"]
@@ -759,14 +528,14 @@ def test_an_arm_sees_the_cam_move_as_its_law_says(name):
     """v = s'ω and a = s"ω² + s'ε with the cam's rates against the arm, by both routes."""
     text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
     fixed = "fixed" in name
-    data = {"start": 0.0, "clock": str(fixed).lower(), "rise": 1000.0}
+    data = {"start": 0.0, "clock": fixed, "rise": 1000.0}
     data |= {"motion": "cycloidal", "back": "3-4-5"}
     begin, end = text.index("law = ["), text.index("[[drivers]]")
     rise = {"cam-fixed": 20, "cam-fixed-lever": 20, "cam-carried": 10}[name]
     law = f"""law = [{{ to = 110, rise = {rise}, motion = "cycloidal" }}, {{ to = 170 }},
       {{ to = 310, rise = -{rise}, motion = "3-4-5" }}, {{ to = 360 }}]\n"""
     text = text[:begin] + law + text[end:]
-    for angle in range(5, 360, 20):
+    for angle in range(5, 360, 40):
         mechanism = Mechanism(read_text(text, "cam", None, {"angle" if fixed else "alpha": angle}))
         solution = mechanism.solve()
         assert mechanism.witness(solution).agrees
@@ -788,71 +557,11 @@ def test_an_arm_sees_the_cam_move_as_its_law_says(name):
 
 
 @pytest.mark.parametrize("name", ["cam-plate", "cam-plate-lever", "cam-fixed", "cam-fixed-lever"])
-@pytest.mark.parametrize("face", [0, 1, 2])
-def test_a_wrong_law_of_such_a_cam_does_not_pass_the_witness(face, name, monkeypatch):
-    plates = ("plate_lift", "plate_rate", "plate_bend")
-    names = plates if "plate" in name else ("lift", "lift_rate", "lift_bend")
-    right = getattr(cam_centre, names[face])
-    wrong = replace(right, value=lambda *args: right.value(*args) * 1.001)
-    monkeypatch.setattr(cam_centre, names[face], wrong)
-    mechanism = load(SCENES / f"{name}.toml")
-    assert not mechanism.witness(mechanism.solve()).agrees
-
-
-@pytest.mark.parametrize(
-    ("name", "old", "new", "place", "found"),
-    [
-        (
-            "cam-plate",
-            'tip = "roller"\nbase = 15\nroller = 6',
-            'tip = "flat"\nbase = 15',
-            "links.2.cam.tip",
-            "a flat face on a",
-        ),
-        ("cam-plate", "base = 15", "base = 15\nclockwise = true", "links.2.cam.clockwise", "unk"),
-        ("cam-plate", "{ to = 160", "{ to = 60", "links.2.cam.law[1].to", "60 after 80"),
-        ("cam-fixed", "clockwise", "backward", "links.2.cam.backward", "unknown key"),
-        ("cam-fixed", "O-A = 100", "P-A = 100", "links.2.cam.on", "has not one pin on link 1"),
-    ],
-)
-def test_one_mistake_of_such_a_cam_is_one_error(name, old, new, place, found):
-    text = (SCENES / f"{name}.toml").read_text(encoding="utf-8")
-    text = text.replace('along = "O-A"', 'along = "P-A"') if "P-A" in new else text
-    with pytest.raises(SceneError) as error:
-        read_text(text.replace(old, new), "cam")
-    problems = [each for each in error.value.problems if each.place.startswith("links.2.cam")]
-    assert [problem.place for problem in problems] == [place]
-    assert found in problems[0].found
-
-
-def test_a_table_of_a_plate_and_a_plate_at_rest_are_refused_by_name():
-    text = (SCENES / "cam-plate.toml").read_text(encoding="utf-8")
-    table = turned_tables(text, "[[0, 0], [60, 5], [120, 18], [180, 0]]")
-    with pytest.raises(SceneError, match=r"^links.2.cam.law: a table of a plate that slides"):
-        read_text(table, "cam")
-    rest = text.replace("on = 1\ntip", "on = 0\ntip").replace("[links.2]\n", "[links.2]\n")
-    rest = rest.replace("slides = { on = 0, through = [60, 0]", 'slides = { on = 1, through = "A"')
-    with pytest.raises(
-        SceneError, match=r"links.2.cam.on: a plate at rest along which link 1 slides"
-    ):
-        read_text(rest, "cam")
-
-
-def test_a_follower_that_a_plate_does_not_reach_is_refused():
-    text = (SCENES / "cam-plate-lever.toml").read_text(encoding="utf-8")
-    with pytest.raises(StructureError, match="Q stands 60 mm from the path of C, Q-B is 25 mm"):
-        Mechanism(read_text(text.replace("Q-B = 55", "Q-B = 25"), "cam")).solve()
-    text = (SCENES / "cam-plate.toml").read_text(encoding="utf-8")
-    with pytest.raises(StructureError, match="link 2 slides along the path of link 1"):
-        Mechanism(read_text(text.replace("angle = 90", "angle = 180"), "cam")).solve()
-
-
-@pytest.mark.parametrize("name", ["cam-plate", "cam-plate-lever", "cam-fixed", "cam-fixed-lever"])
 def test_the_table_of_a_cycle_has_the_pressure_angle_of_such_a_cam(name):
     """Of the bar K-B with the way on which the follower's guide or pin leads B."""
     scene, follower = load(SCENES / f"{name}.toml").scene, "4" if "plate-" in name else "2"
     (key,), checked = scene.parameters, 0
-    rows = csv.DictReader(io.StringIO(cycle_table(cycle(Mechanism(scene), steps=40))))
+    rows = csv.DictReader(io.StringIO(cycle_table(cycle(Mechanism(scene), steps=24))))
     for row in rows:
         value = float(next(iter(row.values()))) * (1000 if key == "x" else 1)
         values = {**scene.values, key: Fraction(value)}
@@ -867,47 +576,10 @@ def test_the_table_of_a_cycle_has_the_pressure_angle_of_such_a_cam(name):
         slope = min(slope, 180 - slope)
         assert float(row[f"pressure_{follower} [deg]"]) == pytest.approx(slope, abs=1e-6)
         checked += 1
-    assert checked > 25
+    assert checked > 14
 
 
-LEVER_ON_A_BAR = """
-graphkin = 1
-title = "Cam lever that is a block on a later bar"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[frame]
-O = [0, 0]
-Q = [100, 0]
-V = [60, 150]
-[links.1]
-O-M = 20
-[links.2]
-E = [90, 10]
-Q = [0, 0]
-C = [70, 0]
-slides = { on = 3, through = "W", angle = 0 }
-[links.2.cam]
-on = 1
-tip = "roller"
-base = 40
-roller = 10
-side = "left"
-law = [
-  { to = 180, rise = 5, motion = "cycloidal" },
-  { to = 360, rise = -5, motion = "cycloidal" },
-]
-[links.3]
-W-Z = 60
-[links.4]
-V-W = 110
-[[drivers]]
-turn = 1
-angle = 70
-speed = 5
-[branches]
-2 = "forward"
-[ask]
-velocity = ["W"]
-"""
+LEVER_ON_A_BAR = scene_text("construction/cam-lever-on-a-bar")
 
 
 def test_a_lever_may_be_a_block_on_a_bar_that_comes_later():
@@ -922,29 +594,7 @@ def test_a_lever_may_be_a_block_on_a_bar_that_comes_later():
     assert abs(found.links["2"].omega) == pytest.approx(rate, rel=1e-9)
 
 
-TAKEN = """
-[frame]
-O = [0, 0]
-K = [0.2, 0]
-[links.1]
-O = [0, 0]
-[links.2]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[links.2.cam]
-on = 1
-tip = "roller"
-base = 0.04
-roller = 0.01
-law = [
-  { to = 180, rise = 0.02, motion = "cycloidal" },
-  { to = 360, rise = -0.02, motion = "3-4-5" },
-]
-[[drivers]]
-turn = 1
-angle = 50
-speed = 3
-"""
+TAKEN = scene_text("construction/cam-beside-a-letter")
 
 
 def test_a_centre_of_curvature_takes_a_letter_that_no_point_has():

@@ -9,12 +9,7 @@ from math import hypot
 import pytest
 from shapely import LineString, Point
 
-from graphkin.construction.core.curve_marks import (
-    UNSEEN,
-    clipped_path,
-    middle_of,
-    ring,
-)
+from graphkin.construction.core.curve_marks import UNSEEN, clipped_path, middle_of, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.solution import Curve
@@ -29,80 +24,16 @@ from graphkin.numbers.plane import Circle as Round
 from graphkin.numbers.plane import cross
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
+from tests.scene_files import scene_text
 
 HEAD = """graphkin = 1
 title = "centres"
 units = { length = "mm", angle = "deg", speed = "rad/s" }
 """
-FOUR_BAR = """
-[frame]
-O1 = [0, 0]
-O2 = [150, 0]
-[links.1]
-O1-A = 80
-[links.2]
-A-B = 130
-[links.3]
-O2-B = 70
-[[drivers]]
-turn = 1
-angle = 75
-speed = 12
-[branches]
-B = "left of A-O2"
-"""
-SLIDER_CRANK = """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 60
-[links.2]
-A-B = 160
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 60
-speed = 12
-[branches]
-3 = "forward"
-"""
-CARDAN = """
-[frame]
-O = [0, 0]
-[links.1]
-A = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.2]
-B-A = 100
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 90 }
-[[drivers]]
-slide = 1
-position = "100*cos(45)"
-speed = -200
-[branches]
-3 = "backward"
-"""
-NEAR = """
-[frame]
-A = [0, 0]
-D = [110, 0]
-[links.1]
-A-B = 60
-[links.2]
-B-C = 60
-[links.3]
-D-C = 75
-[[drivers]]
-turn = 1
-angle = 70
-speed = 3
-[branches]
-C = "left of B-D"
-"""
+FOUR_BAR = scene_text("construction/four-bar-150")
+SLIDER_CRANK = scene_text("construction/slider-crank-60")
+CARDAN = scene_text("construction/cardan")
+NEAR = scene_text("construction/four-bar-110")
 SCENES = {"near": NEAR, "four-bar": FOUR_BAR, "slider-crank": SLIDER_CRANK, "cardan": CARDAN}
 ALL = 'centres = "all"'
 

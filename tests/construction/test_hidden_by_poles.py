@@ -47,8 +47,9 @@ def mechanism(angle: str, number: int) -> Mechanism:
     return Mechanism(read_text(text, "made", None, {}))
 
 
-@pytest.mark.parametrize(("upright", "side"), [(90, -1), (270, 1)])
-@pytest.mark.parametrize("offset", ["0.1", "1e-4", "1e-9"])
+@pytest.mark.parametrize(
+    ("upright", "side", "offset"), [(90, -1, "0.1"), (270, 1, "1e-4"), (90, -1, "1e-9")]
+)
 def test_every_closure_is_listed_and_has_its_number(upright, offset, side):
     angle = MP.nstr(upright + side * MP.mpf(offset), 40)
     rounded = 1e-9 + 2e-13 / float(offset)

@@ -14,35 +14,12 @@ from graphkin.drawing.richtext import plain
 from graphkin.text import words
 from graphkin.text.errors import ClosureError
 from tests.mechanisms import mechanism_of
+from tests.scene_files import scene_text
 
 CRANK, PIVOT, RADIUS, ANGLE, SPEED = 0j, -0.04j, 0.09, 35.0, 9.0
-LEVER = f"""
-[frame]
-O = [0, 0]
-Q = [0, -0.04]
-[links.1]
-O-A = {RADIUS}
-[links.2]
-A = [0, 0]
-slides = {{ on = 3, along = "Q-B" }}
-[links.3]
-SHAPE
-[[drivers]]
-turn = 1
-angle = {ANGLE}
-speed = {SPEED}
-[branches]
-2 = "forward"
-"""
+LEVER = scene_text("construction/crank-and-lever")
 BELL = "Q-B = 0.07\nB-Q-E = 90\nQ-E = 0.06"
-SLOTTED = """
-[links.4]
-D = [0, 0]
-slides = { on = 3, along = "Q-E" }
-[links.5]
-D = [0, 0]
-slides = { on = 0, through = [-0.08, 0], angle = 90 }
-"""
+SLOTTED = scene_text("construction/second-slot")
 
 
 def lever_of(shape: str, more: str = ""):
@@ -110,29 +87,7 @@ def test_the_other_points_of_a_lever_follow_from_the_one_on_its_slot(shape, expe
     assert not any("°" in each for each in said)
 
 
-COUPLER = """
-[frame]
-O1 = [0, 0]
-O2 = [0.12, 0]
-[links.1]
-O1-A = 0.04
-[links.2]
-A-B = 0.11
-A-P = 0.07
-B-A-P = 12
-A-M = 0.05
-M = "on A-P"
-P-N = 0.02
-N = "beyond P on A-P"
-[links.3]
-O2-B = 0.08
-[[drivers]]
-turn = 1
-angle = 50
-speed = 3
-[branches]
-B = "left of A-O2"
-"""
+COUPLER = scene_text("construction/points-of-a-coupler")
 
 
 def test_a_point_between_others_is_laid_off_on_their_line_and_not_by_flat_arcs():

@@ -8,18 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from msgspec.structs import replace
 
 from graphkin.construction.core.batch import made_ready, run_batch
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
-from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import FLOAT, batch_kind, least
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
-from graphkin.scene.model import Way
-from graphkin.text.errors import ClosureError, StructureError
-from tests.chosen import FOLDER
+from graphkin.text.errors import ClosureError
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
+from tests.scene_files import scene_text
 
 EARLY = {Part.SHAPE, Part.POSITION}
 
@@ -222,39 +219,10 @@ def test_where_the_blocks_of_a_batch_end_does_not_show(size):
     np.testing.assert_allclose(whole, joined, rtol=0, atol=1e-13 * np.abs(whole).max())
 
 
-RODS = """
-[parameters]
-rod = 3
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 2
-[links.2]
-A-B = "rod"
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.4]
-O-C = 2
-[[drivers]]
-turn = 1
-angle = 90
-speed = 1
-[[drivers]]
-turn = 4
-angle = 10
-speed = 1
-[branches]
-3 = "forward"
-"""
+RODS = scene_text("construction/two-cranks")
 
 
-LATER = """[links.6]
-C-D = 9
-[links.7]
-D = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[links.4]"""
+LATER = scene_text("construction/rod-drawn-last")
 LATER_BRANCH = '[branches]\n7 = "forward"'
 """A long rod on the other crank, which crosses well and is drawn last."""
 
@@ -353,98 +321,15 @@ def test_the_smaller_of_two_numbers_is_unknown_where_one_is(kind):
 
 # --- failures ------------------------------------------------------------------------------------
 
-CRANK = """
-[frame]
-O = [0, 0]
-Q = [10, 0]
-[links.1]
-O-A = {crank}
-[links.2]
-A-B = {rod}
-{other}
-[[drivers]]
-turn = 1
-angle = {angle}
-speed = 2
-[branches]
-{branch}
-"""
-BLOCK = 'B = [0, 0]\nslides = { on = 0, through = "O", angle = 0 }'
-
-
-def slider(crank: float, rod: float, angle: float) -> str:
-    """A slider-crank in line."""
-    return CRANK.format(
-        crank=crank, rod=rod, angle=angle, other="[links.3]\n" + BLOCK, branch='3 = "forward"'
-    )
-
-
-def four_bar(crank: float, rod: float, rocker: float, angle: float) -> str:
-    """A four-bar on a frame of 10."""
-    other = f"[links.3]\nQ-B = {rocker}"
-    return CRANK.format(crank=crank, rod=rod, angle=angle, other=other, branch='B = "left of A-Q"')
-
-
-def refusal(text: str) -> str:
-    """The words with which a mechanism that does not close is refused."""
-    with pytest.raises(ClosureError) as caught:
-        mechanism_of(text).solve()
-    words = str(caught.value)
-    assert "None" not in words
-    assert not re.search(r"[{}\[\]]|nan|\(\)|  ", words), words
-    assert isinstance(caught.value.__cause__, StepFailed)
-    return words
-
-
-def test_a_rod_too_short_for_the_guide_misses_it_by_so_much():
-    assert refusal(slider(0.05, 0.03, 90)) == (
-        "position of B: B cannot be found: the arc misses the guide by 0.02 m; "
-        "expected a bar AB that reaches its guide; it closes for driver angles "
-        "-36.87° to 36.87°, 143.13° to 216.87°"
-    )
-
 
 def test_the_closing_ranges_are_those_of_trigonometry():
     """|r sin(phi)| <= l: up to asin(l/r), to the digits that are printed."""
-    limit = np.degrees(np.arcsin(3 / 5))
-    words = refusal(slider(5, 3, 100))
+    text = scene_text("construction/slider-crank").replace("O-A = 1", "O-A = 5")
+    with pytest.raises(ClosureError) as caught:
+        mechanism_of(text.replace("angle = 60", "angle = 100")).solve()
+    words, limit = str(caught.value), np.degrees(np.arcsin(3 / 5))
+    assert not re.search(r"None|[{}\[\]]|nan|\(\)|  ", words), words
+    assert isinstance(caught.value.__cause__, StepFailed)
     found = [float(number) for number in re.findall(r"(-?[\d.]+)°", words)]
     exact = [-limit, limit, 180 - limit, 180 + limit]
     assert np.abs(np.array(found) - exact).max() <= 0.005
-
-
-def test_two_arcs_too_short_or_one_inside_the_other_miss_each_other():
-    assert "B cannot be found: the arcs miss each other by 5 m;" in refusal(four_bar(3, 4, 4, 180))
-    assert "B cannot be found: the arcs miss each other by 4.56 m;" in refusal(
-        four_bar(3, 18, 3, 90)
-    )
-
-
-def test_a_mechanism_that_never_closes_says_so():
-    assert refusal(four_bar(3, 1, 2, 180)).endswith(
-        "it closes for no angle of the driver: check the lengths"
-    )
-
-
-def test_at_a_dead_point_the_two_lines_are_parallel():
-    """The rod stands square to the guide: the crank's speed determines no velocity there."""
-    assert refusal(slider(5, 5, 90)) == (
-        "velocity of b: b cannot be found: AB and the guide of 3 are perpendicular to each other; "
-        "expected loci that cross; "
-        "at this dead point, or so near to one that doubles cannot tell (solve --digits can), "
-        "the driver's speed determines no other: change the driver's position"
-    )
-
-
-def test_missing_and_superfluous_branches_are_told_at_once():
-    """A branch of a driven link, while that of another group is missing; none is told twice."""
-    scene = load(FOLDER / "six-bar.toml").scene
-    branches = {"1": Way(1), "D": scene.branches["D"]}
-    with pytest.raises(StructureError) as told:
-        Mechanism(replace(scene, branches=branches)).solve()
-    places = [problem.place for problem in told.value.problems]
-    assert places == ["branches.B", "branches.1"]
-    stray = {"2": Way(1), "D": scene.branches["D"]}
-    with pytest.raises(StructureError, match='while 2 = "forward" chooses nothing') as told:
-        Mechanism(replace(scene, branches=stray)).solve()
-    assert len(told.value.problems) == 1

@@ -5,6 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from tests.scene_files import scene_text
+
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 
 
@@ -21,31 +25,7 @@ def test_a_parallelogram_on_its_line_is_no_number(count, kind):
 
 def moving(angles, kind):
     """The rate of the follower of a parallelogram for each angle of the driver in degrees."""
-    text = """
-graphkin = 1
-title = "parallelogram"
-units = { length = "mm", angle = "deg", speed = "rad/s" }
-[parameters]
-at = { value = 40, min = 0, max = 360 }
-[frame]
-O = [0, 0]
-Q = [100, 0]
-[links.1]
-O-A = 30
-[links.2]
-A-B = 100
-[links.3]
-Q-B = 30
-[[drivers]]
-turn = 1
-angle = "at"
-speed = 10
-[branches]
-B = "left of A-Q"
-"""
-    from graphkin.mechanism import Mechanism
-    from graphkin.scene.read_scene import read_text
-
+    text = scene_text("construction/parallelogram-on-its-line")
     upper = Mechanism(read_text(text, "parallelogram"))
     lower = Mechanism(read_text(text.replace("left of", "right of"), "parallelogram"))
     one, other = (m.batch(at=angles, kind=kind).links["3"].omega for m in (upper, lower))

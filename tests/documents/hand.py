@@ -14,12 +14,7 @@ from tests.documents.ruler_and_compass import APART, Circle, DefectError, Line, 
 
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
 
-SIDES = {
-    "to the right of": 1,
-    "to the left of": -1,
-    "above": 1j,
-    "below": -1j,
-}
+SIDES = {"to the right of": 1, "to the left of": -1, "above": 1j, "below": -1j}
 WAYS = {"to the right": 1, "to the left": -1, "upwards": 1j, "downwards": -1j}
 GLOSS = re.compile(rf" ?\(({NAME}) is the point of link [^)]* coincident with ({NAME})\)")
 POLE_GLOSS = re.compile(rf" ?\(({NAME}) is the image of ({NAME}), for ({NAME}) is the pole\)")

@@ -32,14 +32,7 @@ from tests.documents.printed_sheet import (
     printed,
 )
 from tests.documents.reader_rules import SET, agrees, factored, says, times
-from tests.documents.ruler_and_compass import (
-    Circle,
-    DefectError,
-    Line,
-    cross,
-    crossings,
-    dot,
-)
+from tests.documents.ruler_and_compass import Circle, DefectError, Line, cross, crossings, dot
 from tests.documents.trial_reader import Trials
 
 STEPS = 14_400
@@ -67,16 +60,7 @@ class Reader(Trials):
         r"through ⟨p⟩ draw the line at (?:φ(?:_\{.*?\})? = )?(?P<angle>φ(?:_\{.*?\})?|⟨n:number⟩°)"
         "(?P<against> to ⟨a⟩⟨b⟩)?(?P<beyond> produced)?"
     )
-    def draw_ray(
-        self,
-        p: str,
-        angle: str,
-        n: str | None,
-        against: str | None,
-        a: str,
-        b: str,
-        beyond: str | None,
-    ) -> None:
+    def draw_ray(self, p, angle, n, against, a, b, beyond):
         along = cmath.rect(1, self.angle(angle))
         if against:
             other = a if b == p else b
@@ -470,17 +454,7 @@ class Reader(Trials):
         r"(?:, for link ⟨k:number⟩ has turned by ⟨since:number⟩° since the start"
         r"|, as (?P<why>[^:;]*))?: ⟨name⟩"
     )
-    def at_angle(
-        self,
-        p: str,
-        s: str,
-        t: str,
-        angle: str,
-        name: str,
-        k: str,
-        since: str | None,
-        why: str | None,
-    ) -> None:
+    def at_angle(self, p, s, t, angle, name, k, since, why):
         along = cmath.rect(1, math.radians(number(angle)))
         if why == "was found" or (why and "has turned" in why):
             along = cmath.rect(1, self.turned(cmath.phase(along)))
@@ -642,21 +616,7 @@ class Reader(Trials):
         "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = ⟨v:vector⟩ ⊥ ⟨p⟩⟨q⟩, ⟨drawn:number⟩ mm, in the sense "
         "of ⟨w:turning⟩",
     )
-    def turned_velocity(
-        self,
-        s: str,
-        s2: str,
-        name: str,
-        v: str,
-        p: str,
-        q: str,
-        w: str,
-        drawn: str | None = None,
-        p2: str = "",
-        q2: str = "",
-        m: str | None = None,
-        same: str | None = None,
-    ) -> None:
+    def turned_velocity(self, s, s2, name, v, p, q, w, drawn=None, p2="", q2="", m=None, same=None):
         bar = self.at(q) - self.at(p)
         size = number(drawn) if drawn else number(m or "1") * abs(self.at(q2) - self.at(p2))
         agrees(size, same)
@@ -802,22 +762,7 @@ class Reader(Trials):
         "(?:(?:⟨times:number⟩ times )?as long as ⟨m⟩⟨n⟩ is drawn(?:: ⟨same:number⟩ mm)?|"
         "⟨drawn:number⟩ mm)"
     )
-    def centripetal(
-        self,
-        s: str,
-        s2: str,
-        name: str,
-        v: str,
-        p: str,
-        q: str,
-        q2: str,
-        p2: str,
-        m: str | None,
-        n: str | None,
-        drawn: str | None,
-        times: str | None,
-        same: str | None,
-    ) -> None:
+    def centripetal(self, s, s2, name, v, p, q, q2, p2, m, n, drawn, times, same):
         inward = self.at(p2) - self.at(q2)
         bar = abs(self.at(n) - self.at(m)) if m and n else 0.0
         size = number(drawn) if drawn else number(times or "1") * bar

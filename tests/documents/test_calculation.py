@@ -20,8 +20,9 @@ from graphkin.documents.calculation import (
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import LANGUAGES, words
-from tests.chosen import CHOSEN
+from tests.chosen import CHOSEN, HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import (
     OTHERS,
@@ -33,6 +34,7 @@ from tests.documents.sheet_tools import (
     texts,
 )
 from tests.mechanisms import SHIPPED, mechanism_of
+from tests.scene_files import scene_text
 
 WHICH = [(lab, n, language) for lab in SHIPPED for n in (7, 30) for language in ("en", "ro")]
 WHICH += [(name, None, "en") for name in (*OTHERS, *CHOSEN)]
@@ -96,54 +98,12 @@ def test_the_figures_of_every_relation_give_its_result_to_the_last_digit(which):
     assert not wrong or name in ROUGH, "\n".join(wrong)
 
 
-ELBOWS = """
-[frame]
-A = [0, 0]
-B = [0.4, 0]
-C = [0.2, 0.35]
-[links.1]
-A-M = 0.12
-[links.2]
-M-D = 0.11
-[links.3]
-B-N = 0.12
-[links.4]
-N-E = 0.11
-[links.5]
-C-P = 0.12
-[links.6]
-P-F = 0.11
-[links.7]
-D-E = 0.12
-D-F = 0.11
-E-F = 0.10
-F = "left of D-E"
-[[drivers]]
-turn = 2
-against = 1
-angle = 77
-speed = 1.5
-[[drivers]]
-turn = 4
-against = 3
-angle = 85
-speed = -1
-[[drivers]]
-turn = 6
-against = 5
-angle = 69
-speed = 0.5
-[branches]
-1 = "closure 1"
-[ask]
-velocity = ["D"]
-acceleration = ["D"]
-"""
-
-
 def test_what_two_trial_plans_miss_of_a_driver_between_moving_links_is_reckoned_in_figures():
     """A plate on three legs, the elbow of each driven (3-RRR): ω or ε found, less what is given."""
-    mechanism, verdict = mechanism_of(ELBOWS), Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
+    mechanism, verdict = (
+        mechanism_of(scene_text("construction/elbows")),
+        Verdict(True, 0.0, "", 0.0, 0.0, 0.0),
+    )
     pages = calculation(drawings_of(mechanism, verdict, words("en")), "key")
     found = equations(pages)
     gaps = [each for each in found if re.search(r"[\d)] − ", each[1]) and each[2].endswith("rad/s")]
@@ -272,3 +232,46 @@ def test_nothing_of_accelerations_is_told_where_no_plan_of_them_is_drawn(name, d
     told = {relation.left for _, several in found for relation in several}
     assert ("*k*_a" in told) is drawn
     assert ("*a*_{A}" in told) is drawn
+
+
+# --- in its order --------------------------------------------------------------------------------
+
+SYMBOL = re.compile(r"\*[vaωελ]\*(?:_(?:\{[^}]*\}|\w))?(?:\^\{?[νταcr]\}?)?")
+"""A velocity, an acceleration, a rate, or the ratio of two trial plans."""
+
+
+def symbols(markup):
+    """The vectors and rates of a formula."""
+    return {
+        m[0] for m in SYMBOL.finditer(markup) if not markup[m.end() :].startswith(("^1", "^{1"))
+    }
+
+
+@pytest.mark.parametrize("name", HALVES[1])
+def test_what_a_relation_uses_is_found_before_it_and_no_rate_enters_a_plan_in_degrees(name):
+    whole = [r for _, section in relations(drawings(name)) for r in section if r.result]
+    late = []
+    for place, relation in enumerate(whole):
+        known = {r.left for r in whole[:place]}
+        later = {r.left for r in whole[place + 1 :]}
+        used = symbols(relation.symbols) - {relation.left}
+        late += [(relation.left, name) for name in used & later - known]
+        assert "deg" not in relation.unit
+        if relation.unit.startswith("°/s"):
+            assert any(r.left == relation.left and r.unit.startswith("rad/s") for r in whole)
+    assert not late
+
+
+@pytest.mark.parametrize("name", HALVES[1])
+def test_what_is_read_off_a_plan_is_the_motion(name):
+    """To a twentieth of a millimetre of the plan, and to the three digits that a ruler gives."""
+    both, compared = drawings(name), 0
+    for drawing in both:
+        told = {r.left: r.result for _, some in relations(both) for r in some if r.result}
+        scale = drawing.scales.kv if drawing.kind == "velocity" else drawing.scales.ka
+        for (what, of), number in drawing.trace.program.targets.items():
+            printed = told.get(symbol(f"{drawing.vector.letter}_{of}"))
+            if what == drawing.kind and printed and number in drawing.trace.values:
+                size, compared = abs(drawing.trace.values[number]), compared + 1
+                assert value_of(printed) == pytest.approx(size, rel=5e-3, abs=6e-5 * scale), of
+    assert compared

@@ -41,8 +41,7 @@ def by_formula(how: str, **known: float) -> float:
     return float(eval(text, {"__builtins__": {}, "cos": cos, "sin": sin}, known))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", LEVERS)
+@pytest.mark.parametrize(("name", "language"), [*zip(LEVERS, LANGUAGES, strict=True)])
 def test_the_radius_under_a_lever_is_what_its_formula_gives(name, language):
     drawing, centre, how = told(name, language)
     cam, spot, values = drawing.scene.cams[centre.follower], drawing.standing.spot, drawing.trace
@@ -58,8 +57,7 @@ def test_the_radius_under_a_lever_is_what_its_formula_gives(name, language):
     assert b + (pole - b) / abs(pole - b) * found == pytest.approx(k, abs=1e-9)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", GUIDED)
+@pytest.mark.parametrize(("name", "language"), [*zip(GUIDED, LANGUAGES, strict=True)])
 def test_the_radius_under_a_guided_tip_is_what_its_formula_gives(name, language):
     drawing, centre, how = told(name, language)
     cam, spot, values = drawing.scene.cams[centre.follower], drawing.standing.spot, drawing.trace

@@ -1,17 +1,16 @@
 """Sentences know the names whose symbols they say, as one finds them by reading their text."""
 
 import re
+from itertools import cycle
 
 import pytest
 
-import graphkin
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.documents.scaling import shown
 from graphkin.documents.sentences import unexplained
-from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.text import words
+from graphkin.text import LANGUAGES, words
 from graphkin.text.markup import AND, Markup, names_in
+from tests.documents.sheet_tools import drawings
 
 SCENES = ("pump", "rapid-return", "cylinders-two", "klein-engine", "stephenson-3", "belts-equal")
 
@@ -21,13 +20,9 @@ def read(markup: str, name: str) -> bool:
     return re.search(re.escape(symbol(name)) + r"(?![\^_])", markup) is not None
 
 
-@pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("language", ["en", "it", "ro"])
+@pytest.mark.parametrize(("name", "language"), [*zip(SCENES, cycle(LANGUAGES), strict=False)])
 def test_every_vector_that_a_sentence_says_is_among_its_names(name, language):
-    place = name if name == "pump" else f"examples/scenes/{name}.toml"
-    mechanism = graphkin.load(place)
-    verdict = proved(mechanism, shown(mechanism))
-    for drawing in drawings_of(mechanism, verdict, words(language)):
+    for drawing in drawings(name, 7 if name == "pump" else None, language):
         vectors = {v.symbol for step in drawing.trace.program.steps if (v := plan_vector(step))}
         for said in unexplained(drawing):
             found = {each for each in vectors if read(said.markup, each)}

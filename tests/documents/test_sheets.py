@@ -10,12 +10,23 @@ import pytest
 import shapely
 from shapely.geometry.base import BaseGeometry
 
+from graphkin.construction.core.component import crowded_pins
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.segments import TINY as SHORTEST
+from graphkin.construction.result_tables import turning_links, vectors
+from graphkin.documents.captions import HEADING
+from graphkin.documents.data_heading import NAME as DATA
+from graphkin.documents.detail import RADIUS
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import boards
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
+from graphkin.documents.signs import mechanism_signs, round_below, sign_of
+from graphkin.drawing.areas import AREA
+from graphkin.drawing.free_space import Space
+from graphkin.drawing.label import SMALL
+from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
+from graphkin.drawing.richtext import plain, runs
 from graphkin.drawing.style import OWN_LINES, style_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import SHORT
@@ -65,7 +76,8 @@ OFF = (0.8, 1.6)
 """Farthest a leader begins from its text, or from the corner of the box around a ring, in mm."""
 
 SHEETS = [(lab, n, kind) for lab, n in VARIANTS for kind in KINDS]
-SHEETS += [(name, None, kind) for name in (*OTHERS, *CHOSEN) for kind in kinds_of(name)]
+NAMES = (*OTHERS, *CHOSEN, "stephenson-3-crank", "watt-1")
+SHEETS += [(name, None, kind) for name in NAMES for kind in kinds_of(name)]
 
 
 @pytest.fixture(params=SHEETS, ids=named)
@@ -317,3 +329,158 @@ def solution_numbers(drawings: list[Drawing]) -> set[str]:
     printed = {words.significant(x, k) for x in numbers for k in range(3, 7) if x > 1e-9}
     printed |= {words.fixed(x, k) for x in numbers for k in (1, 2, 3)}
     return {text for text in printed if re.search(r"[1-9]\d*[.,]\d*[1-9]|[.,]\d*[1-9]", text)}
+
+
+# --- segments of the plans -----------------------------------------------------------------------
+
+LETTER = re.compile(r"\*\w+\*′?(?:_\{[^}]*\})?(?:\^\{[^}]*\})?")
+
+
+def test_every_vector_has_a_segment_whose_letters_are_drawn(page):
+    drawn_letters = {
+        symbol(name) for text in texts([page.page]) for name in text.name.split() if text.name
+    }
+    for name, segment, length, _ in vectors(page.drawing):
+        letters = LETTER.findall(segment)
+        assert len(letters) == 2 and "".join(letters) == segment, name
+        assert length < SHORTEST or drawn_letters.issuperset(letters), (name, letters)
+
+
+def test_components_that_are_laid_off_and_those_that_close_the_way_share_their_foot():
+    found = {name: segment for name, segment, *_ in vectors(drawings("crank-slot")[1])}
+    ends = {name: LETTER.findall(segment) for name, segment in found.items()}
+    assert ends["a_C2B^ν"][1] == ends["a_C2B^τ"][0] == symbol("n_C2B")
+    assert ends["a_CC2^c"][0] == ends["a_CC2^r"][1] == symbol("k_CC2")
+
+
+# --- enlarged details ----------------------------------------------------------------------------
+
+
+def circles(page):
+    """The circles of the details on a mechanism: the small ones and the large ones."""
+    marks = page.marks["mechanism"]
+    every = [m for m in marks if isinstance(m, CircleMark) and m.cls == "detail"]
+    return [m for m in every if m.r < RADIUS], [m for m in every if m.r == RADIUS]
+
+
+def test_each_small_circle_has_its_large_one_and_indices_there_can_be_read(page):
+    small, large = circles(page)
+    assert len(small) == len(large)
+    for mark in (*page.marks["mechanism"], *page.marks["plan"]):
+        if isinstance(mark, Text) and kind_of(mark) == "label" and not mark.name:
+            sizes = [run.size for run in runs(mark.markup, mark.height)]
+            assert mark.height * min(sizes) / max(sizes) > SMALL - 0.1, mark.markup
+
+
+def test_a_pin_at_which_three_triangles_meet_is_shown_enlarged():
+    page = drawn("stephenson-3-crank", None, "acceleration")
+    (pin,) = crowded_pins(page.drawing, 3)
+    small, _ = circles(page)
+    assert small
+    assert any(dist(page.layout.mechanism(pin), (m.cx, m.cy)) < m.r for m in small)
+
+
+# --- turning arrows and the bar of the plan's scale ----------------------------------------------
+
+
+def senses(page):
+    """The turning arrows of a sheet's links, each with the text that stands in it."""
+    marks = page.marks["mechanism"]
+    for i, mark in enumerate(marks):
+        if isinstance(mark, Arc) and mark.cls == f"sense {page.drawing.kind}":
+            text = next(later for later in marks[i:] if isinstance(later, Text))
+            yield mark, text
+
+
+def test_each_sense_is_that_of_the_link_that_it_names_and_touches_nothing(page):
+    marks, letter = page.marks["mechanism"], page.drawing.rate.letter
+    by_text = {symbol(f"{letter}_{link}"): link for link in page.drawing.scene.links}
+    for arc, text in senses(page):
+        rate = page.drawing.turning(by_text[text.markup])
+        assert rate is not None and (arc.end - arc.start) * rate > 0
+        disc = shapely.Point(arc.cx, arc.cy).buffer(arc.r)
+        for mark in marks:
+            if isinstance(mark, Text) and mark != text:
+                assert not disc.intersects(shapely.box(*reach(mark))), mark
+            elif isinstance(mark, LineMark) and kind_of(mark) in ("link", page.drawing.kind):
+                assert not disc.intersects(outline(mark)), mark
+
+
+def test_the_sense_of_each_link_that_the_table_has_is_on_the_mechanism(page):
+    """By its own arrow, by its driver's, or in words at the foot of the field."""
+    marks = [mark for mark in page.marks["mechanism"] if isinstance(mark, Text)]
+    told_of = {text.markup for _, text in senses(page)}
+    if page.drawing.kind == "velocity":
+        told_of |= {m.markup for m in marks if m.name.startswith("omega")}
+    words = (each for m in marks if m.name == "senses" for each in m.markup.split("; "))
+    told_of |= {each.partition(":")[0] for each in words}
+    wanted = {name for name, rate in turning_links(page.drawing) if rate}
+    assert told_of >= {symbol(f"{page.drawing.rate.letter}_{link}") for link in wanted}
+
+
+def test_the_bar_of_a_plan_is_as_long_as_it_says(page):
+    marks = [mark for mark in page.marks["plan"] if getattr(mark, "name", "") == "scale"]
+    if not marks:
+        return
+    bar = max((m for m in marks if isinstance(m, LineMark)), key=lambda m: m.x2 - m.x1)
+    numbers = [m.markup for m in marks if isinstance(m, Text)]
+    says = max(float(each) for each in numbers if re.fullmatch(r"[\d.e+-]+", each))
+    assert (bar.x2 - bar.x1) == pytest.approx(says * page.layout.plan.mm, rel=1e-6)
+
+
+def test_data_stay_clear_of_captions_and_of_the_frame(page):
+    marks = [mark for mark in page.page.marks if isinstance(mark, Text)]
+    boxes = [reach(mark) for mark in marks if mark.name == DATA]
+    heads = [reach(mark) for mark in marks if mark.name == HEADING]
+    assert max(box[2] for box in boxes) < AREA[2]
+    for box in boxes:
+        for head in heads:
+            beside = box[2] < head[0] or head[2] < box[0]
+            assert beside or box[3] < head[1] + 0.4
+
+
+@pytest.mark.parametrize(
+    ("lanes", "expected"), [(12.0, {""}), (5.0, {"senses"})], ids=["arrows", "words"]
+)
+def test_a_sense_that_finds_no_room_is_told_at_the_foot(lanes, expected):
+    """A field full of lines, so many mm apart: arrows between them, or words in the last lane."""
+    page = drawn("four-bar-crank-rocker", None, "velocity")
+    assert len(list(senses(page))) == 2
+    left, top, right, low = page.layout.mechanism.rect
+    count = int((low - top - 8) / lanes)
+    heights = (top + i * lanes for i in range(count + 1))
+    lines = [LineMark(left, height, right, height, "link") for height in heights]
+    signs = mechanism_signs(page.drawing, page.layout.mechanism, lines)
+    said = [mark for mark in signs if isinstance(mark, Text)]
+    assert {mark.name for mark in said} == expected
+    for mark in said:
+        assert not any(shapely.box(*reach(mark)).intersects(outline(line)) for line in lines)
+    if expected == {"senses"}:
+        assert [plain(m.markup) for m in said] == ["ω2: clockwise; ω3: counter-clockwise"]
+
+
+def test_a_long_letter_stands_beside_an_arrow_that_is_small():
+    """Its box is then not so high as the circle about it; that of a short letter stays one."""
+    page = drawn("four-bar-crank-rocker", None, "velocity")
+    short, long = (sign_of(page.drawing, name) for name in ("2", "connectingrod"))
+    assert short.aside == short
+    assert long.aside.half[1] < long.half[1] / 3
+    arc, _, text = long.aside.put(Space([], (0, 0, 100, 100)), (50, 50), 1.0)
+    (wide, high), (start, above, end, below) = long.aside.half, reach(text)
+    assert arc.cx - arc.r == pytest.approx(50 - wide)
+    assert arc.cx + arc.r < start and end <= 50 + wide + 0.01
+    assert 50 - high - 0.5 < above and below < 50 + high + 0.5
+
+
+def test_no_task_shows_a_sense_or_the_scale_of_its_plan():
+    for kind in kinds_of("six-bar"):
+        page = drawn("six-bar", None, kind, "task")
+        assert not list(senses(page))
+        assert not any(getattr(mark, "name", "") == "scale" for mark in page.marks["plan"])
+
+
+@pytest.mark.parametrize(
+    ("most", "value"), [(1.0, 1.0), (1.9, 1.0), (2.0, 2.0), (49.0, 20.0), (0.06, 0.05)]
+)
+def test_the_value_of_a_bar_is_the_largest_round_one(most, value):
+    assert round_below(most)[0] == pytest.approx(value)

@@ -21,10 +21,7 @@ SCENES = {
         scene_text("documents/drivers-of-every-kind"),
         {"O": 0j, "A": 40 + 0j, "B": 40 + 30j, "C": 25 + 0j, "D": 20j},
     ),
-    "gears": (
-        scene_text("documents/symbols-data-gears"),
-        {"O": 0j, "P": 80 + 0j, "B": -40j},
-    ),
+    "gears": (scene_text("documents/symbols-data-gears"), {"O": 0j, "P": 80 + 0j, "B": -40j}),
 }
 
 
@@ -32,12 +29,7 @@ def said(name: str, language: str = "en") -> list[str]:
     """The data of a scene as plain text."""
     drawing = made_up(*SCENES[name])
     spoken = Drawing(
-        drawing.kind,
-        drawing.scene,
-        drawing.trace,
-        drawing.scales,
-        drawing.verdict,
-        words(language),
+        drawing.kind, drawing.scene, drawing.trace, drawing.scales, drawing.verdict, words(language)
     )
     return [plain(piece) for piece in given(spoken)]
 

@@ -197,18 +197,7 @@ class Trials(Hand):
         "ratio of the gaps), ⟨x⟩⟨c⟩ : ⟨c2⟩⟨y⟩ = ⟨m:number⟩ : ⟨n:number⟩(?: as measured)?"
         "(?P<beyond>, on the line produced beyond ⟨z⟩)?: (?P<names>[^;]*)"
     )
-    def divide(
-        self,
-        x: str,
-        c: str,
-        y: str,
-        m: str,
-        n: str,
-        beyond: str | None,
-        z: str,
-        names: str,
-        **_: str,
-    ) -> None:
+    def divide(self, x, c, y, m, n, beyond, z, names, **_):
         first, second = self.at(x), self.at(y)
         if self.gaps is None:
             way = self.at(c) - first

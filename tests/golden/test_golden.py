@@ -7,7 +7,7 @@ import pytest
 from tests.golden.kept import STORE, changed, differences, kept, read
 from tests.golden.works import CLASSES, SCENES, outputs, works
 
-PERIODS = {"html": 60, "sheet small": 15, "check small": 4, "mistake": 2}
+PERIODS = {"html": 60, "sheet small": 15, "check small": 4, "mistake": 1}
 """Of how many subjects one is tried with a work that makes a page, and with small scenes."""
 OTHERS = 30
 """The same of all other works."""

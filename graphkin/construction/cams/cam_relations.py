@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator
 
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.drawn_scene import Drawing
@@ -15,9 +15,9 @@ POLES = tuple("PSTUVWXYZ") + tuple(f"P{k}" for k in range(1000))
 """What the point may be called in which a cam and its follower move alike."""
 
 
-def of_cams(drawing: Drawing, used: Sequence[str]) -> Iterator[Relation]:
+def of_cams(drawing: Drawing, used: Container[tuple[str, str]] = ()) -> Iterator[Relation]:
     """The displacement of each follower and its derivatives, how the centre of curvature follows
-    from them, and how far that lies from the pivot of its cam, where a formula ``used`` needs it.
+    from them, and how far that lies from the pivot of its cam, where this length is ``used``.
     """
     for centre in constructions(drawing.trace.program, CurvatureCentre):
         if centre.point in drawing.trace.values:
@@ -26,8 +26,7 @@ def of_cams(drawing: Drawing, used: Sequence[str]) -> Iterator[Relation]:
             if how:
                 first, *more = words_of(how)
                 yield Relation(first, more=tuple(more))
-            line = bar(centre.start, centre.name)
-            if any(line in formula for formula in used):
+            if (centre.start, centre.name) in used:
                 yield of_distance(drawing, centre)
 
 
@@ -82,4 +81,5 @@ def of_distance(drawing: Drawing, centre: CurvatureCentre) -> Relation:
     size = drawing.on_paper(length_of(drawing, centre.start, centre.name))
     told = reading(size).times(drawing, drawing.scales.kL / 1000)
     remark = drawing.words("calculation.measured")
-    return Relation(bar(centre.start, centre.name), "", *told, "m", remark)
+    ends = centre.start, centre.name
+    return Relation(bar(*ends), "", *told, "m", remark, over=(ends,))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import partial
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
@@ -40,8 +41,8 @@ KV, KA = "(m/s)/mm", "(m/s^2)/mm"
 """Units of the scale factors of plans."""
 
 
-def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
-    """Position and speed from the parameters, angular velocity, speed of the driven pin."""
+def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterator[Relation]:
+    """Position and speed from the parameters, angular velocity, motion of the driven pin."""
     words, scene = drawing.words, drawing.scene
     index = f"_{{{driver_index(driver)}}}"
     rate = "*ε*" if driver.kind == "turn" else "*a*"
@@ -85,7 +86,7 @@ def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Relation]:
         yield in_radians(drawing, f"*ε*{index}", driver.acceleration, "rad/s^2")
     if driver.against == FRAME:
         for p, q in driven_bars(drawing, driver):
-            yield from of_pin(drawing, driver, p, q)
+            yield from of_pin(drawing, driver, p, q, accelerated=accelerated)
     if drawing.kind == "velocity":
         yield from of_sum(drawing, driver)
 
@@ -115,7 +116,9 @@ def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
             yield kind.p, kind.q
 
 
-def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relation]:
+def of_pin(
+    drawing: Drawing, driver: Driver, p: str, q: str, *, accelerated: bool
+) -> Iterator[Relation]:
     """Velocity of a driven pin, its normal acceleration, and the tangential one if there is any."""
     index, words = f"_{{{escape(driver.link)}}}", drawing.words
     omega, epsilon = (
@@ -126,25 +129,26 @@ def of_pin(drawing: Drawing, driver: Driver, p: str, q: str) -> Iterator[Relatio
     bar_length, w = figure(drawing, length), figure(drawing, omega, OMEGA)
     line = bar(p, q)
     speed = answer(drawing, omega * length)
-    yield Relation(
-        symbol(f"v_{q}"), f"*ω*{index}·{line}", f"{w}·{bar_length}", speed, "m/s", f"⊥ {line}"
-    )
-    yield Relation(
-        symbol(f"a_{q}" if steady else f"a_{q}^ν"),
-        f"*ω*{index}^2·{line}",
-        f"{squared(w)}·{bar_length}",
-        answer(drawing, omega * omega * length),
-        "m/s^2",
-        words("calculation.towards", p=symbol(p), q=symbol(q)),
-    )
-    if not steady:
-        yield Relation(
+    laid = partial(Relation, over=((p, q),))
+    square = f"⊥ {line}"
+    yield laid(symbol(f"v_{q}"), f"*ω*{index}·{line}", f"{w}·{bar_length}", speed, "m/s", square)
+    if accelerated:
+        yield laid(
+            symbol(f"a_{q}" if steady else f"a_{q}^ν"),
+            f"*ω*{index}^2·{line}",
+            f"{squared(w)}·{bar_length}",
+            answer(drawing, omega * omega * length),
+            "m/s^2",
+            words("calculation.towards", p=symbol(p), q=symbol(q)),
+        )
+    if accelerated and not steady:
+        yield laid(
             symbol(f"a_{q}^τ"),
             f"*ε*{index}·{line}",
             f"{figure(drawing, epsilon)}·{bar_length}",
             answer(drawing, epsilon * length),
             "m/s^2",
-            f"⊥ {line}",
+            square,
         )
 
 

@@ -22,7 +22,7 @@ from graphkin.construction.tape.traced import TracedNumber, UntraceableError
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind, pick
 from graphkin.numbers.plane import Ratio
-from tests.chosen import HALVES
+from tests.chosen import EVERY, HALVES
 
 SCENES = Path(__file__).resolve().parents[3] / "examples" / "scenes"
 HAS_NUMBA = importlib.util.find_spec("numba") is not None
@@ -63,11 +63,7 @@ def case(tmp_path: Path, name: str) -> tuple[Mechanism, dict[str, np.ndarray]]:
 
 
 def both(
-    mechanism: Mechanism,
-    arrays: dict[str, np.ndarray],
-    *,
-    way: str,
-    margins: bool = False,
+    mechanism: Mechanism, arrays: dict[str, np.ndarray], *, way: str, margins: bool = False
 ) -> tuple[list[tuple[int, np.ndarray]], list[tuple[int, np.ndarray]]]:
     """All values, and margins, of the emitted run and of the plain one, as real columns."""
     program, values = mechanism.program, {**mechanism.scene.values, **arrays}
@@ -148,7 +144,7 @@ def peak(values: object, where: np.ndarray) -> float:
     return float(np.max(np.broadcast_to(np.abs(values), where.shape), where=where, initial=0))
 
 
-@pytest.mark.parametrize("name", HALVES[1])
+@pytest.mark.parametrize("name", HALVES[1][:: 1 if EVERY else 2])
 def test_a_scene_that_can_be_followed_runs_the_same_by_source(name):
     """Driven by arrays of positions, as a cycle is; a group that is closed by iteration cannot."""
     mechanism = load(SCENES / f"{name}.toml")
@@ -192,7 +188,7 @@ def test_what_cannot_be_drawn_is_nan_in_both(tmp_path, way):
         assert np.all(same), mechanism.program.steps[number]
 
 
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("way", WAYS if EVERY else WAYS[:1])
 def test_a_value_given_as_an_array_takes_the_place_of_a_step(way):
     mechanism = load("pump")
     program = mechanism.program
