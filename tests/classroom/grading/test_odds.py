@@ -41,7 +41,7 @@ ORDINARY = Kind("ordinary", (0.5, 0.5), digits=3)
 WEAK = Kind("weak", (0.5, 0.5), step=1, digits=2)
 COMPUTED = Kind("computed", (0.0, 0.02), step=0.1)
 KINDS = (FINE, ORDINARY, WEAK, COMPUTED) if EVERY else (ORDINARY, WEAK)
-EACH = 12 if EVERY else 10
+EACH = 12 if EVERY else 8
 SLIPS = (None, *hand.SLIPS)
 SOME = SLIPS if EVERY else (None, "wrong_scale", "normal_reversed")
 Rows = Sequence[Mapping[str, Answer]]
@@ -105,7 +105,7 @@ def test_two_honest_hands_with_one_misunderstanding_and_the_same_data(lab):
             rows = drawings(lab, kind, [(n, slip) for n in numbers], place)
             found += odds(lab, marked(lab, numbers, rows))
     assert len(found) == comb(EACH, 2) * len(KINDS) * len(SOME)
-    assert sum(each > 0 for each in found) > 50
+    assert sum(each > 0 for each in found) > 30
     assert_odds(found)
 
 
