@@ -50,8 +50,7 @@ class Form(HTMLParser):
             self.options.setdefault(list(self.fields)[-1], []).append(given["value"])
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize(("name", "language"), [*zip(LABS, LANGUAGES, strict=False)])
 def test_every_field_of_the_form_is_there_with_its_label(name, language):
     mechanism, lab = load(name), read_lab(name)
     form = Form(lab_form(mechanism, lab, words(language), WHOSE))

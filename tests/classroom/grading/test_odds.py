@@ -34,7 +34,7 @@ from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
 from tests.chosen import EVERY
 from tests.classroom.grading import hand
-from tests.classroom.grading.classes import LABS, Kind, book_of, row, written
+from tests.classroom.grading.classes import LABS, Kind, book_of, row
 
 FINE = Kind("fine", (0.25, 0.25))
 ORDINARY = Kind("ordinary", (0.5, 0.5), digits=3)
@@ -157,17 +157,6 @@ def test_who_doubles_all_values_has_three_of_another_by_chance():
         by_oneself(*pair, keys, agree, ~agree) for pair in ((one, other), (other, one))
     )
     assert doubled == pytest.approx(right, abs=0.5)
-
-
-def test_a_unit_that_is_taken_wrongly_makes_no_pair():
-    """All values a thousand times too small, in three digits, of careful hands with one number."""
-    rows = []
-    for each in drawings("slotted-lever", ORDINARY, [(9, None)] * 8, 3):
-        values = {f: a for f, a in each.items() if not f.endswith(("_mm", "_sense"))}
-        small = {f: written(f, float(a.value or 0) / 1000, 3) for f, a in values.items()}
-        rows.append({**each, **small})
-    found = odds("slotted-lever", marked("slotted-lever", [9] * 8, rows))
-    assert 0 < max(found) < 100
 
 
 def test_what_may_be_copied_of_a_form_has_a_share_that_adds_up_to_one():

@@ -15,9 +15,9 @@ from graphkin.documents.scaling import scales
 from graphkin.text.errors import GraphkinError
 from tests.classroom.lab.singles import LABS, SCENES, lab_of
 
-BY_ARRAYS = [(lab, "n", range(1, 31)) for lab in LABS] + [
-    (SCENES / "crank-slot.toml", "angle", range(0, 345, 15)),
-    (SCENES / "oscillating-slide.toml", "angle", range(0, 345, 15)),
+BY_ARRAYS = [(lab, "n", range(1, 31, 2)) for lab in LABS] + [
+    (SCENES / "crank-slot.toml", "angle", range(0, 345, 30)),
+    (SCENES / "oscillating-slide.toml", "angle", range(0, 345, 30)),
     (SCENES / "crank-rocker.toml", "n", range(0, 24, 2)),
 ]
 ONE_BY_ONE = [
