@@ -252,4 +252,4 @@ def hand(firefox: Firefox, served: Served) -> Hand:
 
 
 def test_a_slotted_lever_is_built(hand):
-    build_slotted_lever(hand, r"38|38\.5|39")
+    build_slotted_lever(hand)
