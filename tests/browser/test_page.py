@@ -132,8 +132,8 @@ def test_the_mechanism_moves_once_as_a_ghost(opened: Opened, pages: Path):
         assert (page.evaluate(ROUND) != drawn) == moves
         page.keyboard.press("ArrowRight")
         assert page.evaluate(ROUND) == drawn
-    page.reload()
     page.emulate_media(reduced_motion="reduce")
+    page.reload()
     page.keyboard.press("0")
     page.clock.run_for(600)
     assert page.evaluate(ROUND) == drawn

@@ -16,12 +16,12 @@ from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
 from graphkin.text.errors import RosterError
 
-LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
+LENGTH = Item("v_D", "segment", "v", "mm", "velocity", "D")
 SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")
 RATE = Item("omega_3", "value", "ω", "rad/s", "omega", "3")
 HARD = Item("a_D", "value", "a", "m/s²", "acceleration", "D")
-SENSE = Item("omega_3_sense", "sense", "ω", "", "omega", "3")
-SLIDING = Item("v_slide_2_sense", "sense", "v", "", "slide speed", "2")
+SENSE = Item("omega_3", "sense", "ω", "", "omega", "3")
+SLIDING = Item("v_slide_2", "sense", "v", "", "slide speed", "2")
 FORM = (LENGTH, SPEED, RATE, SENSE)
 IDS = ("001", "002", "ĂÎ-3")
 NUMBERS = (

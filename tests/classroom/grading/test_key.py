@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import mpmath
 import numpy as np
 import pytest
@@ -9,12 +11,14 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.grading.graded import Status
 from graphkin.classroom.grading.marking import sense_is_open
 from graphkin.classroom.grading.tolerance import FINE, added, joint_drawings
 from tests.classroom.grading.students import (
     LABS,
     book_of,
     drawn,
+    given,
     key_answers,
     lab_of,
     marker_of,
@@ -36,6 +40,21 @@ def test_the_key_earns_all_points_in_every_variant(name):
         assert graded.earned == graded.points > 0, [
             (m.item.field, m.status) for m in graded.marks if m.earned < m.points
         ]
+
+
+def test_where_no_drawing_tells_a_sense_both_are_right():
+    """A rate that is nought within what a pencil makes of it turns either way."""
+    tried = 0
+    for name, n in product(LABS, VARIANTS):
+        marker = marker_of(name, n)
+        key = marker.standard.key
+        for field in (f for f in key if f.endswith("_sense")):
+            off, rate = {field: -key[field]}, field.removesuffix("_sense")
+            if abs(key[rate]) <= 0.9 * marker.standard.tolerance[rate].pencil:
+                mark = marker.mark(taker(n), key_answers(marker.standard) | given(off)).mark(field)
+                assert mark.status is Status.RIGHT, (name, n, field)
+                tried += 1
+    assert tried > 5
 
 
 def chances(name: str, pencil: float) -> dict[str, list[float]]:

@@ -61,5 +61,5 @@ def test_the_words_of_the_feedback_may_be_written_on_the_form():
     [("omega", "orar", -1), ("epsilon", "orar", -1), ("slide speed", "avanti", 1)],
 )
 def test_a_field_is_read_by_what_it_is_the_sense_of(quantity, text, value):
-    item = Item("x_sense", "sense", "x", "", quantity, "2")
+    item = Item("x", "sense", "x", "", quantity, "2")
     assert read_answer(text, item).value == value
