@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 from click.testing import CliRunner
 
+from graphkin.classroom.lab.asking import asked_of
 from graphkin.classroom.lab.items import all_fields, items
 from graphkin.classroom.lab.lab_model import Fair, Formula, Range, Ranges, Rubric
 from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
@@ -182,6 +183,28 @@ def test_every_field_of_a_scene_is_plain_ascii_and_unique():
         for field, item in fields.items():
             assert field == item.field
             assert field.isascii() and field.isidentifier()
+
+
+POINTS = {"a_D_mm": Fraction(3), "a_D": Fraction(1), "epsilon_2": Fraction(3, 2)}
+
+
+def fields(points: dict[str, Fraction], compute: tuple[str, ...]) -> dict[str, Fraction | None]:
+    """The fields of the pump's form, and what they are worth."""
+    form, worths = asked_of(items(load("pump"), read_lab("pump")), points, compute)
+    return {item.field: worths.get(item.field) for item in form}
+
+
+def test_the_points_of_a_short_segment_go_to_the_value_that_is_computed():
+    found = fields(POINTS, ("a_D_mm", "a_D"))
+    assert "a_D_mm" not in found
+    assert found["a_D"] == 4
+
+
+def test_a_short_segment_whose_value_earns_nothing_stays():
+    """Else the student would be asked for nothing that earns its points."""
+    points = {"a_D_mm": Fraction(3)}
+    found = fields(points, ("a_D_mm", "a_D"))
+    assert found["a_D_mm"] == 3
 
 
 @pytest.mark.parametrize("formula", ["n", "nubmer", "2*nr", "x + y"])
