@@ -23,9 +23,10 @@ from graphkin.classroom.grading.answer_numbers import (
     UNITS,
 )
 from graphkin.classroom.lab.items import items as fields_of
+from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import advice, why
-from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS, VECTORS
+from graphkin.construction.core.quantities import BY_TARGET, RATES, SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import part
@@ -92,7 +93,7 @@ def form_fragment(
     """
     sheets = []
     for sheet in SHEETS:
-        alike = groupby((item for item in items if sheet_of(item) == sheet), kind_of)
+        alike = groupby((item for item in items if motion_of(item).kind == sheet), kind_of)
         groups = [
             [field(item, points.get(item.field), item.field in compute, words) for item in own]
             for _, own in alike
@@ -124,13 +125,6 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "sense": words("table.sense"),
         "words": {key.partition(".")[2]: words.sentences[key] for key in SAID},
     }
-
-
-def sheet_of(item: Item) -> str:
-    """The sheet off which an item is read; for an arrow that of its plan."""
-    if item.vector is None:
-        return BY_TARGET[item.quantity].kind
-    return next(each.kind for each in VECTORS if each.letter == item.vector.letter)
 
 
 def kind_of(item: Item) -> tuple[str, str]:

@@ -208,14 +208,15 @@ PAINTED = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame
 @pytest.fixture(scope="module")
 def kept(chromium: Any, tabs: dict[str, Tab]) -> Iterator[Opened]:
     """Open a page once for all tests of a module: kept(path, "#step=3"), where each begins anew."""
-    there: dict[Path, Any] = {}
+    there: dict[str, Any] = {}
     with watched(chromium, tabs, ("file:", "blob:", "data:"), ("error",)) as page:
 
         def led(path: Path, place: str = "#step=0", **options: Any) -> Any:
-            shown = there.get(path)
-            if shown is None:
-                there[path] = shown = page(path.as_uri() + place, **options)
-                return shown
+            key = repr((path, options))
+            if key not in there:
+                there[key] = page(path.as_uri() + place, **options)
+                return there[key]
+            shown = there[key]
             shown.emulate_media(media="null")
             shown.mouse.move(0, 0)
             for script, told in ((ANEW, None), (LED, place)):

@@ -25,20 +25,13 @@ from tests.classroom.grading.students import book_of
 from tests.running import Run
 
 ROSTER = 'Nr.;Matricol;Nume;Grupa\n7;0042;Ștefănescu Ana;A\n9;0043;"O\'Neil, Jr. Pat";A\n'
-LABS = ("pump", "slotted-lever")
 FIELD = "#answer-{}"
-
-
-@pytest.fixture(scope="module", params=["slotted-lever"])
-def any_folder(request, tmp_path_factory) -> Path:
-    """A class folder of two students with their task pages, one for each lab."""
-    return class_folder(request.param, tmp_path_factory.mktemp(request.param))
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory) -> Path:
-    """The class folder of the pump."""
-    return class_folder("pump", tmp_path_factory.mktemp("pump"))
+    """A class folder of two students with their task pages."""
+    return class_folder("slotted-lever", tmp_path_factory.mktemp("form"))
 
 
 def class_folder(name: str, place: Path) -> Path:
@@ -100,28 +93,28 @@ def cells(path: Path, separator: str) -> dict[str, str]:
 
 def test_the_key_filled_in_saved_and_graded_earns_every_point(
     opened: Opened,
-    any_folder: Path,
+    folder: Path,
     run: Run,
     tmp_path: Path,
 ):
-    page = opened(page_of(any_folder))
-    fill(page, key_of(any_folder))
+    page = opened(page_of(folder))
+    fill(page, key_of(folder))
     answers = tmp_path / "answers"
     answers.mkdir()
     path = save(page, answers)
     assert path.name == "0042-answers.csv"
     assert path.read_bytes().startswith(b"field;value\r\nid;0042\r\n")
-    result = run("grade", any_folder, answers, "-o", tmp_path / "report", "--format", "none")
+    result = run("grade", folder, answers, "-o", tmp_path / "report", "--format", "none")
     assert result.exit_code == 0, result.output
     with (tmp_path / "report" / "marks.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["id"]: row for row in csv.DictReader(file)}
     assert rows["0042"]["percent"] in ("100", "100.0", "100.00"), rows["0042"]
 
 
-def test_it_can_be_filled_in_and_saved_by_keys_alone(opened: Opened, any_folder: Path):
-    page = opened(page_of(any_folder))
+def test_it_can_be_filled_in_and_saved_by_keys_alone(opened: Opened, folder: Path):
+    page = opened(page_of(folder))
     names = [f.get_attribute("name") for f in page.locator("form.answers [name]").all()]
-    key, seen = key_of(any_folder), []
+    key, seen = key_of(folder), []
     for _ in range(500):
         page.keyboard.press("Tab")
         name = page.evaluate("document.activeElement.name || ''")
@@ -164,8 +157,8 @@ def test_a_saved_file_is_opened_to_go_on(
 
 
 OTHERS = {
-    "field,value\nid,0043\nomega_2,1\n": "0043",
-    "id;omega_2\n0042;1\n": "nu este un fișier",
+    "field,value\nid,0043\nomega_3,1\n": "0043",
+    "id;omega_3\n0042;1\n": "nu este un fișier",
     "": "nu este un fișier",
     "field;value\nid;0042\nomega_9;1\n": "nu este un fișier",
 }

@@ -63,21 +63,18 @@ def dragged(page: Any, name: str, across: float, down: float) -> None:
 def test_a_pin_goes_along_its_way_to_where_it_is_led(kept: Opened, pump: Path):
     page = kept(pump, "#step=9", **DESKTOP)
     before = page.evaluate(DRIVER)
+    dragged(page, "A", 10, 10)
+    first = page.evaluate(FRAMES)
+    for across, down in ((20, 30), (5, 25), (-20, 30)):  # scale and frame stay
+        dragged(page, "A", across, down)
+        assert page.evaluate(FRAMES) == first
+    page.locator("#back").click()
     dragged(page, "C", 40, 30)
     page.clock.run_for(500)
     assert abs(page.evaluate(DRIVER) - before) > 3
     assert page.locator("#driven").inner_text() != "44.0°"
     page.locator("#back").click()
     assert page.evaluate(DRIVER) == before
-
-
-def test_scale_and_frame_stay_while_a_pin_is_dragged(kept: Opened, pump: Path):
-    page = kept(pump, "#step=9", **DESKTOP)
-    dragged(page, "A", 10, 10)
-    first = page.evaluate(FRAMES)
-    for across, down in ((20, 30), (5, 25), (-20, 30)):
-        dragged(page, "A", across, down)
-        assert page.evaluate(FRAMES) == first
 
 
 def test_a_pin_moves_by_keys_and_the_motion_plays(kept: Opened, pump: Path):
@@ -136,12 +133,7 @@ def test_the_wheel_and_keys_zoom_and_a_double_click_restores(opened: Opened, pum
     page.keyboard.press("+")
     page.clock.run_for(100)
     assert page.evaluate(FRAMES) != drawn
-
-
-def test_marks_are_reached_by_keys(kept: Opened, pump: Path):
-    page = kept(pump, "#step=9", **DESKTOP)
-    page.locator("#sheet-0 .view > svg").nth(1).focus()
-    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowDown")  # marks are reached by keys
     assert page.locator("#pointed").inner_text()
     page.keyboard.press("Enter")
     assert page.locator("#count").inner_text() != "Step 9 of 42"
@@ -183,12 +175,13 @@ LEAPT = {"gears-ring": 2058, "pump": 973, "stephenson-3": 1167}
 def test_labels_neither_leap_nor_lie_on_one_another_while_all_moves(
     opened: Opened, tmp_path: Path, name: str
 ):
-    """At most 1 % of the leaps that there were."""
+    """At most 1 % of the leaps that there were; over a third of the range, or all of it."""
     path = tmp_path / f"{name}.html"
     path.write_text(page_of(name), encoding="utf-8")
     page = opened(path, **DESKTOP | {"stopped": False})
-    found = counted(page, path)
-    assert found["leaps"] <= 0.01 * LEAPT[name]
+    part = 1.0 if EVERY else 0.34
+    found = counted(page, path, part)
+    assert found["leaps"] <= 0.01 * LEAPT[name] * part
     assert found["overlapping"] <= 0.02 * found["positions"]
     assert found["faded"] < 0.1 * found["shown"]
     assert page.evaluate(HUSHED) == "0"

@@ -115,7 +115,8 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     assert not page.is_visible("#old")
 
 
-def test_a_slider_moves_drawings_and_numbers(studio):
+def test_a_slider_moves_drawings_and_numbers_and_each_drawing_is_saved(studio, tmp_path):
+    """A saved file looks the same alone; many quick moves end at the last."""
     page = studio()
     before = page.inner_html("#velocity .drawing svg")
     slider = page.get_by_label("n", exact=True)
@@ -138,10 +139,6 @@ def test_a_slider_moves_drawings_and_numbers(studio):
     answered(page, lambda: page.click("#reset"))
     assert page.input_value("#value-n") == "7"
     assert page.inner_html("#velocity .drawing svg") == before
-
-
-def test_each_drawing_is_saved_as_a_file_that_looks_the_same_alone(studio, tmp_path):
-    page = studio()
     other = page.context.browser.new_page()
     strokes = (
         "(svg) => [...svg.querySelectorAll('path, line, circle, text')].map((each) => {"
@@ -161,10 +158,6 @@ def test_each_drawing_is_saved_as_a_file_that_looks_the_same_alone(studio, tmp_p
         other.goto(file.as_uri())
         assert other.eval_on_selector("svg", strokes) == here
     other.close()
-
-
-def test_many_quick_moves_end_at_the_last(studio, served):
-    page = studio()
     with heard(page, "request") as asked:
         answered(
             page,
@@ -178,24 +171,6 @@ def test_many_quick_moves_end_at_the_last(studio, served):
     assert page.input_value("#value-n") == "20"
     velocity = abs(load("pump", n=20).solve().points["D"].velocity)
     assert speed_of_d(page) == pytest.approx(velocity, rel=1e-3)
-
-
-def test_values_go_into_the_text_and_back_by_undo(studio):
-    page = studio()
-    page.fill("#value-n", "12")
-    answered(page, lambda: page.press("#value-n", "Enter"))
-    answered(page, lambda: page.click("#write"))
-    assert "n = { value = 12, min = 1" in page.input_value("#text")
-    assert page.is_disabled("#reset")
-    answered(page, lambda: page.keyboard.press("Control+z"))
-    assert page.input_value("#text") == PUMP
-    assert page.input_value("#value-n") == "12"
-    answered(page, lambda: page.keyboard.press("Control+z"))
-    assert page.input_value("#value-n") == "7"
-    answered(page, lambda: page.keyboard.press("Control+Shift+z"))
-    assert page.input_value("#value-n") == "12"
-    answered(page, lambda: page.keyboard.press("Control+y"))
-    assert "n = { value = 12, min = 1" in page.input_value("#text")
 
 
 def test_one_history_holds_typing_sliders_and_acts_in_their_order(studio):
@@ -223,6 +198,17 @@ def test_one_history_holds_typing_sliders_and_acts_in_their_order(studio):
         page.click("#redo")
     until(page, "document.querySelector('#value-n').value === '8'")
     assert page.input_value("#text") == built
+    answered(page, lambda: page.click("#write"))
+    assert "n = { value = 8, min = 1" in page.input_value("#text")
+    assert page.is_disabled("#reset")
+    page.focus("#text")
+    answered(page, lambda: page.keyboard.press("Control+z"))
+    assert (page.input_value("#text"), page.input_value("#value-n")) == (built, "8")
+    answered(page, lambda: page.keyboard.press("Control+Shift+z"))
+    assert "n = { value = 8, min = 1" in page.input_value("#text")
+    answered(page, lambda: page.keyboard.press("Control+z"))
+    answered(page, lambda: page.keyboard.press("Control+y"))
+    assert "n = { value = 8, min = 1" in page.input_value("#text")
 
 
 def test_a_scene_is_saved_where_it_was_opened_and_no_other_is_replaced_unasked(studio, place):
@@ -246,6 +232,12 @@ def test_a_scene_is_saved_where_it_was_opened_and_no_other_is_replaced_unasked(s
     said(page, "Saved: other.toml")
     assert page.input_value("#file") == "other.toml"
     assert "C-D = 22" in (place / "other.toml").read_text(encoding="utf-8")
+    (place / "other.toml").unlink()
+    page.fill("#text", page.input_value("#text") + "# more\n")
+    page.locator("#status.poor", has_text="is not on the disk any more").wait_for()
+    page.click("#save")
+    said(page, "Saved: other.toml")
+    assert (place / "other.toml").read_text(encoding="utf-8").endswith("# more\n")
 
 
 def moved(page: Any, value: str) -> None:
@@ -414,7 +406,7 @@ def test_axe_finds_nothing_against_the_page(studio):
     assert not barred(page)
     page.keyboard.press("Escape")
     page.click("#sheets")
-    assert not barred(page)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
 def test_the_mechanism_is_moved_within_the_page(studio):
@@ -471,14 +463,3 @@ def test_what_is_written_is_completed_and_mended(studio):
         "all => new Set(all.map((each) => getComputedStyle(each).color)).size"
     )
     assert colours > 3
-
-
-def test_a_scene_that_is_gone_from_the_disk_can_be_saved_anew(studio, place):
-    page = studio()
-    text = page.input_value("#text")
-    (place / "mine.toml").unlink()
-    page.fill("#text", f"{text}# more\n")
-    page.locator("#status.poor", has_text="is not on the disk any more").wait_for()
-    page.click("#save")
-    page.locator("#status", has_text="Saved: mine.toml").wait_for()
-    assert (place / "mine.toml").read_text(encoding="utf-8") == f"{text}# more\n"

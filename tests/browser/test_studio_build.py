@@ -16,7 +16,6 @@ from tests.browser.building_hand import (
     Hand,
     build_offset_slider_crank,
     build_pump,
-    build_slotted_lever,
     four_bar,
 )
 from tests.browser.opening import barred, watched
@@ -58,10 +57,6 @@ def test_a_newcomer_builds_the_offset_slider_crank(hand):
     hand.settled(lambda: hand.page.press("#speed", "Enter"))
     assert hand.text.count("speed = 75") == 1
     assert hand.page.inner_text("#speed-unit") == "rev/min"
-
-
-def test_a_slotted_lever_is_built_from_an_empty_field(hand):
-    build_slotted_lever(hand)
 
 
 def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
@@ -111,6 +106,13 @@ def test_a_four_bar_is_built_changed_and_taken_back(hand):
 def test_a_pin_dragged_onto_another_is_joined_with_it_or_told_why_not(hand):
     hand.pivot(0)
     hand.pivot(220)
+    text = hand.text
+    hand.drag("bar", 0, 220)
+    hand.page.wait_for_selector("#told:not([hidden])")
+    assert "both pins belong to the frame" in hand.page.inner_text("#told")
+    box, (x, y) = hand.page.locator("#told").bounding_box(), hand.pixel(220)
+    assert abs(box["y"] - y) < 40 and abs(box["x"] - x) < 200
+    assert hand.text == text
     hand.bar("O1", 40 + 70j)
     hand.bar("O2", 250 + 150j)
     hand.bar("A", 150 + 200j)
@@ -161,19 +163,6 @@ def test_a_figure_is_traced_at_its_scale(hand, tmp_path):
     page.click("#no-picture")
     assert page.locator("#canvas image").count() == 0
     assert "image" not in hand.text
-
-
-def test_what_is_impossible_is_told_at_the_pointer(hand):
-    hand.pivot(0)
-    hand.pivot(200)
-    text = hand.text
-    hand.drag("bar", 0, 200)
-    hand.page.wait_for_selector("#told:not([hidden])")
-    assert "both pins belong to the frame" in hand.page.inner_text("#told")
-    box, (x, y) = hand.page.locator("#told").bounding_box(), hand.pixel(200)
-    assert abs(box["y"] - y) < 40
-    assert abs(box["x"] - x) < 200
-    assert hand.text == text
 
 
 def test_comments_and_order_of_an_opened_scene_are_kept(hand, served):

@@ -15,14 +15,10 @@ from tests.browser.opening import barred, watched
 
 @pytest.fixture
 def page(chromium: Any, tabs: Any, served: Served) -> Iterator[Any]:
-    """The pump's class; fails on any error that the page tells."""
+    """An empty studio; fails on any error that the page tells."""
     own = (f"http://127.0.0.1:{served.port}/", "blob:", "data:")
     with watched(chromium, tabs, own, ("error", "warning")) as new_page:
-        address = f"{served.address}?lab=pump&rules=yes"
-        page = new_page(address, viewport={"width": 1440, "height": 900})
-        fairness(page, 29)
-        page.click("#lab")
-        yield page
+        yield new_page(f"{served.address}?empty=yes", viewport={"width": 1440, "height": 900})
 
 
 def fairness(page: Any, fair: int, count: int = 30) -> None:
@@ -31,8 +27,23 @@ def fairness(page: Any, fair: int, count: int = 30) -> None:
     page.locator("#fairness", has_text=re.compile(f"^{words}$")).wait_for()
 
 
-def test_a_formula_is_mended_and_the_lab_saved(page, tmp_path):
-    """What is written in either text is followed; one undo goes through both."""
+def test_students_are_looked_at_a_formula_is_mended_and_the_lab_saved(page, served, tmp_path):
+    """The map tells who is near to whom, and the sheets of each are drawn; what is written in
+    either text is followed; one undo goes through both."""
+    page.goto(f"{served.address}?lab=pump&rules=yes")
+    fairness(page, 29)
+    page.click("#lab")
+    page.hover("#neighbours rect[data-own='1'][data-other='0']")
+    assert page.inner_text("#pointed") == "1’s right values earn 80 % on the sheet of 2"
+    assert page.inner_text("#closest") == "Closest: 1’s right values earn 80 % on the sheet of 2."
+    page.click("#students tbody tr:nth-child(5) button")
+    page.wait_for_selector("#student-pages img")
+    assert page.inner_text("#student") == "Student 5: n = 5"
+    pages = page.locator("#student-pages img")
+    assert pages.count() == 2
+    wide = "image => image.decode().then(() => image.naturalWidth / image.naturalHeight)"
+    assert pages.first.evaluate(wide) == pytest.approx(420 / 297, abs=0.01)
+    assert not barred(page)
     rules, scene = page.input_value("#rules"), page.input_value("#text")
     page.fill("#rules", rules.replace("0.05, 4", "0.04, 4"))
     fairness(page, 30)
@@ -53,23 +64,7 @@ def test_a_formula_is_mended_and_the_lab_saved(page, tmp_path):
     assert page.input_value("#rules") == rules
 
 
-def test_students_are_looked_at(page):
-    """The map tells who is near to whom, and the sheets of each are drawn."""
-    page.hover("#neighbours rect[data-own='1'][data-other='0']")
-    assert page.inner_text("#pointed") == "1’s right values earn 80 % on the sheet of 2"
-    assert page.inner_text("#closest") == "Closest: 1’s right values earn 80 % on the sheet of 2."
-    page.click("#students tbody tr:nth-child(5) button")
-    page.wait_for_selector("#student-pages img")
-    assert page.inner_text("#student") == "Student 5: n = 5"
-    pages = page.locator("#student-pages img")
-    assert pages.count() == 2
-    wide = "image => image.decode().then(() => image.naturalWidth / image.naturalHeight)"
-    assert pages.first.evaluate(wide) == pytest.approx(420 / 297, abs=0.01)
-    assert not barred(page)
-
-
 def test_a_lab_is_begun_beside_any_scene(page, served):
-    page.goto(f"{served.address}?empty=yes")
     page.click("#lab")
     told = page.locator("#fairness.wrong", has_text="expected")
     told.wait_for()

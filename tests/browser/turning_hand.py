@@ -1,4 +1,4 @@
-"""A hand that draws a turn: by mouse or finger on the drawing, or by keys alone."""
+"""A hand that draws a turn: by mouse or finger on the drawing."""
 
 from __future__ import annotations
 
@@ -7,11 +7,9 @@ from typing import Any
 
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.text import words
 from graphkin.web.palette_moves import PALETTE, PLANES, PaletteMove, YourTurn
 from graphkin.web.screen_sheets import ScreenSheet
 
-EN = words("en")
 UNSEEN = ("length", "rate", "vector")
 """Kinds that are drawn nowhere: they are taken from a list, as is what stands on another sheet."""
 SPOT = """([side, own, rivals]) => {
@@ -51,7 +49,7 @@ SPOT = """([side, own, rivals]) => {
 
 
 class TurningHand:
-    """Draws moves on a page on which a turn has begun; ``way`` is mouse, touch or keys."""
+    """Draws moves on a page on which a turn has begun; ``way`` is mouse or touch."""
 
     def __init__(self, page: Any, sheets: list[ScreenSheet], turn: YourTurn, way: str) -> None:
         self.page, self.sheets, self.turn, self.way = page, sheets, turn, way
@@ -59,7 +57,7 @@ class TurningHand:
 
     def draw(self, move: PaletteMove) -> str:
         """Draw a move, and hear what the page says of it."""
-        said = self.by_keys(move) if self.way == "keys" else self.by_pointer(move)
+        said = self.by_pointer(move)
         self.done.add(move.step)
         return said
 
@@ -163,44 +161,3 @@ class TurningHand:
             r = float(value.radius) * self.field(plane).mm
             return side, {"at": self.placed(plane, value.centre), "r": r}
         return side, {"at": self.placed(plane, value)}
-
-    # --- by keys ----------------------------------------------------------------------------------
-
-    def by_keys(self, move: PaletteMove) -> str:
-        """Go to the action, its lists and its button by Tab alone, and choose by letters."""
-        inputs = [self.turn.picks[key].by or key for key in move.inputs]
-        for which in (0, 1):
-            self.tab_to(f"[data-action={move.action}]")
-            if self.page.evaluate("document.activeElement.getAttribute('aria-pressed')") != "true":
-                self.page.keyboard.press("Enter")
-            for place, key in enumerate(inputs):
-                self.tab_to(f"#inputs label:nth-child({place + 1}) select")
-                self.choose(key)
-            self.tab_to("#turn-draw")
-            self.page.keyboard.press("Enter")
-            if self.page.locator("#which").is_visible():
-                self.tab_to(f"#which button:nth-child({which + 1})")
-                self.page.keyboard.press("Enter")
-            if self.said.endswith(".") and EN("turn.say.right", name="").strip(" :") in self.said:
-                break
-        return self.said
-
-    def tab_to(self, selector: str) -> None:
-        """Press Tab until the focus is there."""
-        for _ in range(80):
-            if self.page.evaluate("selector => document.activeElement.matches(selector)", selector):
-                return
-            self.page.keyboard.press("Tab")
-        raise AssertionError(f"no Tab leads to {selector}")
-
-    def choose(self, key: str) -> None:
-        """Choose an entry of the list that has the focus by the arrow keys."""
-        place = "key => [...document.activeElement.options].findIndex(one => one.value === key)"
-        wanted = self.page.evaluate(place, key)
-        assert wanted > 0, f"{key} is not offered"
-        for _ in range(200):
-            now = self.page.evaluate("document.activeElement.selectedIndex")
-            if now == wanted:
-                return
-            self.page.keyboard.press("ArrowDown" if now < wanted else "ArrowUp")
-        raise AssertionError(f"{key} cannot be chosen")

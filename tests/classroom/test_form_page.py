@@ -19,7 +19,10 @@ from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
+from graphkin.web import step_page as pages
+from graphkin.web.slider import Slider
 from tests.classroom.grading.students import LABS
+from tests.running import Run
 
 WHOSE = Identity("0042", "pump CODE", "0042", "Ștefănescu Ana")
 
@@ -50,8 +53,7 @@ class Form(HTMLParser):
             self.options.setdefault(list(self.fields)[-1], []).append(given["value"])
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize(("name", "language"), [*zip(LABS, LANGUAGES, strict=False)])
 def test_every_field_of_the_form_is_there_with_its_label(name, language):
     mechanism, lab = load(name), read_lab(name)
     form = Form(lab_form(mechanism, lab, words(language), WHOSE))
@@ -137,3 +139,40 @@ def test_a_file_line_by_line_with_any_separator_is_an_answer(tmp_path):
         found = read_answers(path, fields, signs(["0042"]))
         assert found.of["0042"]["v_D_mm"].value == 12.5
         assert found.of["0042"]["v_D"].is_blank
+
+
+# --- graphkin sheet --format html: one page beside the files for paper ---------------------------
+
+
+def written(folder: Path) -> list[str]:
+    """The files of a folder."""
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.mark.parametrize("view", ["key", "steps"])
+def test_one_page_is_written_with_every_step(run: Run, tmp_path: Path, view):
+    args = ("sheet", "pump", "--set", "n=7", "-o", tmp_path, "--format", "html", "--view", view)
+    result = run(*args, "--lang", "en")
+    assert result.exit_code == 0, result.stderr
+    assert written(tmp_path) == [f"pump-n7-{view}.html"]
+    page = (tmp_path / f"pump-n7-{view}.html").read_text(encoding="utf-8")
+    assert page.startswith("<!DOCTYPE html>")
+    assert page.count('<li id="step-') == 42
+    assert run(*args).exit_code == 2  # it is there already
+
+
+def test_the_task_of_a_lab_holds_its_form(run: Run, tmp_path: Path):
+    args = ("sheet", "pump", "-o", tmp_path, "--format", "html", "--view", "task", "--lang", "en")
+    assert run(*args).exit_code == 0
+    page = (tmp_path / "pump-task.html").read_text(encoding="utf-8")
+    assert 'class="answers"' in page
+    assert '<li id="step-' not in page
+
+
+def test_a_mechanism_that_stands_still_says_why(monkeypatch):
+    why = "screen.open"
+    monkeypatch.setattr(pages, "slider", lambda *_: Slider(why=why))
+    page = pages.step_page(load("pump"), "en")
+    assert f'<p id="still">{words("en")(why)}</p>' in page
+    assert 'id="driver"' not in page
+    assert "const graphkinMotion" not in page

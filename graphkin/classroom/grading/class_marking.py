@@ -159,7 +159,7 @@ def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
 
 def unfollowed(mark: EarnedMark, fits: Sequence[str]) -> EarnedMark:
     """A mark without what follows from own values, where the answer fits another's data."""
-    if mark.status is not Status.FOLLOWS or mark.item.field.removesuffix("_sense") not in fits:
+    if mark.status is not Status.FOLLOWS or mark.item.sized not in fits:
         return mark
     return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
 

@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees, pi
 
+from msgspec.structs import replace
+
 from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.lab.items import motion_of
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.quantities import OMEGA
+from graphkin.construction.core.quantities import OMEGA, RATES
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 
+OTHER = {"ν": "τ", "τ": "ν"}
+"""The component that is taken for another."""
 POWERS = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
 
 
@@ -45,7 +50,7 @@ def of_field(standard: Standard, field: str) -> Iterator[Way]:
     if item.what == "segment":
         yield from of_segment(standard, field)
     else:
-        is_rate = item.unit.startswith("rad")
+        is_rate = motion_of(item) in RATES
         yield from of_rate(standard, field) if is_rate else of_vector(standard, field)
         yield from of_unit(standard, field)
     for power in POWERS:
@@ -116,11 +121,8 @@ def rates_of(standard: Standard, number: int) -> Iterator[Way]:
 
 def of_place(standard: Standard, field: str) -> Iterator[Way]:
     """A coordinate of the other axis, or counted the other way."""
-    other = (
-        field.replace("_x_mm", "_y_mm")
-        if field.endswith("_x_mm")
-        else field.replace("_y_mm", "_x_mm")
-    )
+    item = standard.by_field[field].item
+    other = item.beside("place", "y" if item.axis == "x" else "x")
     if other in standard.key:
         yield "axes_swapped", "", standard.key[other]
     yield "opposite", "", -standard.key[field]
@@ -128,7 +130,10 @@ def of_place(standard: Standard, field: str) -> Iterator[Way]:
 
 def swapped(standard: Standard, field: str) -> Iterator[Way]:
     """The component along the bar in the place of that across it, and the other way round."""
-    for this, that in (("_nu", "_tau"), ("_tau", "_nu")):
-        stem, found, tail = field.rpartition(this)
-        if found and tail in ("", "_mm") and f"{stem}{that}{tail}" in standard.key:
-            yield "swapped", "", standard.key[f"{stem}{that}{tail}"]
+    item = standard.by_field[field].item
+    if item.vector is None or item.vector.sign not in OTHER:
+        return
+    other = replace(item.vector, sign=OTHER[item.vector.sign]).symbol
+    for each in standard.items:
+        if each.what == item.what and each.vector is not None and each.vector.symbol == other:
+            yield "swapped", "", standard.key[each.field]

@@ -31,7 +31,6 @@ SPAN = (0.5, 2.0)
 """Between which times of the key's a tolerance grows with what it belongs to."""
 ALIKE = 1e-9
 """Vectors that differ by no more than this share are the same."""
-SENSE = "_sense"
 Answers = Mapping[str, Answer]
 
 
@@ -44,7 +43,7 @@ def followings(
     sources = {field: own_value(standard, answers, field) for field in numbers(standard, wrong)}
     sources = {field: value for field, value in sources.items() if is_fit(standard, field, value)}
     known = (*sources, *numbers(standard, right))
-    sized = (field.removesuffix(SENSE) for field in wrong if field.endswith(SENSE))
+    sized = (standard.by_field[field].item.sized for field in wrong)
     fields = (*wrong, *(field for field in sized if field in right))
     told = chain(by_formula(standard, answers, known, wrong), by_drawing(standard, sources, fields))
     return (each for each in told if not too_easy(standard, answers, each))
@@ -104,7 +103,7 @@ def size(answers: Answers, field: str) -> float:
 
 def own_value(standard: Standard, answers: Answers, field: str) -> float:
     """An own value: of a rate with the own sense, with the key's where none was stated."""
-    sense = answers.get(f"{field}{SENSE}", BLANK).value
+    sense = answers.get(standard.by_field[field].item.beside("sense"), BLANK).value
     return size(answers, field) * (sense or (1.0 if standard.key[field] >= 0 else -1.0))
 
 
@@ -127,7 +126,7 @@ def too_easy(standard: Standard, answers: Answers, following: Following) -> bool
         return isnan(value)
     if abs(value) <= following.tolerance:
         return True
-    sense = answers.get(f"{field}{SENSE}", BLANK).value or 0.0
+    sense = answers.get(standard.by_field[field].item.beside("sense"), BLANK).value or 0.0
     turned = value * right < 0 < value * sense
     return abs(value) < EASY * abs(right) and not turned
 

@@ -295,13 +295,14 @@ def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counte
 def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:
     """The column for the marks: the one that is named, else the only empty one but feedback and
     what Canvas computes; of several that of Moodle's own name."""
+    students = of_students(book, ids)
     if column is not None:
         found = [i for i, text in enumerate(head) if folded(text) == folded(column)]
         found = found or [i for i, text in enumerate(head) if folded(column) in folded(text)]
         found = [i for i in found if not is_comment(head[i])] or found
     else:
-        computed = {i for i, each in enumerate(points_row(book)) if each.text == COMPUTED}
-        full = marked_columns(book, ids) | computed
+        full = {i for i, each in enumerate(points_row(book)) if each.text == COMPUTED}
+        full |= {i for row in students for i, each in enumerate(row) if each.text not in EMPTY}
         found = [
             i for i, name in enumerate(head) if name and i not in full and not is_comment(name)
         ]
@@ -314,7 +315,8 @@ def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, i
             if found
             else "no column is empty"
         )
-        meant = [head[i] for i in found or lacking_columns(book, ids) if head[i]]
+        lacking = {i for i in range(len(head)) for row in students if text_at(row, i) in EMPTY}
+        meant = [head[i] for i in found or sorted(lacking) if head[i]]
         meant = meant or [text for text in head if text]
         names = ", ".join(f'"{text}"' for text in meant)
         raise GradebookError(
@@ -326,19 +328,6 @@ def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, i
 def of_students(book: GradebookTable, ids: int) -> list[Sequence[Cell]]:
     """The rows of students, who have something in the column of ids; not those of averages."""
     return [row for row in book.rows[1:] if text_at(row, ids) and not is_possible(row)]
-
-
-def marked_columns(book: GradebookTable, ids: int) -> set[int]:
-    """The columns in which some student has something."""
-    return {
-        i for row in of_students(book, ids) for i, each in enumerate(row) if each.text not in EMPTY
-    }
-
-
-def lacking_columns(book: GradebookTable, ids: int) -> list[int]:
-    """The columns in which some student has nothing."""
-    rows = of_students(book, ids)
-    return [i for i in range(len(book.rows[0])) if any(text_at(row, i) in EMPTY for row in rows)]
 
 
 def is_comment(head: str) -> bool:

@@ -47,7 +47,7 @@ class Keys(Struct, frozen=True):
         fields = tuple(standards[0].tolerance)
         places = np.array([standards[0].item[f].what == "place" for f in fields])
         at = {field: place for place, field in enumerate(fields)}
-        beside = np.array([at.get(f"{f}_mm", place) for f, place in at.items()])
+        beside = np.array([at.get(standards[0].item[f].segment, place) for f, place in at.items()])
         units = [standards[0].item[f].unit for f in fields]
         plans = np.array([0 if unit == "mm" else 1 + ("²" in unit) for unit in units])
         keys = np.array([[each.key[f] for f in fields] for each in standards])

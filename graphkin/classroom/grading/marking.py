@@ -21,7 +21,6 @@ from graphkin.classroom.lab.asking import worth
 from graphkin.classroom.lab.lab_model import Item
 
 NONE = Fraction()
-SENSE = "_sense"
 
 
 class Marker:
@@ -80,7 +79,7 @@ class Marker:
         found: dict[str, Following] = {}
         for following in hits:
             field, sources = following.field, following.sources
-            rate = field.removesuffix(SENSE)
+            rate = self.standard.by_field[field].item.sized
             if rate != field and (rate, sources) not in sized:
                 continue
             if field in wrong and field not in found and not is_circular(found, following):
@@ -181,11 +180,11 @@ def is_circular(found: Mapping[str, Following], following: Following) -> bool:
 def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
     """An answer for each field; a sense that is left blank is told by the sign of its value."""
     given = {item.field: answers.get(item.field, BLANK) for item in standard.items}
-    for field, answer in given.items():
-        value = given.get(field.removesuffix(SENSE), BLANK)
-        if field.endswith(SENSE) and answer.is_blank and value.signed and value.value:
+    for item in standard.items:
+        value = given.get(item.sized, BLANK)
+        if item.what == "sense" and given[item.field].is_blank and value.signed and value.value:
             sign = 1.0 if value.value > 0 else -1.0
-            given[field] = Answer("+" if sign > 0 else "-", sign, signed=True)
+            given[item.field] = Answer("+" if sign > 0 else "-", sign, signed=True)
     return given
 
 
@@ -195,9 +194,10 @@ def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bo
     Nobody can tell which of the two is meant, so the sense earns nothing; the value counts by its
     size. Where no drawing tells the sense, none is asked.
     """
-    if not field.endswith(SENSE) or sense_is_open(standard, field):
+    item = standard.by_field[field].item
+    if item.what != "sense" or sense_is_open(standard, field):
         return False
-    sense, value = answers[field].value, answers.get(field.removesuffix(SENSE), BLANK)
+    sense, value = answers[field].value, answers.get(item.sized, BLANK)
     return bool(sense and value.signed and value.value and sense * value.value < 0)
 
 
@@ -215,7 +215,7 @@ def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> b
 
 def sense_is_open(standard: Standard, field: str) -> bool:
     """Whether no drawing tells a sense: the value is nought within what a pencil makes of it."""
-    sized = field.removesuffix(SENSE)
+    sized = standard.by_field[field].item.sized
     if sized not in standard.tolerance:
         return standard.key[field] == 0
     allowed = standard.tolerance[sized]

@@ -14,7 +14,7 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.keys import Keys
-from graphkin.classroom.grading.marking import SENSE, sense_is_open
+from graphkin.classroom.grading.marking import sense_is_open
 from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.asking import worth
@@ -93,7 +93,7 @@ class RightValues(Struct, frozen=True):
         import numpy as np
 
         keys = Keys.of([each.expectation for each in found])
-        senses = [field for field in found[0].key if field.endswith(SENSE)]
+        senses = [item.field for item in found[0].items if item.what == "sense"]
         total = np.array([[sum(points_of(each, f) for f in each.key)] for each in found])
 
         def told(read: Callable[[Standard, str], Any], fields: Sequence[str]) -> Array:

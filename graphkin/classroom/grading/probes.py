@@ -8,11 +8,10 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper
-from graphkin.classroom.lab.items import UNITS
+from graphkin.classroom.lab.items import arrow_steps, motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.kind import PlanPole, construction
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Plane, Program, Target
+from graphkin.construction.core.program import Plane, Target
 from graphkin.construction.core.quantities import BY_TARGET, VECTORS
 from graphkin.mechanism import Mechanism, point_of
 from graphkin.numbers.plane import Ratio
@@ -46,7 +45,7 @@ class Probe(Struct, frozen=True):
         mm = paper.millimetre(self.plane)
         if self.item.what == "place":
             way = (placed(found[self.steps[1]]) - found[self.steps[0]]) / mm
-            return way.imag if self.item.field.endswith("_y_mm") else way.real
+            return way.imag if self.item.axis == "y" else way.real
         size = found[self.step]
         size = abs(size - found[self.steps[0]]) if self.vector else size
         return size / mm if self.item.what == "segment" else size
@@ -99,17 +98,16 @@ def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
 
 def plane_of(item: Item) -> Plane | None:
     """The plan in which a field's vector lies; None where it is no vector."""
-    if item.vector is not None:
-        return next(each.plane for each in VECTORS if each.letter == item.vector.letter)
-    quantity = BY_TARGET[item.quantity]
+    quantity = motion_of(item)
     return quantity.plane if quantity in VECTORS else None
 
 
-def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
+def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, ...] | None:
     """Tail and tip of a vector: of a point's own from the pole, else of the arrow of its symbol."""
     program = mechanism.program
     if item.vector is not None:
-        return arrow_ends(program, item.of)
+        arrow = arrow_steps(program).get(item.of)
+        return None if arrow is None else program.steps[arrow].args[:2]
     target = (item.quantity, point_of(mechanism.scene, item.of))
     if target not in program.targets:
         return None
@@ -121,15 +119,6 @@ def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, int] | None:
 def is_pole(step: Any, plane: Plane) -> bool:
     """Whether a step is the pole of a plan."""
     return isinstance(construction(step), PlanPole) and step.plane is plane
-
-
-def arrow_ends(program: Program, symbol: str) -> tuple[int, int] | None:
-    """The ends of the arrow of a symbol."""
-    for step in program.steps:
-        vector = plan_vector(step)
-        if vector is not None and step.plane in UNITS and vector.symbol == symbol:
-            return step.args[0], step.args[1]
-    return None
 
 
 def targets_of(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Target, ...]:

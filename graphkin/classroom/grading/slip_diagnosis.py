@@ -174,7 +174,7 @@ def likelihood(standard: Standard, slip: Slip, field: str, answers: Mapping[str,
 
 def is_against(standard: Standard, slip: Slip, field: str, answers: Mapping[str, Answer]) -> bool:
     """Whether the sense of a rate was stated contrary to what a slip leaves of it, or makes."""
-    sense = f"{field}_sense"
+    sense = standard.by_field[field].item.beside("sense")
     stated = answers[sense].value if sense in answers else None
     return bool(stated) and stated == -slip.values.get(sense, standard.key[sense])
 
@@ -198,15 +198,16 @@ def own_length(standard: Standard, field: str, answers: Mapping[str, Answer]) ->
     """How many times as long as ours the own segment is from which a vector was reckoned; nought
     where none was handed in.
     """
-    segment = answers.get(f"{field}_mm")
+    name = standard.by_field[field].item.segment
+    segment = answers.get(name)
     if segment is None or not segment.value:
         return 0.0
-    return abs(segment.value) / abs(standard.key[f"{field}_mm"])
+    return abs(segment.value) / abs(standard.key[name])
 
 
 def told_length(standard: Standard, slip: Slip, field: str) -> float:
     """How many times as long as ours a segment is by a slip of the construction."""
-    name = f"{field}_mm"
+    name = standard.by_field[field].item.segment
     if not slip.whole or not slip.values.get(name):
         return 1.0
     return abs(slip.values[name]) / abs(standard.key[name])
@@ -261,7 +262,7 @@ def own_scales(
 
 def is_scaled(standard: Standard, field: str, right: tuple[str, ...]) -> bool:
     """Whether a field is a value that may have been read with a wrong scale off a right segment."""
-    segment = f"{field}_mm"
+    segment = standard.by_field[field].item.segment
     drawn = segment not in standard.key or segment in right
     return standard.by_field[field].item.what == "value" and drawn and standard.key[field] != 0
 

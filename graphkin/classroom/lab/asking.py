@@ -11,8 +11,8 @@ from graphkin.classroom.lab.lab_model import Item
 def is_left_out(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) -> bool:
     """Whether only the value is asked of a vector: its segment is too short to be measured, and the
     value, which is computed, is worth points of its own."""
-    value = item.field.removesuffix("_mm")
-    return item.what == "segment" and item.field in compute and bool(points.get(value))
+    left = item.what == "segment" and item.field in compute
+    return left and bool(points.get(item.beside("value")))
 
 
 def worth(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) -> Fraction | None:
@@ -22,8 +22,8 @@ def worth(item: Item, points: Mapping[str, Fraction], compute: Collection[str]) 
     """
     if is_left_out(item, points, compute):
         return None
-    own, segment = points.get(item.field), f"{item.field}_mm"
-    more = points.get(segment) if item.what == "value" and segment in compute else None
+    own = points.get(item.field)
+    more = points.get(item.segment) if item.segment in compute else None
     return own if more is None else (own or 0) + more
 
 

@@ -83,7 +83,7 @@ class Fairness(Struct, dict=True):
     """
 
     limits: Fair
-    form: tuple[str, ...]
+    form: tuple[Item, ...]
     closes: Array
     fits: Array
     kL: Array
@@ -160,8 +160,8 @@ class Fairness(Struct, dict=True):
         small = [n for n, mm in self.lengths.items() if not mm[index] >= self.limits.segment]
         flat = [n for n, angle in self.rays.items() if not angle[index] >= self.limits.crossing]
         off = [name for name, on in self.on_page.items() if not on[index]]
-        wanting = {*small, *(name.removesuffix("_mm") for name in small), *flat, *off}
-        return tuple(name for name in self.form if name in wanting)
+        wanting = {*small, *flat, *off}
+        return tuple(each.field for each in self.form if wanting & {each.field, each.segment})
 
 
 def judged(mechanism: Mechanism, lab: Lab, many: Sequence[Settings]) -> Fairness:
@@ -202,10 +202,9 @@ def judged_block(
 
     closes = closing(mechanism, values, count)
     scales = scaling(mechanism, values, count, load, closes)
-    names = tuple(item.field for item in form)
     found = Fairness(
         limits,
-        names,
+        tuple(form),
         closes,
         np.isfinite(scales.kL),
         scales.kL,
@@ -259,13 +258,9 @@ def put_drawn(
 ) -> None:
     """What is drawn on the sheets of some variants, put at their places."""
     for sheet in drawn:
+        lengths = segment_lengths(sheet, form, scales.stands(sheet.kind))
         put(found.crossings, crossing_angles(sheet), which, len(found))
-        put(
-            found.lengths,
-            segment_lengths(sheet, form, scales.stands(sheet.kind)),
-            which,
-            len(found),
-        )
+        put(found.lengths, lengths, which, len(found))
         put(found.triangles, triangle_ratios(sheet), which, len(found))
         put(found.rays, ray_angles(sheet, form), which, len(found))
         put(found.on_page, held(drawn, sheet, form, scales), which, len(found))

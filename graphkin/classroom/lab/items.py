@@ -17,6 +17,7 @@ from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.construction.core.plan_vector import PlanVector, plan_vector
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.quantities import (
+    BY_TARGET,
     CENTRES,
     RATES,
     SHEETS,
@@ -56,13 +57,13 @@ def named(found: Iterable[Item]) -> dict[str, Item]:
     """Items by their fields; the same field twice is one, another of the same name gets a tail."""
     fields: dict[str, Item] = {}
     for item in found:
-        name, tail = item.field, 1
-        while name in fields and (fields[name].quantity, fields[name].of) != meant(item):
+        own, tail = item, 1
+        while own.field in fields and meant(fields[own.field]) != meant(item):
             if item.quantity == ARROW:
                 break  # the arrow of a vector that is there already
             tail += 1
-            name = f"{item.field}_{tail}"
-        fields.setdefault(name, replace(item, field=name))
+            own = replace(item, tail=f"_{tail}")
+        fields.setdefault(own.field, own)
     return fields
 
 
@@ -102,6 +103,13 @@ def moving(mechanism: Mechanism) -> Iterator[Item]:
                 yield from rate_items(quantity, link)
 
 
+def motion_of(item: Item) -> MotionQuantity:
+    """The quantity that an item is of; of an arrow that of its plan."""
+    if item.vector is None:
+        return BY_TARGET[item.quantity]
+    return next(each for each in VECTORS if each.letter == item.vector.letter)
+
+
 def moving_points(mechanism: Mechanism) -> list[str]:
     """The points that move, as the scene names them."""
     links = mechanism.scene.links.values()
@@ -122,7 +130,7 @@ def arrow_items(vector: PlanVector, unit: str) -> Iterator[Item]:
     tail = f"_{GREEK.get(vector.sign, plain(vector.sign))}" if vector.sign else ""
     name, sign = f"{vector.letter}_{plain(vector.index)}{tail}", symbol(vector.symbol)
     own = ARROW, vector.symbol, vector
-    yield Item(f"{name}_mm", "segment", sign, "mm", *own)
+    yield Item(name, "segment", sign, "mm", *own)
     yield Item(name, "value", sign, unit, *own)
 
 
@@ -140,7 +148,7 @@ def vector_items(quantity: MotionQuantity, point: str) -> Iterator[Item]:
     """The segment of a vector in its plan, and its true size."""
     letter, what = quantity.letter, quantity.target
     name, sign = f"{letter}_{plain(point)}", symbol(f"{letter}_{lettered(point)}")
-    yield Item(f"{name}_mm", "segment", sign, "mm", what, point)
+    yield Item(name, "segment", sign, "mm", what, point)
     yield Item(name, "value", sign, quantity.unit, what, point)
 
 
@@ -161,14 +169,14 @@ def slide_items(block: str, guide: str) -> Iterator[Item]:
 def with_sense(name: str, sign: str, quantity: MotionQuantity, of: str) -> Iterator[Item]:
     """A magnitude and its sense."""
     yield Item(name, "value", sign, quantity.unit, quantity.target, of)
-    yield Item(f"{name}_sense", "sense", sign, "", quantity.target, of)
+    yield Item(name, "sense", sign, "", quantity.target, of)
 
 
 def place_items(quantity: MotionQuantity, link: str) -> Iterator[Item]:
     """The coordinates of a centre or a pole on paper, from the first fixed pivot."""
     letter = quantity.letter
     for axis in ("x", "y"):
-        name = f"{letter}_{plain(link)}_{axis}_mm"
+        name = f"{letter}_{plain(link)}"
         sign = f"*{axis}*({symbol(f'{letter}_{link}')})"
         yield Item(name, "place", sign, "mm", quantity.target, link, axis=axis)
 

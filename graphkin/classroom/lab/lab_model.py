@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
@@ -140,16 +141,17 @@ class Lab(Struct, frozen=True):
     text: str = ""
 
 
-class Item(Struct, frozen=True):
+class Item(Struct, frozen=True, dict=True):
     """One field of the form: what a student reads off or reckons.
 
-    ``field`` is its name in files (v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm); ``symbol`` its
-    markup; ``unit`` in which it is asked (empty for a sense). ``of`` is the point or link, and
-    ``quantity`` the program's name of the quantity (velocity, acceleration, omega, epsilon, …).
-    What is of an arrow of a plan has its ``vector``, a coordinate its ``axis``: x or y.
+    ``name`` is that of its quantity in files (v_D, omega_3, J_3), by which all fields of that are
+    called (v_D_mm, v_D, omega_3, omega_3_sense, J_3_x_mm), with a ``tail`` where another has it;
+    ``symbol`` its markup; ``unit`` in which it is asked (empty for a sense). ``of`` is the point or
+    link, ``quantity`` the program's name of the quantity (velocity, omega, …). What is of an arrow
+    of a plan has its ``vector``, a coordinate its ``axis``: x or y.
     """
 
-    field: str
+    name: str
     what: What
     symbol: str
     unit: str
@@ -157,3 +159,24 @@ class Item(Struct, frozen=True):
     of: str
     vector: PlanVector | None = None
     axis: str = ""
+    tail: str = ""
+
+    @cached_property
+    def field(self) -> str:
+        """Its name in files."""
+        return self.beside(self.what)
+
+    def beside(self, what: What, axis: str = "") -> str:
+        """The name of what another field asks of the same quantity."""
+        ends = {"segment": "_mm", "sense": "_sense", "place": f"_{axis or self.axis}_mm"}
+        return f"{self.name}{ends.get(what, '')}{self.tail}"
+
+    @cached_property
+    def sized(self) -> str:
+        """The field whose sense it is; itself where it is none."""
+        return self.beside("value") if self.what == "sense" else self.field
+
+    @cached_property
+    def segment(self) -> str:
+        """The field of the segment off which a value is read; empty for all that is no value."""
+        return self.beside("segment") if self.what == "value" else ""

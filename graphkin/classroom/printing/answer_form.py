@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 
+from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.qr_code import SIDE, square
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
@@ -87,7 +88,7 @@ def quantity_of(item: Item) -> str:
     """The symbol by which the calculation knows what a field is of: J₃ for its coordinates."""
     if item.what != "place":
         return item.symbol
-    return item.symbol.partition("(")[2].removesuffix(")")
+    return symbol(f"{motion_of(item).letter}_{item.of}")
 
 
 def page_of(

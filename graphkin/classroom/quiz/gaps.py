@@ -64,7 +64,7 @@ def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
     told = words("feedback.right")
     size = right if item.what == "place" else abs(right)
     yield Taken(size, allowed, WHOLE, told)
-    if f"{item.field}_sense" in standard.key and size > allowed:
+    if item.beside("sense") in standard.key and size > allowed:
         yield Taken(-size, allowed, WHOLE, told)
 
 

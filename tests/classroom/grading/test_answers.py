@@ -16,111 +16,105 @@ from graphkin.classroom.roster.student_signs import signs
 from graphkin.text import words
 from graphkin.text.errors import RosterError
 
-LENGTH = Item("v_D_mm", "segment", "v", "mm", "velocity", "D")
+LENGTH = Item("v_D", "segment", "v", "mm", "velocity", "D")
 SPEED = Item("v_D", "value", "v", "m/s", "velocity", "D")
 RATE = Item("omega_3", "value", "ω", "rad/s", "omega", "3")
 HARD = Item("a_D", "value", "a", "m/s²", "acceleration", "D")
-SENSE = Item("omega_3_sense", "sense", "ω", "", "omega", "3")
-SLIDING = Item("v_slide_2_sense", "sense", "v", "", "slide speed", "2")
+SENSE = Item("omega_3", "sense", "ω", "", "omega", "3")
+SLIDING = Item("v_slide_2", "sense", "v", "", "slide speed", "2")
 FORM = (LENGTH, SPEED, RATE, SENSE)
 IDS = ("001", "002", "ĂÎ-3")
+NUMBERS = (
+    (LENGTH, 19.75, "19.75 | 19,75 |  19,75 mm  | 1,975cm"),
+    (LENGTH, -5.0, "-5 | −5 | ca. -5"),
+    (LENGTH, 0.5, "+.5"),
+    (LENGTH, 50.8, "2 in"),
+    (SPEED, 3.8, "3.8 m/s | 380 cm/s | ≈ 3,8 | ~3.8 m/s"),
+    (SPEED, 380.0, "3,8e2"),
+    (SPEED, 0.0508, "2 in/s"),
+    (HARD, 470.0, "4,7·10^2 m/s^2 | 4.7 x 10^2 m/s2"),
+    (HARD, 473.0, "473 m/s²"),
+    (HARD, 0.0508, "2 in/s2"),
+    (RATE, 27.6, "27,6 1/s | 27,6 s^-1 | 27.6 (rad/s)"),
+    (RATE, pi, "180 deg/s | 180 °/s | 30 rpm | 30 rot/min | 30 rev/min | 30 giri/min"),
+    (Item("x", "value", "x", "m", "", "x"), 0.0508, "2 in"),
+    (Item("x", "value", "x", "rad/s²", "", "x"), pi, "180 deg/s2"),
+)
+"""What is written, by its field, and the number meant: an inch is 25.4 mm; half a turn is π rad,
+which 30 turns a minute make in a second."""
+UNREAD = (
+    (SPEED, "number", "１２.５ | 1_000 | nan | inf | 12,3,4 | 1.234,5 | 0x1F | twelve | --5 | 5.."),
+    (SPEED, "number", "=5 | ٣ | 1o,5 | 3.8.2 | 1O | 2l | 5o0 | 5O0 m/s | 1o m/s | 47b3,2 | 4b7"),
+    (SPEED, "number", "3x12 | 1/2"),
+    (SPEED, "large", "1e400"),
+    (SPEED, "open", "?"),
+    (SPEED, "unit", "12 kg | 3 kg/m3 | 3 m³ | 4 N/m2 | 5 mm^2 | 2 l | 7 oz"),
+    (RATE, "unit", "3 mm"),
+    (SENSE, "turning", "sus"),
+    (SLIDING, "sliding", "orar"),
+)  # fmt: skip
+"""What cannot be read, and why: a mistyped number is no matter of units."""
+
+
+@pytest.mark.parametrize(("item", "value", "texts"), NUMBERS)
+def test_numbers_are_read_with_point_or_comma_and_in_the_unit_of_the_field(item, value, texts):
+    for text in texts.split(" | "):
+        answer = read_answer(text, item)
+        assert answer.value == pytest.approx(value, rel=1e-15), text
+        assert not answer.problem
+
+
+@pytest.mark.parametrize(("item", "problem", "texts"), UNREAD)
+def test_what_cannot_be_read_says_why(item, problem, texts):
+    for text in texts.split(" | "):
+        answer = read_answer(text, item)
+        assert (answer.value, answer.problem) == (None, problem), text
+        assert not answer.is_blank
+    assert read_answer("1" * 400, SPEED).problem
+
+
+def test_what_stands_for_no_answer_is_none():
+    for text in ("", " ", "\t", "-", "–", " n/a ", "N.A.", "na", "--"):
+        assert read_answer(text, SPEED).is_blank
+        sense = read_answer(text, SENSE)
+        assert sense.is_blank or (text in "-–" and sense.value == -1)
 
 
 @pytest.mark.parametrize(
-    ("text", "item", "value"),
-    [
-        ("19.75", LENGTH, 19.75),
-        ("19,75", LENGTH, 19.75),
-        (" 19,75 mm ", LENGTH, 19.75),
-        ("1,975cm", LENGTH, 19.75),
-        ("-5", LENGTH, -5.0),
-        ("−5", LENGTH, -5.0),
-        ("+.5", LENGTH, 0.5),
-        ("3.8 m/s", SPEED, 3.8),
-        ("380 cm/s", SPEED, 3.8),
-        ("3,8e2", SPEED, 380.0),
-        ("4,7·10^2 m/s^2", HARD, 470.0),
-        ("4.7 x 10^2 m/s2", HARD, 470.0),
-        ("473 m/s²", HARD, 473.0),
-        ("27,6 1/s", RATE, 27.6),
-        ("27,6 s^-1", RATE, 27.6),
-        ("27.6 (rad/s)", RATE, 27.6),
-        ("≈ 3,8", SPEED, 3.8),
-        ("~3.8 m/s", SPEED, 3.8),
-        ("ca. -5", LENGTH, -5.0),
-    ],
+    ("text", "share"), [("2,1", 0.05 / 2.1), ("27", 0.5 / 27), ("4,10", 0.005 / 4.1), ("", 0.0)]
 )
-def test_numbers_are_read_with_point_or_comma_and_unit(text, item, value):
-    answer = read_answer(text, item)
-    assert answer.value == pytest.approx(value, rel=1e-15)
-    assert not answer.problem
+def test_a_number_is_rounded_by_half_a_unit_of_its_last_digit(text, share):
+    assert rounding(Answer(text)) == pytest.approx(share)
+    if text:  # what is about right is as rough as its digits
+        assert rounding(read_answer(f"≈ {text}", SPEED)) == rounding(read_answer(text, SPEED))
 
 
-@pytest.mark.parametrize(
-    ("text", "what", "value"),
-    [
-        ("2 in", "mm", 50.8),
-        ("2 in", "m", 0.0508),
-        ("2 in/s", "m/s", 0.0508),
-        ("2 in/s2", "m/s²", 0.0508),
-        ("180 deg/s", "rad/s", pi),
-        ("180 °/s", "rad/s", pi),
-        ("30 rpm", "rad/s", pi),
-        ("30 rot/min", "rad/s", pi),
-        ("30 rev/min", "rad/s", pi),
-        ("30 giri/min", "rad/s", pi),
-        ("180 deg/s2", "rad/s²", pi),
-    ],
-)
-def test_inches_degrees_and_turns_are_read_in_the_unit_of_the_field(text, what, value):
-    """An inch is 25.4 mm; half a turn is π rad, which 30 turns a minute make in a second."""
-    assert read_answer(text, Item("x", "value", "x", what, "", "x")).value == pytest.approx(value)
+def test_letters_among_the_digits_are_told_as_no_number():
+    problem, said = read_answer("5o0", HARD).problem, ("nu este un număr", "is not a number")
+    told = [unread(problem, HARD.unit, words(language)) for language in ("ro", "en", "it")]
+    assert told == [*said, "non è un numero"]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "１２.５",
-        "1_000",
-        "nan",
-        "inf",
-        "1e400",
-        "12,3,4",
-        "1.234,5",
-        "0x1F",
-        "twelve",
-        "12 kg",
-        "--5",
-        "5..",
-        "=5",
-        "٣",
-        "1" * 400,
-    ],
-)
-def test_what_is_no_number_is_unreadable_and_says_why(text):
-    answer = read_answer(text, SPEED)
-    assert answer.value is None
-    assert answer.problem
-    assert not answer.is_blank
+# --- tables --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("text", ["", " ", "\t"])
-def test_nothing_is_not_answered(text):
-    assert read_answer(text, SPEED).is_blank
-    assert read_answer(text, SENSE).is_blank
+@pytest.fixture
+def read(tmp_path):
+    """Read answers that are saved as a table, or as tables of a folder by their names."""
+
+    def found(saved, who=signs(IDS)):  # noqa: B008
+        for name, text in (saved if isinstance(saved, dict) else {"a.csv": saved}).items():
+            (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_answers(tmp_path if isinstance(saved, dict) else tmp_path / "a.csv", FORM, who)
+
+    return found
 
 
-def written(folder, name, text):
-    path = folder / name
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
+def test_a_table_with_semicolons_a_mark_and_strange_columns(read):
     text = (
         "\ufeffMatricol;V_D_MM;v_D;omega_3_sense;comment\n001;19,75;3,8;orar;=1+1\nĂÎ-3;;abc;+;\n"
     )
-    found = read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
+    found = read(text)
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
     assert found.of["ĂÎ-3"]["v_D_mm"].is_blank
@@ -129,86 +123,59 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(tmp_path):
     assert [(each.file, each.name) for each in found.strangers] == [("a.csv", "comment")]
 
 
-def test_a_student_may_sign_with_the_code_on_the_sheets(tmp_path):
-    text = "id,v_D\nQWERTYUIOP,3.8\n002,1\n"
-    found = read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS, {"001": "QWERTYUIOP"}))
-    assert found.of["001"]["v_D"].value == 3.8
+def test_a_student_may_sign_with_the_code_on_the_sheets(read):
+    text, coded = "id,v_D\nQWERTYUIOP,3.8\n002,1\n", signs(IDS, {"001": "QWERTYUIOP"})
+    assert read(text, who=coded).of["001"]["v_D"].value == 3.8
     with pytest.raises(RosterError, match="has answers already"):
-        read_answers(
-            written(tmp_path, "a.csv", text + "001,2\n"), FORM, signs(IDS, {"001": "QWERTYUIOP"})
-        )
+        read(f"{text}001,2\n", who=coded)
 
 
-@pytest.mark.parametrize(
-    ("text", "item", "problem"),
-    [
-        ("twelve", SPEED, "number"),
-        ("12,3,4", SPEED, "number"),
-        ("?", SPEED, "open"),
-        ("12 kg", SPEED, "unit"),
-        ("3 mm", RATE, "unit"),
-        ("1e400", SPEED, "large"),
-        ("sus", SENSE, "turning"),
-        ("orar", SLIDING, "sliding"),
-    ],
-)
-def test_what_cannot_be_read_says_why(text, item, problem):
-    assert read_answer(text, item).problem == problem
-
-
-def test_every_broken_file_of_a_folder_is_told(tmp_path):
-    written(tmp_path, "001.csv", 'field,value\nv_D,"1\n')
-    written(tmp_path, "003.csv", "field,value\nv_D,1\n")
-    (tmp_path / "002.csv").write_bytes(b"field,value\nv_D,\xff\n")
-    with pytest.raises(RosterError) as error:
-        read_answers(tmp_path, FORM, signs(IDS))
-    told = "\n".join(str(problem) for problem in error.value.problems)
-    assert all(f"00{n}" in told for n in (1, 2, 3))
-
-
-@pytest.mark.parametrize(
-    ("text", "share"), [("2,1", 0.05 / 2.1), ("27", 0.5 / 27), ("4,10", 0.005 / 4.1), ("", 0.0)]
-)
-def test_a_number_is_rounded_by_half_a_unit_of_its_last_digit(text, share):
-    assert rounding(Answer(text)) == pytest.approx(share)
-
-
-def test_everything_wrong_with_the_rows_is_told_at_once(tmp_path):
-    text = "id,v_D\n001,1\n1,2\n001,3\n,4\n"
-    with pytest.raises(RosterError) as error:
-        read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
-    places = [problem.place for problem in error.value.problems]
-    assert places == [f'a.csv, row {row}, column "id"' for row in (3, 4, 5)]
-    assert "answers already, in a.csv, row 2" in str(error.value)
-
-
-def test_zeros_that_a_spreadsheet_took_away_count_only_where_two_ids_differ_by_them(tmp_path):
-    path = written(tmp_path, "a.csv", "id,v_D\n1,2\n")
-    assert read_answers(path, FORM, signs(IDS)).of["001"]["v_D"].value == 2
-    with pytest.raises(RosterError, match=r"no student of this class; did you mean 0*1"):
-        read_answers(path, FORM, signs([*IDS, "0001"]))
-
-
-@pytest.mark.parametrize("text", ["name,v_D\nA,1\n", "id,colour\n001,red\n"])
-def test_a_table_without_ids_or_fields_is_refused(tmp_path, text):
-    with pytest.raises(RosterError, match="no column"):
-        read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
-
-
-def test_a_folder_with_a_file_for_each_student(tmp_path):
-    written(tmp_path, "001.csv", "field;value\nv_D_mm;19,75\nomega_3_sense;ccw\n")
-    written(tmp_path, "x.csv", "câmp,valoare\nmatricol,002\nv_D,3.8 m/s\nv_DD,1\n")
-    written(tmp_path, "notes.md", "nothing")
-    found = read_answers(tmp_path, FORM, signs(IDS))
+def test_a_folder_with_a_file_for_each_student(read):
+    found = read(
+        {
+            "001.csv": "field;value\nv_D_mm;19,75\nomega_3_sense;ccw\n",
+            "x.csv": "câmp,valoare\nmatricol,002\nv_D,3.8 m/s\nv_DD,1\n",
+            "notes.md": "nothing",
+        }
+    )
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["002"]["v_D"].value == 3.8
     assert [each.name for each in found.strangers] == ["v_DD"]
     assert found.missing == ["omega_3"]
 
 
-def test_a_folder_without_tables_is_refused(tmp_path):
-    with pytest.raises(RosterError, match="without any table"):
-        read_answers(tmp_path, FORM, signs(IDS))
+def test_every_broken_file_of_a_folder_and_all_wrong_rows_are_told_at_once(read):
+    broken = 'field,value\nv_D,"1\n', b"field,value\nv_D,\xff\n", "field,value\nv_D,1\n"
+    with pytest.raises(RosterError) as error:
+        read({f"00{n}.csv": text for n, text in enumerate(broken, 1)})
+    told = "\n".join(str(problem) for problem in error.value.problems)
+    assert all(f"00{n}" in told for n in (1, 2, 3))
+    with pytest.raises(RosterError) as error:
+        read("id,v_D\n001,1\n1,2\n001,3\n,4\n")
+    places = [problem.place for problem in error.value.problems]
+    assert places == [f'a.csv, row {row}, column "id"' for row in (3, 4, 5)]
+    assert "answers already, in a.csv, row 2" in str(error.value)
+
+
+def test_zeros_that_a_spreadsheet_took_away_count_only_where_two_ids_differ_by_them(read):
+    assert read("id,v_D\n1,2\n").of["001"]["v_D"].value == 2
+    with pytest.raises(RosterError, match=r"no student of this class; did you mean 0*1"):
+        read("id,v_D\n1,2\n", who=signs([*IDS, "0001"]))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("name,v_D\nA,1\n", "no column"),
+        ("id,colour\n001,red\n", "no column"),
+        ({}, "without any table"),
+        ("id,v_D,v_Q,a_Q,omega_9\n001,3.8,1,2,3\n", r"only 1 of the form's 4 fields.*v_Q, a_Q, om"),
+        ("id,v_Q,a_Q\n001,1,2\n", r"no column is a field of the form.*v_Q"),
+    ],
+)
+def test_a_table_without_ids_or_fields_or_of_another_lab_is_refused(read, text, said):
+    with pytest.raises(RosterError, match=said):
+        read(text)
 
 
 def test_answers_in_a_spreadsheet(tmp_path):
@@ -219,45 +186,3 @@ def test_answers_in_a_spreadsheet(tmp_path):
     found = read_answers(tmp_path / "a.xlsx", FORM, signs(IDS))
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
-
-
-def test_the_answers_to_another_lab_are_refused_with_their_columns(tmp_path):
-    text = "id,v_D,v_Q,a_Q,omega_9\n001,3.8,1,2,3\n"
-    with pytest.raises(RosterError, match="only 1 of the form's 4 fields") as refused:
-        read_answers(written(tmp_path, "a.csv", text), FORM, signs(IDS))
-    assert "v_Q, a_Q, omega_9" in str(refused.value)
-    with pytest.raises(RosterError, match=r"no column is a field of the form.*v_Q"):
-        read_answers(written(tmp_path, "b.csv", "id,v_Q,a_Q\n001,1,2\n"), FORM, signs(IDS))
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["1o,5", "3.8.2", "1O", "2l", "5o0", "5O0 m/s", "1o m/s", "47b3,2", "4b7", "3x12", "1/2"],
-)
-def test_a_mistyped_number_is_no_matter_of_units(text):
-    assert read_answer(text, SPEED).problem == "number"
-
-
-@pytest.mark.parametrize("text", ["12 kg", "3 kg/m3", "3 m³", "4 N/m2", "5 mm^2", "2 l", "7 oz"])
-def test_a_unit_of_something_else_is_no_mistyped_number(text):
-    assert read_answer(text, SPEED).problem == "unit"
-
-
-@pytest.mark.parametrize(
-    ("language", "said"),
-    [("en", "is not a number"), ("ro", "nu este un număr"), ("it", "non è un numero")],
-)
-def test_letters_among_the_digits_are_told_as_no_number(language, said):
-    answer = read_answer("5o0", HARD)
-    assert unread(answer.problem, HARD.unit, words(language)) == said
-
-
-@pytest.mark.parametrize("text", ["-", "–", " n/a ", "N.A.", "na", "--"])
-def test_what_stands_for_no_answer_is_none(text):
-    assert read_answer(text, SPEED).is_blank
-    sense = read_answer(text, SENSE)
-    assert sense.is_blank or (text in "-–" and sense.value == -1)
-
-
-def test_a_number_that_is_about_right_is_as_rough_as_its_digits():
-    assert rounding(read_answer("≈ 3,8", SPEED)) == rounding(read_answer("3,8", SPEED))

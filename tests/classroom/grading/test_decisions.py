@@ -57,20 +57,17 @@ def of(found, who):
     return next(g for g in found.result.graded if g.taker.student.id == who)
 
 
-@pytest.mark.parametrize("separator", [";", ",", "\t"])
-def test_a_table_of_any_separator_and_language_is_read(tmp_path, separator):
-    head = "matricol;mărime;puncte;motiv".replace(";", separator)
-    rows = ['s007;v_C_mm;"1,5";measured again', "s007;a_C;;stands", "s008;total;?;asked"]
-    text = "\n".join([head, *(row.replace(";", separator) for row in rows)])
-    assert read(tmp_path, text) == (
-        Decision("s007", "v_C_mm", Fraction(3, 2), "measured again"),
-        Decision("s007", "a_C", None, "stands"),
-        Decision("s008", "", None, "asked", is_open=True),
-    )
-
-
-def test_no_file_and_the_empty_one_decide_nothing(tmp_path):
+def test_a_table_of_any_separator_and_language_is_read(tmp_path):
+    """No file and the empty one decide nothing."""
     assert read_decisions(tmp_path, deciding()) == ()
+    rows = ["matricol;mărime;puncte;motiv", 's007;v_C_mm;"1,5";measured again', "s007;a_C;;stands"]
+    text = "\n".join([*rows, "s008;total;?;asked"])
+    for separator in ";,\t":
+        assert read(tmp_path, text.replace(";", separator)) == (
+            Decision("s007", "v_C_mm", Fraction(3, 2), "measured again"),
+            Decision("s007", "a_C", None, "stands"),
+            Decision("s008", "", None, "asked", is_open=True),
+        )
     (tmp_path / "decisions.csv").write_bytes(EMPTY)
     assert read_decisions(tmp_path, deciding()) == ()
 
@@ -92,9 +89,6 @@ def test_all_that_is_wrong_is_told_by_its_line(tmp_path):
     assert '"99"; expected 0 to 2' in told[2]
     assert 'column "reason": is missing' in told[3]
     assert "decided in row 9 already" in told[7]
-
-
-def test_a_table_without_its_columns_is_refused(tmp_path):
     with pytest.raises(RosterError, match="no column points, reason"):
         read(tmp_path, "id;field\ns007;v_C_mm\n")
 
@@ -124,6 +118,7 @@ def test_points_of_fields_and_of_the_whole_take_the_place_of_those_found():
     page = feedback_html(of(after, "s009"), "Lab", lab_of(LAB).rubric, words("en"))
     assert "handed in on paper" in page and "<table" not in page
     assert words("en")("feedback.absent") not in page
+    assert one.mark("v_C_mm").status is Status.WRONG  # statistics stay those of the answers
 
 
 def test_a_cell_that_was_decided_waits_no_more():
@@ -140,26 +135,16 @@ def test_a_cell_that_was_decided_waits_no_more():
         assert open_cells(made.result, cells) == left
 
 
-def test_what_stands_and_what_is_asked_change_no_points():
-    before = marked()
-    told = [Decision("s007", "v_C_mm", None, "looked at"), Decision("s008", "", None, "?", True)]
-    after = marked(told)
-    assert [g.earned for g in after.result.graded] == [g.earned for g in before.result.graded]
-
-
-@pytest.mark.parametrize(
-    ("decision", "held"),
-    [
+def test_a_row_releases_who_is_held_and_an_open_request_does_not():
+    for decision, held in (
         (None, True),
         (Decision("s008", "", None, "spoke with her"), False),
         (Decision("s008", "", Fraction(0), "copied"), False),
         (Decision("s008", "v_C_mm", None, "asked for it", is_open=True), True),
-    ],
-)
-def test_a_row_releases_who_is_held_and_an_open_request_does_not(decision, held):
-    found = marked([decision] if decision else [], hold=True)
-    assert of(found, "s008").held == held
-    assert ("s008" in points_by_id(found)) != held
+    ):
+        found = marked([decision] if decision else [], hold=True)
+        assert of(found, "s008").held == held
+        assert ("s008" in points_by_id(found)) != held
 
 
 def test_the_list_of_those_released_is_written_as_a_lecturer_reads_it():
@@ -192,13 +177,10 @@ def test_reasons_stand_on_feedback_in_the_report_and_in_the_marks(language):
     for key in ("decisions", "requests"):
         assert spoken(f"class.{key}") in report
     assert escaped in report and "please" in report
+    before = {g.taker.student.id: g.earned for g in marked().result.graded}
+    assert of(found, "s009").earned == before["s009"]  # what is asked changes no points
     rows = read_marks(files["marks.csv"])
     assert rows["s007"]["v_C_mm why"].endswith(f"; decided, was 0: {reason}")
     assert rows["s007"]["a_C why"] == "unreadable; decided, was open: citit de mine"
     assert rows["s007"]["decision"] == "stands: văzut"
     assert rows["s008"]["points"] == "1" and rows["s008"]["decision"].startswith("decided, was ")
-
-
-def test_statistics_stay_those_of_the_answers():
-    found = marked([Decision("s007", "v_C_mm", Fraction(2), "kind")])
-    assert of(found, "s007").mark("v_C_mm").status is Status.WRONG

@@ -37,33 +37,23 @@ def key(field: str) -> float:
     return marker_of("pump", 7).standard.key[field]
 
 
-# --- how far ------------------------------------------------------------------------------------
-
-
 # --- senses -------------------------------------------------------------------------------------
 
 
-def contradiction(value: str, sense: float) -> Graded:
-    """Student 7 with a signed value of link 3 and a sense; the right one is positive."""
-    assert key("omega_3") > 0
-    size = abs(key("omega_3"))
-    signed = Answer(value, -size if value.startswith("-") else size, signed=value[0] in "+-")
-    return graded({"omega_3": signed, "omega_3_sense": Answer("x", sense, signed=True)})
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize(("value", "sense"), [("-27,6", 1.0), ("+27,6", -1.0)])
-def test_a_sense_that_the_sign_of_its_value_contradicts_earns_nothing(value, sense, language):
-    """Whichever of the two is right; the value counts by its size."""
-    found = contradiction(value, sense)
-    assert found.mark("omega_3").status is Status.RIGHT
-    mark = found.mark("omega_3_sense")
-    assert mark.torn
-    assert mark.earned == 0
-    assert mark.status is Status.WRONG
-    assert why(found, "omega_3_sense", language) == words(language)("feedback.torn")
-    table = read_marks(marks_table(Result((found,))))
-    assert table["s007"]["omega_3_sense why"] == "wrong contradicts its sign"
+def test_a_sense_that_the_sign_of_its_value_contradicts_earns_nothing():
+    """Whichever of the two is right; the value counts by its size. The right one is positive."""
+    size = key("omega_3")
+    assert size > 0
+    for value, sense in (("-27,6", 1.0), ("+27,6", -1.0)):
+        signed = Answer(value, -size if value.startswith("-") else size, signed=True)
+        found = graded({"omega_3": signed, "omega_3_sense": Answer("x", sense, signed=True)})
+        assert found.mark("omega_3").status is Status.RIGHT
+        mark = found.mark("omega_3_sense")
+        assert (mark.torn, mark.earned, mark.status) == (True, 0, Status.WRONG)
+        for language in LANGUAGES:
+            assert why(found, "omega_3_sense", language) == words(language)("feedback.torn")
+        table = read_marks(marks_table(Result((found,))))
+        assert table["s007"]["omega_3_sense why"] == "wrong contradicts its sign"
 
 
 # --- what waits ---------------------------------------------------------------------------------
@@ -79,24 +69,12 @@ def waiting() -> Graded:
     )
 
 
-def test_what_cannot_be_read_waits_and_is_not_nought():
-    found = waiting()
-    assert found.pending == Fraction(3, 2)
-    assert found.share == 1
-    assert found.earned == found.points - found.pending
-
-
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_what_follows_on_the_drawing_says_so(language):
-    found = graded({"v_D_mm": Answer("82.5", 82.5, followed=True)})
-    said = plain(words(language)("feedback.follows_drawn", share="80"))
-    assert said in why(found, "v_D_mm", language)
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_slip_that_is_paid_once_says_so(language):
+def test_what_follows_on_the_drawing_and_a_slip_that_is_paid_once_say_so(language):
     """Both shares stand on the page with their reason: the slip's own, then what follows."""
-    found, spoken = mistaken("pump", "rpm_as_rad"), words(language)
+    found, spoken = graded({"v_D_mm": Answer("82.5", 82.5, followed=True)}), words(language)
+    assert plain(spoken("feedback.follows_drawn", share="80")) in why(found, "v_D_mm", language)
+    found = mistaken("pump", "rpm_as_rad")
     numbers = [m for m in found.marks if m.slip == "rpm_as_rad" and m.status is Status.SLIP]
     first, second = (why(found, m.item.field, language) for m in numbers[:2])
     assert plain(spoken("feedback.share", share="50")) in first
@@ -122,6 +100,9 @@ def test_the_key_of_what_waits_is_kept_back(language):
 
 def test_the_table_and_the_summary_leave_out_what_waits():
     found = waiting()
+    assert found.pending == Fraction(3, 2)
+    assert found.share == 1
+    assert found.earned == found.points - found.pending
     (row,) = read_marks(marks_table(Result((found,)))).values()
     assert row["pending"] == "1.5"
     assert row["percent"] == "100.0"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from math import isnan
+from itertools import product
 
 import mpmath
 import numpy as np
@@ -12,9 +11,9 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
+from graphkin.classroom.grading.graded import Status
 from graphkin.classroom.grading.marking import sense_is_open
 from graphkin.classroom.grading.tolerance import FINE, added, joint_drawings
-from graphkin.classroom.lab.rules import exact_text
 from tests.classroom.grading.students import (
     LABS,
     book_of,
@@ -30,7 +29,6 @@ from tests.classroom.grading.students import (
 VARIANTS = range(1, 31)
 """The numbers of a half-group, for which the shipped labs are made."""
 DRAWINGS = 600
-MANY = 40
 CAREFUL, COARSE = 0.25, 2.0
 
 
@@ -44,24 +42,25 @@ def test_the_key_earns_all_points_in_every_variant(name):
         ]
 
 
-@pytest.mark.parametrize("name", LABS[::2])
-def test_the_key_to_six_digits_earns_all_points_in_many_variants(name):
-    """Drawn over the whole range of the lab's parameter, also between the student numbers."""
-    lab = lab_of(name)
-    text = scene_of(name).read_text(encoding="utf-8").replace(", step = 1 ", " ")
-    book = Book(lab, text)
-    for n in np.linspace(1, 30, MANY):
-        settings_of = {"n": exact_text(Fraction(round(100 * n), 100))}
-        standard = book.marker(settings_of).standard
-        answers = given({f: float(f"{v:.6g}") for f, v in standard.key.items() if not isnan(v)})
-        graded = book.marker(settings_of).mark(taker(), answers)
-        assert graded.earned == graded.points
+def test_where_no_drawing_tells_a_sense_both_are_right():
+    """A rate that is nought within what a pencil makes of it turns either way."""
+    tried = 0
+    for name, n in product(LABS, VARIANTS):
+        marker = marker_of(name, n)
+        key = marker.standard.key
+        for field in (f for f in key if f.endswith("_sense")):
+            off, rate = {field: -key[field]}, field.removesuffix("_sense")
+            if abs(key[rate]) <= 0.9 * marker.standard.tolerance[rate].pencil:
+                mark = marker.mark(taker(n), key_answers(marker.standard) | given(off)).mark(field)
+                assert mark.status is Status.RIGHT, (name, n, field)
+                tried += 1
+    assert tried > 5
 
 
 def chances(name: str, pencil: float) -> dict[str, list[float]]:
     """How often each field of each variant is right by the key with a pencil."""
     found: dict[str, list[float]] = {}
-    for n in VARIANTS:
+    for n in VARIANTS[::2]:
         marker = marker_of(name, n)
         standard, points = marker.standard, marker.standard.rubric.points
         for field, values in drawn(standard, pencil, DRAWINGS, seed=n).items():
@@ -79,15 +78,11 @@ def chances(name: str, pencil: float) -> dict[str, list[float]]:
 
 
 @pytest.mark.parametrize("name", LABS)
-def test_a_careful_pencil_passes_every_field_in_95_of_100_drawings(name):
+def test_a_careful_pencil_passes_every_field_in_95_of_100_drawings_and_a_coarse_one_fewer(name):
     lucky = 0.95 - 3 * (0.95 * 0.05 / DRAWINGS) ** 0.5
     for field, shares in chances(name, CAREFUL).items():
         assert np.mean(shares) >= 0.95, field
         assert min(shares) >= lucky, (field, shares)
-
-
-@pytest.mark.parametrize("name", LABS)
-def test_a_coarse_pencil_loses_marks_on_every_field_that_is_measured(name):
     found = chances(name, COARSE)
     measured = {field: np.mean(shares) for field, shares in found.items() if "_sense" not in field}
     assert measured
@@ -123,15 +118,6 @@ def test_the_pencil_of_a_tolerance_is_that_of_drawings_in_which_all_marks_are_of
             off = abs(probe.error(found, standard.paper, standard.key[field]))
             drawn_error = np.percentile(np.broadcast_to(off, 4000), 95)
             assert standard.tolerance[field].pencil == pytest.approx(drawn_error, rel=0.1)
-
-
-def test_the_tolerance_is_a_length_of_paper_and_so_differs_from_student_to_student():
-    shares = {
-        n: marker_of("pump", n).standard.tolerance["v_D"].value
-        / abs(marker_of("pump", n).standard.key["v_D"])
-        for n in (7, 15)
-    }
-    assert shares[7] != pytest.approx(shares[15], rel=0.05)
 
 
 def test_tolerances_do_not_hang_on_where_the_origin_lies():

@@ -34,14 +34,14 @@ from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
 from tests.chosen import EVERY
 from tests.classroom.grading import hand
-from tests.classroom.grading.classes import LABS, Kind, book_of, row, written
+from tests.classroom.grading.classes import LABS, Kind, book_of, row
 
 FINE = Kind("fine", (0.25, 0.25))
 ORDINARY = Kind("ordinary", (0.5, 0.5), digits=3)
 WEAK = Kind("weak", (0.5, 0.5), step=1, digits=2)
 COMPUTED = Kind("computed", (0.0, 0.02), step=0.1)
 KINDS = (FINE, ORDINARY, WEAK, COMPUTED) if EVERY else (ORDINARY, WEAK)
-EACH = 12 if EVERY else 10
+EACH = 12 if EVERY else 8
 SLIPS = (None, *hand.SLIPS)
 SOME = SLIPS if EVERY else (None, "wrong_scale", "normal_reversed")
 Rows = Sequence[Mapping[str, Answer]]
@@ -105,7 +105,7 @@ def test_two_honest_hands_with_one_misunderstanding_and_the_same_data(lab):
             rows = drawings(lab, kind, [(n, slip) for n in numbers], place)
             found += odds(lab, marked(lab, numbers, rows))
     assert len(found) == comb(EACH, 2) * len(KINDS) * len(SOME)
-    assert sum(each > 0 for each in found) > 50
+    assert sum(each > 0 for each in found) > 30
     assert_odds(found)
 
 
@@ -157,17 +157,6 @@ def test_who_doubles_all_values_has_three_of_another_by_chance():
         by_oneself(*pair, keys, agree, ~agree) for pair in ((one, other), (other, one))
     )
     assert doubled == pytest.approx(right, abs=0.5)
-
-
-def test_a_unit_that_is_taken_wrongly_makes_no_pair():
-    """All values a thousand times too small, in three digits, of careful hands with one number."""
-    rows = []
-    for each in drawings("slotted-lever", ORDINARY, [(9, None)] * 8, 3):
-        values = {f: a for f, a in each.items() if not f.endswith(("_mm", "_sense"))}
-        small = {f: written(f, float(a.value or 0) / 1000, 3) for f, a in values.items()}
-        rows.append({**each, **small})
-    found = odds("slotted-lever", marked("slotted-lever", [9] * 8, rows))
-    assert 0 < max(found) < 100
 
 
 def test_what_may_be_copied_of_a_form_has_a_share_that_adds_up_to_one():

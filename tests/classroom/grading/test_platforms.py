@@ -5,21 +5,19 @@ from __future__ import annotations
 import csv
 import io
 import zipfile
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
 from graphkin.classroom.grading.answers import read_answers
-from graphkin.classroom.grading.gradebook import GradebookError, filled
-from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
 from graphkin.classroom.grading.marks_tables import read_marks
 from graphkin.classroom.grading.submissions import sender, submissions
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.cli.main import app
 from graphkin.text.errors import RosterError
 from tests.classroom.grading.students import book_of, marker_of
+from tests.classroom.grading.test_gradebooks import WORKSHEET
 
 ROSTER = (
     "nr;id;name;e-mail\n7;01003;Ștefănescu Ana;ana.s@example.org\n"
@@ -67,42 +65,29 @@ MOODLE = {
 # --- whose a file is ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("name", "who", "back"),
-    [
-        (
-            "Ana Pop_12_assignsubmission_file_/a.csv",
-            "Ana Pop",
-            "Ana Pop_12_assignsubmission_file_/",
-        ),
-        (
-            "Ana Pop_12_assignsubmission_file/x/a.csv",
-            "Ana Pop",
-            "Ana Pop_12_assignsubmission_file/",
-        ),
-        (
-            "Ana Pop_12_assignsubmission_file_a_b.csv",
-            "Ana Pop",
-            "Ana Pop_12_assignsubmission_file_",
-        ),
-        ("popana_12345_67890_answers.csv", "popana", ""),
-        ("popana_LATE_12345_67890_answers-1.csv", "popana", ""),
-        ("answers/0042.csv", None, None),
-        ("0042_answers.csv", None, None),
-    ],
-)
-def test_platforms_say_whose_a_file_is(name, who, back):
+SENT = """Ana Pop_12_assignsubmission_file_/a.csv|Ana Pop|Ana Pop_12_assignsubmission_file_/
+Ana Pop_12_assignsubmission_file/x/a.csv|Ana Pop|Ana Pop_12_assignsubmission_file/
+Ana Pop_12_assignsubmission_file_a_b.csv|Ana Pop|Ana Pop_12_assignsubmission_file_
+popana_12345_67890_answers.csv|popana|
+popana_LATE_12345_67890_answers-1.csv|popana|
+answers/0042.csv
+0042_answers.csv"""
+"""Files, by whom they are, and where feedback goes back to; two that say nothing of that."""
+
+
+@pytest.mark.parametrize("line", SENT.splitlines())
+def test_platforms_say_whose_a_file_is(line):
+    name, *whose = line.split("|")
     found = sender(name)
-    assert (found and (found.name, found.back)) == (None if who is None else (who, back))
+    assert whose == ([] if found is None else [found.name, found.back])
 
 
-@pytest.mark.parametrize("make", [packed, unpacked])
-def test_moodles_submissions_are_read_with_all_that_lies_beside(tmp_path, make):
-    path = make(tmp_path / ("all.zip" if make is packed else "all"), MOODLE)
-    found = read_answers(path, book_of("pump").form, SIGNS)
-    assert set(found.of) == {"01003", "01004"}
-    assert [each.name for each in found.empty] == ["Ion Popa"]
-    assert found.senders["01003"].back == "Ana Ștefănescu_12345_assignsubmission_file_/"
+def test_moodles_submissions_are_read_with_all_that_lies_beside(tmp_path):
+    for path in (packed(tmp_path / "all.zip", MOODLE), unpacked(tmp_path / "all", MOODLE)):
+        found = read_answers(path, book_of("pump").form, SIGNS)
+        assert set(found.of) == {"01003", "01004"}
+        assert [each.name for each in found.empty] == ["Ion Popa"]
+        assert found.senders["01003"].back == "Ana Ștefănescu_12345_assignsubmission_file_/"
 
 
 @pytest.mark.parametrize("match", ["", "email"])
@@ -125,35 +110,28 @@ def test_a_row_without_an_id_is_that_of_the_folder_it_lies_in(tmp_path, match):
     }
 
 
-def test_a_row_without_an_id_of_nobody_is_refused(tmp_path):
-    files = {"Eva Nimeni_12345_assignsubmission_file/answers.csv": "v_D\n3.8\n"}
-    with pytest.raises(RosterError, match="no column id"):
-        read_answers(packed(tmp_path / "all.zip", files), book_of("pump").form, SIGNS)
-
-
-def test_rows_of_several_without_ids_are_refused_in_a_folder_of_one(tmp_path):
-    files = {"Ana Ștefănescu_12345_assignsubmission_file/answers.csv": "v_D\n3.8\n3.9\n"}
-    with pytest.raises(RosterError, match="no column id"):
-        read_answers(packed(tmp_path / "all.zip", files), book_of("pump").form, SIGNS)
-
-
-def test_canvas_has_all_files_in_one_folder_by_names_run_together(tmp_path):
-    files = {"stefanescuana_901_11_a.csv": form(7), "popaion_LATE_903_12_a.csv": form(9)}
-    found = read_answers(packed(tmp_path / "s.zip", files), book_of("pump").form, SIGNS)
-    assert set(found.of) == {"01003", "01005"}
-
-
-def test_a_name_that_two_students_have_is_nobodys(tmp_path):
+@pytest.mark.parametrize(
+    ("names", "who"),
+    [
+        # all files in one folder by names run together, as Canvas has them
+        ({"stefanescuana_901_11_a.csv": form(7), "popaion_LATE_903_12_a.csv": form(9)}, "35"),
+        # the file itself says whose it is before the platform does
+        ({"Ion Popa_777_assignsubmission_file_/a.csv": form(7, "ABCDEFGHIJ")}, "3"),
+        ({"Eva Nimeni_12345_assignsubmission_file/answers.csv": "v_D\n3.8\n"}, "no column id"),
+        ({"Ana Ștefănescu_1_assignsubmission_file/a.csv": "v_D\n3.8\n3.9\n"}, "no column id"),
+        ({"Ion Popa_777_assignsubmission_file_/a.csv": form(7)}, "no student of this class"),
+    ],
+    ids=["canvas", "signed", "nobody", "several", "twins"],
+)
+def test_whose_a_file_is_or_why_it_is_nobody_s(tmp_path, names, who):
+    """A name that two students have is nobody's, nor are rows of several in a folder of one."""
+    path, fields = packed(tmp_path / "s.zip", names), book_of("pump").form
+    if who.isdecimal():
+        assert set(read_answers(path, fields, SIGNS).of) == {f"0100{last}" for last in who}
+        return
     twins = signs(["1", "2"], names={"1": "Popa Ion", "2": "Ion Popa"})
-    files = {"Ion Popa_777_assignsubmission_file_/a.csv": form(7)}
-    with pytest.raises(RosterError, match="no student of this class"):
-        read_answers(packed(tmp_path / "s.zip", files), book_of("pump").form, twins)
-
-
-def test_the_file_itself_says_whose_it_is_before_the_platform_does(tmp_path):
-    files = {"Ion Popa_777_assignsubmission_file_/a.csv": form(7, "ABCDEFGHIJ")}
-    found = read_answers(packed(tmp_path / "s.zip", files), book_of("pump").form, SIGNS)
-    assert set(found.of) == {"01003"}
+    with pytest.raises(RosterError, match=who):
+        read_answers(path, fields, twins if "no student" in who else SIGNS)
 
 
 def test_what_is_no_zip_and_what_holds_too_much_is_refused(tmp_path, monkeypatch):
@@ -173,26 +151,13 @@ def test_what_is_no_zip_and_what_holds_too_much_is_refused(tmp_path, monkeypatch
 # --- who a row is -------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("sign", "who"),
-    [
-        ("01003", "01003"),
-        ("1003", "01003"),
-        ("ABCDEFGHIJ", "01003"),
-        ("ANA.S@example.org", "01003"),
-        ("13", None),
-        ("", None),
-        ("²", None),
-    ],
-)
-def test_ids_codes_addresses_and_lost_zeros(sign, who):
-    assert SIGNS.who(sign) == who
-
-
-def test_lost_zeros_that_two_students_could_have_lost_are_nobodys():
+def test_ids_codes_addresses_and_lost_zeros():
+    """Zeros that two students could have lost are nobody's."""
+    for sign in ("01003", "1003", "ABCDEFGHIJ", "ANA.S@example.org"):
+        assert SIGNS.who(sign) == "01003"
+    assert {SIGNS.who(sign) for sign in ("13", "", "²")} == {None}
     twins = signs(["041", "0041", "42", "042"])
-    assert twins.who("41") is None
-    assert twins.who("42") == "42"
+    assert (twins.who("41"), twins.who("42")) == (None, "42")
 
 
 def test_a_table_of_answers_may_be_signed_by_addresses(tmp_path):
@@ -204,64 +169,6 @@ def test_a_table_of_answers_may_be_signed_by_addresses(tmp_path):
         read_answers(path, book_of("pump").form, SIGNS, "id")
     path.write_text("id,email,v_D_mm\n5,pat@example.org,12\n", encoding="utf-8")
     assert "01004" in read_answers(path, book_of("pump").form, SIGNS, "email").of
-
-
-WORKSHEET = (
-    "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Feedback comments\r\n"
-    "Participant 12345,Ana,ana.s@example.org,Submitted,,10,\r\n"
-    "Participant 12346,Pat,pat@example.org,Submitted,,10,\r\n"
-)
-MARKS = {"01003": Fraction(9), "01004": Fraction(15, 2)}
-
-
-def book(tmp_path: Path, text: str):
-    (tmp_path / "book.csv").write_bytes(text.encode("utf-8"))
-    return read_gradebook(tmp_path / "book.csv")
-
-
-def test_a_gradebook_without_ids_is_filled_by_addresses(tmp_path):
-    found = filled(book(tmp_path, WORKSHEET), MARKS, "Grade", SIGNS)
-    assert b"org,Submitted,9,10," in found.data and b"org,Submitted,7.5,10," in found.data
-    assert found.worth == 10 and not found.absent
-    unnamed = filled(
-        book(tmp_path, WORKSHEET.replace("Status,", "Last modified,")), MARKS, None, SIGNS
-    )
-    assert unnamed.data == found.data.replace(b"Status,", b"Last modified,")
-    with pytest.raises(GradebookError, match="no column holds ids of this class"):
-        filled(book(tmp_path, WORKSHEET), MARKS, "Grade", SIGNS, "id")
-    with pytest.raises(GradebookError, match="the class list has no column e-mail"):
-        filled(book(tmp_path, WORKSHEET), MARKS, "Grade", signs(MARKS))
-
-
-def test_ids_that_a_spreadsheet_made_numbers_are_found_in_a_gradebook(tmp_path):
-    text = "Row,ID number,Grade\r\n1,1003,\r\n2,1004,\r\n"
-    found = filled(book(tmp_path, text), MARKS, "Grade", SIGNS)
-    assert found.data == b"Row,ID number,Grade\r\n1,1003,9\r\n2,1004,7.5\r\n"
-
-
-def test_a_row_without_an_id_is_found_by_its_address(tmp_path):
-    """Where that is one student's, who has no row with the id; a foreign id is nobody's."""
-    text = "ID,E-mail,Grade\r\n01003,,\r\n,PAT@example.org,\r\n,ana.s@example.org,\r\n"
-    found = filled(book(tmp_path, text), MARKS, "Grade", SIGNS)
-    rows = found.data.decode().split("\r\n")
-    assert rows[1:4] == ["01003,,9", ",PAT@example.org,7.5", ",ana.s@example.org,"]
-    assert (found.count, found.absent) == (2, ())
-    assert filled(book(tmp_path, text), MARKS, "Grade", SIGNS, "id").absent == ("01004",)
-    foreign = text.replace(",PAT", "77,PAT")
-    assert filled(book(tmp_path, foreign), MARKS, "Grade", SIGNS).absent == ("01004",)
-    with pytest.raises(GradebookError, match='"01004" stands there twice'):
-        filled(book(tmp_path, text + ",pat@example.org,\r\n"), MARKS, "Grade", SIGNS)
-
-
-def test_a_gradebook_without_an_empty_column_is_told_with_those_that_lack_a_mark(tmp_path):
-    text = "ID number,Name,Grade\r\n01003,Ana,7\r\n01004,Pat,\r\n"
-    told = 'no column is empty; expected one of "Grade"; name the column with --column'
-    with pytest.raises(GradebookError, match=told):
-        filled(book(tmp_path, text), MARKS, None, SIGNS)
-    full = text.replace("Pat,", "Pat,8")
-    told = 'no column is empty; expected one of "ID number", "Name", "Grade"'
-    with pytest.raises(GradebookError, match=told):
-        filled(book(tmp_path, full), MARKS, None, SIGNS)
 
 
 # --- the command --------------------------------------------------------------------------------

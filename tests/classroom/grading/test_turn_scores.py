@@ -42,19 +42,19 @@ def test_a_score_sheet_counts_how_its_steps_were_drawn(tmp_path):
     assert read_turns(tmp_path / "a.json", CODES) == read_turns(tmp_path / "none", CODES) == []
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"from": -1},
-        {"left": 100_001},
-        {"graphkin_turn": 2},
-        {"steps": [["v_A", "alone"]]},
-        {"steps": [["v_A", "guessed", 0]]},
-        {"more": 1},
-        {"seal": "a" * MOST},
-    ],
-    ids=str,
+CHANGES = (
+    {"from": -1},
+    {"left": 100_001},
+    {"graphkin_turn": 2},
+    {"steps": [["v_A", "alone"]]},
+    {"steps": [["v_A", "guessed", 0]]},
+    {"steps": [["v_A", "alone", -1]]},
+    {"more": 1},
+    {"seal": "a" * MOST},
 )
+
+
+@pytest.mark.parametrize("changes", CHANGES, ids=str)
 def test_what_no_page_saves_is_no_score_sheet(tmp_path, changes):
     saved(tmp_path, "a.json", "0001", **changes)
     with pytest.raises(RosterError) as refused:

@@ -110,11 +110,7 @@ def test_places_of_the_square_lie_4_mm_apart_in_all_the_room_there_is():
     beside = (*BELOW[:2], A3_TITLE_BLOCK[0], A3_TITLE_BLOCK[3])
     for places, area, down in (
         ([*corners_of_a4(margin)], A4_AREA, 4.0),
-        (
-            [*corners_of_a3(margin)],
-            beside,
-            -4.0,
-        ),
+        ([*corners_of_a3(margin)], beside, -4.0),
     ):
         left, top, right, bottom = area
         columns = [*dict.fromkeys(x for x, _ in places)]

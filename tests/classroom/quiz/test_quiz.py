@@ -59,6 +59,10 @@ def test_the_key_earns_everything(name):
             for field, gap in read(name, n).items()
         )
         assert earned == worth > 0
+        for field, gap in read(name, n).items():
+            if field.endswith("_sense"):  # it has both ways, and one is right
+                right = given(name, n, field, key[field])
+                assert [each.text for each in gap.answers if each.share == 1] == [right]
 
 
 @pytest.mark.parametrize("name", LABS)
@@ -90,13 +94,6 @@ def test_a_slip_earns_its_share_once_and_then_what_follows():
     assert all("rev/min are taken for rad/s" in said for _, said in shares)
 
 
-def test_a_sense_has_both_ways_and_one_is_right():
-    for field, gap in read("pump").items():
-        if field.endswith("_sense"):
-            right = given("pump", 7, field, marker_of("pump", 7).standard.key[field])
-            assert [each.text for each in gap.answers if each.share == 1] == [right]
-
-
 def test_moodle_itself_read_what_is_kept_here_and_this_reader_reads_the_same():
     """A bank with hostile texts, and what Moodle's own importer (4.0dev, qformat_xml with
     qtype_multianswer and its validation) made of it; no error was found."""
@@ -118,7 +115,7 @@ def test_moodle_itself_read_what_is_kept_here_and_this_reader_reads_the_same():
     assert [[n, len(data)] for each in found for n, data in each.files.items()] == told["files"]
 
 
-@pytest.mark.parametrize("name", LABS)
+@pytest.mark.parametrize("name", LABS[:1])
 def test_the_reader_of_a_package_reads_the_same(name):
     """moodle-xml-parser, of the registry: gaps, points, answers, shares in whole percent."""
     lab = lab_of(name)
@@ -162,19 +159,15 @@ def test_data_too_long_for_a_title_block_make_a_quiz_as_well(tmp_path):
     assert all(f"{name} = " in one.name for name in (*more, "n", "r"))
 
 
-def test_points_become_whole_numbers_in_their_proportion():
-    assert weights([Fraction(1, 2), Fraction(2), Fraction(3, 4)]) == ([2, 8, 3], 4)
-    assert weights([]) == ([], 1)
-
-
 def test_no_text_ends_a_gap():
+    """And points become whole numbers in their proportion."""
     item = next(iter(marker_of("pump", 7).standard.items))
     hostile = 'a~b#c}d{1:NM:=1}\\ "e" & <f> %50% =g'
-    gap = Gap(
-        replace(item, what="sense"), Fraction(1), (Taken(hostile, 0.0, Fraction(1), hostile),)
-    )
-    (back,) = moodle.gaps(f"before {cloze(gap, 3)} after")
+    taken = (Taken(hostile, 0.0, Fraction(1), hostile),)
+    (back,) = moodle.gaps(f"before {cloze(Gap(replace(item, what='sense'), 1, taken), 3)} after")
     assert back.answers == (moodle.Answer(hostile, 0.0, 1.0, hostile),)
+    assert weights([Fraction(1, 2), Fraction(2), Fraction(3, 4)]) == ([2, 8, 3], 4)
+    assert weights([]) == ([], 1)
 
 
 @pytest.mark.parametrize("language", SPOKEN)
@@ -183,7 +176,6 @@ def test_the_bank_has_a_category_with_a_whole_question_for_each_variant(language
     fair, unfair = variants_of(lab, 3)
     order = PrintOrder(lab, lab.scene.read_text(encoding="utf-8"), language, "colour")
     data = bank("a/b", questions(order, fair, 1))
-    assert data == bank("a/b", questions(order, fair, 1))
     found = moodle.imported(data)
     assert len(found) == len(fair) == 3 - len(unfair)
     assert [each.category for each in found] == [
@@ -216,13 +208,27 @@ def test_ranges_give_as_many_variants_as_are_asked_for_each_once(tmp_path):
 
 
 def test_the_command_writes_the_bank_and_leaves_out_what_is_unfair(tmp_path):
-    args = ["quiz", "pump", "-o", str(tmp_path), "--count", "2", "--lang", "en", "--jobs", "1"]
+    args = [
+        "quiz",
+        "offset-slider-crank",
+        "-o",
+        str(tmp_path),
+        "--count",
+        "2",
+        "--lang",
+        "en",
+        "--jobs",
+        "1",
+    ]
     found = CliRunner().invoke(app, args)
     assert found.exit_code == 0, found.output
     assert "2 questions, a category for each" in found.output
-    assert len(moodle.imported((tmp_path / "pump-moodle.xml").read_bytes())) == 2
+    path = tmp_path / "offset-slider-crank-moodle.xml"
+    before = path.read_bytes()
+    assert len(moodle.imported(before)) == 2
     assert CliRunner().invoke(app, args).exit_code == 2
     assert CliRunner().invoke(app, [*args, "--force"]).exit_code == 0
+    assert path.read_bytes() == before
 
 
 def test_a_class_gives_the_quiz_of_its_lab_in_its_language(tmp_path):

@@ -6,6 +6,7 @@ import csv
 import io
 import os
 import zipfile
+from itertools import product
 from pathlib import Path
 
 import openpyxl
@@ -50,26 +51,24 @@ def problems(path, numbered=True):
 # ------------------------------------------------------------------------------ what is read
 
 
-@pytest.mark.parametrize("separator", SEPARATORS)
-@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
-def test_separator_line_ends_and_byte_order_mark_do_not_matter(saved, separator, newline, encoding):
-    text = PLAIN.replace(",", separator).replace("\n", newline)
-    assert read_roster(saved(text.encode(encoding)), numbered=True) == READ
+def test_separator_line_ends_and_byte_order_mark_do_not_matter(saved):
+    for separator, newline, encoding in product(
+        SEPARATORS, ("\n", "\r\n", "\r"), ("utf-8", "utf-8-sig", "utf-16")
+    ):
+        text = PLAIN.replace(",", separator).replace("\n", newline)
+        assert read_roster(saved(text.encode(encoding)), numbered=True) == READ
 
 
-@pytest.mark.parametrize(
-    "head",
-    [
-        "NUMBER,ID,NAME,GROUP",
-        " Number , Student ID,Full name,Section",
-        "Nr.,Nr. matricol,Nume și prenume,Grupă",
-        "nr crt,MATRICOL,Numele și prenumele,Grupa",
-        "N.,Matricola,Nome e cognome,Gruppo",
-        "Numero,Numero di matricola,Nominativo,CLASSE",
-        '"number","id","name","group"',
-    ],
-)
+HEADS = """NUMBER,ID,NAME,GROUP
+ Number , Student ID,Full name,Section
+Nr.,Nr. matricol,Nume și prenume,Grupă
+nr crt,MATRICOL,Numele și prenumele,Grupa
+N.,Matricola,Nome e cognome,Gruppo
+Numero,Numero di matricola,Nominativo,CLASSE
+"number","id","name","group\""""
+
+
+@pytest.mark.parametrize("head", HEADS.splitlines())
 def test_heads_are_known_in_three_languages_whatever_their_case(saved, head):
     assert read_roster(saved(PLAIN.replace("number,id,name,group", head)), numbered=True) == READ
 
@@ -112,20 +111,12 @@ def test_a_moodle_and_a_canvas_export_are_class_lists(saved):
 TITLED = "Universitatea, Facultatea de Inginerie\nGrupa 321;;;\n\nNr.;Matricol;Nume;Grupa\n"
 
 
-@pytest.mark.parametrize("separator", SEPARATORS)
-def test_the_head_is_found_below_titles(saved, separator):
-    text = TITLED.replace(";", separator) + separator.join(["7", "0042", "Ann Lee", "A"])
-    assert read_roster(saved(text), numbered=True) == [Student(5, "0042", 7, "Ann Lee", "A")]
-
-
-def test_the_head_of_a_workbook_is_found_below_titles(book):
-    rows = [
-        ["Lista studenților 2026"],
-        [],
-        ["An II"],
-        ["Nr.", "Matricol"],
-        *[[i, i] for i in (1, 2)],
-    ]
+def test_the_head_is_found_below_titles(saved, book):
+    for separator in SEPARATORS:
+        text = TITLED.replace(";", separator) + separator.join(["7", "0042", "Ann Lee", "A"])
+        found = read_roster(saved(text), numbered=True)
+        assert found == [Student(5, "0042", 7, "Ann Lee", "A")]
+    rows = [["Lista studenților 2026"], [], ["An II"], ["Nr.", "Matricol"], [1, 1], [2, 2]]
     assert [(s.row, s.id) for s in read_roster(book(rows), numbered=True)] == [(5, "1"), (6, "2")]
 
 
@@ -134,22 +125,21 @@ def test_a_head_with_one_known_name_stays_the_head_above_rows_that_look_like_one
     assert (one.extra, two.extra) == ({"x": "id"}, {"x": "name"})
 
 
-@pytest.mark.parametrize(
-    ("head", "row", "name"),
-    [
-        ("Nume,Prenume", "Popa,Ana Maria", "Popa Ana Maria"),
-        ("Numele studentului;Prenumele", "Popa;Ana", "Popa Ana"),
-        ("Prenumele studentului,Nume de familie", "Ana,Popa", "Ana Popa"),
-        ("First name,Surname", "Ann,Lee", "Ann Lee"),
-        ("Family name,Given names", "Lee,Ann", "Lee Ann"),
-        ("Cognome,Nome", "Rossi,Anna", "Rossi Anna"),
-        ("Nome,Cognome", "Anna,De Rossi", "Anna De Rossi"),
-    ],
-)
-def test_names_in_two_columns_are_joined_in_their_order(saved, head, row, name):
-    separator = ";" if ";" in head else ","
+NAMED = """Nume,Prenume: Popa,Ana Maria
+Numele studentului;Prenumele: Popa;Ana
+Prenumele studentului,Nume de familie: Ana,Popa
+First name,Surname: Ann,Lee
+Family name,Given names: Lee,Ann
+Cognome,Nome: Rossi,Anna
+Nome,Cognome: Anna,De Rossi"""
+
+
+@pytest.mark.parametrize("named", NAMED.splitlines())
+def test_names_in_two_columns_are_joined_in_their_order(saved, named):
+    separator = ";" if ";" in named else ","
+    head, _, row = named.partition(": ")
     (one,) = read_roster(saved(f"id{separator}{head}\n1{separator}{row}\n"))
-    assert one.name == name and not one.extra
+    assert one.name == row.replace(separator, " ") and not one.extra
 
 
 def test_a_column_code_holds_ids_unless_another_is_called_id(saved):
@@ -174,7 +164,7 @@ def test_columns_that_are_not_understood_are_named(saved):
 # --------------------------------------------------------------------------- what is refused
 
 
-@pytest.mark.parametrize("count", [4, 90, 3000])
+@pytest.mark.parametrize("count", [4, 90])
 def test_one_cause_is_one_line_however_many_rows(saved, count):
     (found,) = problems(saved("id\n" + "a,b,c\n" * count), numbered=False)
     assert found.startswith("roster.csv, row 2: 3 cells, and the head has 1")
@@ -251,12 +241,6 @@ def test_a_table_without_a_head_has_no_student_for_the_name_of_a_column(saved):
         assert all(each.endswith("the first row names the columns") for each in found), found
 
 
-def test_all_rows_are_told_at_once_in_their_order(saved):
-    found = problems(saved("number,id\n1,7\nx,7\n,8\n4,\n"))
-    rows = [int(problem.partition("row ")[2].split(",")[0]) for problem in found]
-    assert rows == [3, 3, 4, 5]
-
-
 def test_what_is_not_utf_8_is_told_with_its_row_and_the_way_out(saved):
     (found,) = problems(saved("number,id,name\n1,7,Ștefan\n".encode("utf-16-le")))
     assert "NUL" in found
@@ -283,34 +267,19 @@ def test_no_bytes_are_more_than_told(saved, data):
 # --------------------------------------------------------------------------------- what is written
 
 
-@pytest.mark.parametrize(
-    ("cell", "written"),
-    [
-        ("=HYPERLINK(1)", "'=HYPERLINK(1)"),
-        ("+cmd", "'+cmd"),
-        ("@SUM(1)", "'@SUM(1)"),
-        ("-x", "'-x"),
-        ("\t=1", "'\t'=1"),
-        ("b;=1+1", "b;'=1+1"),
-        ("b; @SUM(1)", "b; '@SUM(1)"),
-        ("a\n+cmd", "a\n'+cmd"),
-        ("＝1", "'＝1"),
-        (" =1", "' =1"),
-        (";=1", ";'=1"),
-        ('a;"=1"', 'a;"\'=1"'),
-        ("B-2; C", "B-2; C"),
-        ("x, -y", "x, -y"),
-        ("-5", "-5"),
-        ("+5.5", "+5.5"),
-        ("-1,5", "-1,5"),
-        ("-5e3", "-5e3"),
-        (-5, "-5"),
-        ("Ann", "Ann"),
-        ("", ""),
-    ],
-)
-def test_formula_cells_are_escaped_and_numbers_stay(cell, written):
-    assert safe(cell) == written
+SAFE = {
+    "=HYPERLINK(1)": "'=HYPERLINK(1)", "+cmd": "'+cmd", "@SUM(1)": "'@SUM(1)", "-x": "'-x",
+    "\t=1": "'\t'=1", "b;=1+1": "b;'=1+1", "b; @SUM(1)": "b; '@SUM(1)", "a\n+cmd": "a\n'+cmd",
+    "＝1": "'＝1", " =1": "' =1", ";=1": ";'=1", 'a;"=1"': 'a;"\'=1"', -5: "-5",
+}  # fmt: skip
+PLAINLY = ("B-2; C", "x, -y", "-5", "+5.5", "-1,5", "-5e3", "Ann", "")
+
+
+def test_formula_cells_are_escaped_and_numbers_stay():
+    assert {cell: safe(cell) for cell in (*SAFE, *PLAINLY)} == {
+        **SAFE,
+        **{cell: cell for cell in PLAINLY},
+    }
 
 
 @given(
@@ -346,13 +315,10 @@ def book(tmp_path):
     return written
 
 
-def test_a_workbook_is_a_class_list(book):
+def test_a_workbook_is_a_class_list_with_the_zeros_that_a_format_shows(book):
     rows = [["Nr.", "Matricol", "Nume", "Grupa", "medie"], [1, "0042", "Ștefan", "A", 9.5]]
     (one,) = read_roster(book(rows), numbered=True)
     assert one == Student(2, "0042", 1, "Ștefan", "A", {"medie": "9.5"})
-
-
-def test_zeros_that_only_a_format_shows_are_kept(book):
     path = book([["number", "id"], [7.0, 42]], [("B2", "0000")])
     assert [(s.number, s.id) for s in read_roster(path, numbered=True)] == [(7, "0042")]
 
@@ -413,11 +379,8 @@ def test_a_stray_cell_far_below_costs_no_cells_between(packed):
     rows = '<row r="2"><c/><c s="0"/></row><row r="1048576"><c><v>1</v></c><c><v>7</v></c></row>'
     found = list(xlsx_rows(packed(rows).read_bytes(), "roster.xlsx"))
     assert [(row.line, row.cells) for row in found] == [(1, ("nr", "id")), (1048576, ("1", "7"))]
-
-
-def test_a_row_below_the_last_of_a_spreadsheet_is_refused(packed):
-    (found,) = problems(packed('<row r="1048577"><c><v>1</v></c></row>'))
-    assert "1048577 rows" in found
+    (refused,) = problems(packed('<row r="1048577"><c><v>1</v></c></row>'))
+    assert "1048577 rows" in refused
 
 
 @pytest.mark.parametrize(
@@ -425,7 +388,6 @@ def test_a_row_below_the_last_of_a_spreadsheet_is_refused(packed):
     [
         ('<row r="1001"><c><v>1</v></c></row>', "1001 rows"),
         ("<row><c><v>1</v></c><c r='XFD2'><v>1</v></c></row>" * 200, "124 rows, and 2015234 cells"),
-        ("<row/>" * 1_000_000, "XML elements"),
         ("<row><c><v>1</v></c></row>" * 333_333, "XML elements"),
     ],
 )
@@ -439,23 +401,12 @@ def test_a_workbook_far_too_large_is_not_read_to_its_end(packed, monkeypatch, ro
     assert len(seen) <= MOST_CELLS
 
 
-# ------------------------------------------------------------------------------------- too much
-
-
-def count_tidied(monkeypatch):
-    """Counts the cells that are looked at."""
-    seen = []
-    tidy = spreadsheets.tidy
+def test_empty_cells_at_the_end_of_a_row_are_looked_at_once(saved, monkeypatch):
+    seen, tidy = [], spreadsheets.tidy
     monkeypatch.setattr(spreadsheets, "tidy", lambda cell: seen.append(cell) or tidy(cell))
-    return seen
-
-
-@pytest.mark.parametrize("count", [10_000, 40_000])
-def test_empty_cells_at_the_end_of_a_row_are_looked_at_once(saved, monkeypatch, count):
-    seen = count_tidied(monkeypatch)
-    (one,) = read_roster(saved("nr;id\n1;7" + ";" * count + "\n"), numbered=True)
+    (one,) = read_roster(saved("nr;id\n1;7" + ";" * 10_000 + "\n"), numbered=True)
     assert one.id == "7"
-    assert len(seen) == 4 + count
+    assert len(seen) == 4 + 10_000
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in folders there")
@@ -470,14 +421,7 @@ def test_mistakes_of_all_sorts_are_told_at_once_in_the_order_of_the_rows(saved):
     """A row too long, a number missing, none, an id twice, an id missing, a quote left open."""
     rows = ["Nr;id;nume", "1;2;x;1", ";3;a", ",5;4;b", "5;6;c", "6;6;d", '7;;"e f"', '8;9;"open']
     found = problems(saved("\n".join(rows)))
-    expected = [
-        "4 cells",
-        "is missing",
-        "is no whole number",
-        "stands in row 5",
-        "is missing",
-        "quote",
-    ]
+    expected = ["4 cells", "is missing", "no whole number", "stands in row 5", "missing", "quote"]
     assert all(f"row {row}" in line for row, line in zip((2, 3, 4, 6, 7, 8), found, strict=True))
     assert all(word in line for word, line in zip(expected, found, strict=True)), found
 

@@ -1,0 +1,398 @@
+"""A gradebook, as a table or a workbook: marks go in, all else stays, the same bytes again."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import zipfile
+from fractions import Fraction
+from pathlib import Path
+
+import openpyxl
+import openpyxl.styles
+import pytest
+
+from graphkin.classroom.grading import gradebook_xlsx
+from graphkin.classroom.grading.gradebook import GradebookError, filled
+from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook, read_gradebook
+from graphkin.classroom.grading.sheet_xml import computed_anew, with_numbers
+from graphkin.classroom.roster.spreadsheets import SEPARATORS
+from graphkin.classroom.roster.student_signs import signs
+
+MARKS = {"0001": Fraction(17, 2), "0002": Fraction(12), "X9": Fraction(1)}
+MOODLE = (
+    '\ufeff"First name",Surname,"ID number",Institution,"Assignment: Lab 3 (Real)",'
+    '"Feedback: Lab 3","Last downloaded"\r\n'
+    'Ana,"O\'Neil, Jr.",0001,UPB,-,,1700000000\r\n'
+    '"Ștefan ""Fane""",Ionescu,"0002",UPB,"-",,1700000000\r\n'
+    "Guest,X,9999,UPB,-,,1700000000\r\n"
+)
+CANVAS = (
+    "Student,ID,SIS User ID,SIS Login ID,Section,Lab 3 (4711),Final Score\n"
+    "    Points Possible,,,,,24,(read only)\n"
+    '"O\'Neil, Ana",77,0001,ana,A,,88.5\n'
+    '"Ionescu, Ștefan",78,0002,stefan,A,,\n'
+)
+
+
+HALF = "ID number,Name,Grade\r\n0001,Ana,7\r\n0002,Pat"
+
+
+@pytest.fixture
+def book(tmp_path):
+    """Read a table: book("id,mark\n")."""
+
+    def read(text: str):
+        (tmp_path / "book.csv").write_bytes(text.encode("utf-8"))
+        return read_gradebook(tmp_path / "book.csv")
+
+    return read
+
+
+def test_moodle_and_canvas_keep_all_but_the_marks_their_quotes_and_row_of_points(book):
+    found = filled(book(MOODLE), MARKS, "Lab 3 (Real)")
+    expected = MOODLE.replace('UPB,-,,1700000000\r\n"Ș', 'UPB,8.5,,1700000000\r\n"Ș')
+    assert found.data.decode("utf-8") == expected.replace('UPB,"-"', 'UPB,"12"')
+    assert (found.count, found.absent) == (2, ("X9",))
+    assert found.strangers == {4: "Guest X"}
+    found = filled(book(CANVAS), MARKS)
+    expected = CANVAS.replace("A,,88.5", "A,8.5,88.5").replace("stefan,A,,", "stefan,A,12,")
+    assert found.data.decode("utf-8") == expected
+    assert found.column == "Lab 3 (4711)"
+    assert not found.strangers  # the row of points is no student's
+    bare = CANVAS.replace("88.5", "")  # nothing is marked yet: what Canvas computes is empty, too
+    assert filled(book(bare), MARKS).column == found.column
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "words_found"),
+    [
+        (MOODLE, "Lab 9", "is no column"),
+        (MOODLE.replace("0001", "a").replace("0002", "b"), None, "no column holds ids"),
+        (CANVAS.replace("Section", "Lab 4"), "Lab", "several columns"),
+        (CANVAS + '"Twin",79,0002,x,A,,\n', None, "stands there twice"),
+        ('id,"mark\n0001,\n', None, "never closed"),
+        ("id,mark\n", None, "no row below"),
+        *((MOODLE, name, "no points") for name in ("First name", "Surname", "ID number")),
+        (MOODLE, "Institution", "no points"),
+        (
+            f"{HALF},\r\n",
+            None,
+            'no column is empty; expected one of "Grade"; name .* with --column',
+        ),
+        (f"{HALF},8\r\n", None, 'no column is empty; expected one of "ID number", "Name", "Grade"'),
+    ],
+)
+def test_a_gradebook_that_cannot_be_filled_is_refused(book, text, column, words_found):
+    """No mark is written over a name or an id."""
+    with pytest.raises(GradebookError, match=words_found):
+        filled(book(text), MARKS, column)
+
+
+def test_cells_of_a_gradebook_are_those_that_a_spreadsheet_reads(book):
+    """Against the csv module, on cells that hold quotes, separators and ends of lines."""
+    table = [["id", "x"], ['a";b', 'c"'], ['""', "d\ne;"], ['";"', " f"]]
+    for separator in SEPARATORS:
+        file = io.StringIO(newline="")
+        csv.writer(file, delimiter=separator).writerows(table)
+        read = csv.reader(
+            io.StringIO(file.getvalue(), newline=""), delimiter=separator, strict=True
+        )
+        assert [[cell.text for cell in row] for row in book(file.getvalue()).rows] == [
+            [cell.strip() for cell in row] for row in read
+        ]
+
+
+def test_a_gradebook_of_too_many_cells_is_not_read_to_its_end(book, monkeypatch):
+    seen, cell = [], gradebook_xlsx.cell
+    monkeypatch.setattr(gradebook_xlsx, "MOST_CELLS", 50)
+    monkeypatch.setattr(gradebook_xlsx, "cell", lambda raw: seen.append(raw) or cell(raw))
+    with pytest.raises(GradebookError, match="more than 50 cells"):
+        book("id,mark\n" + "\n" * 1000)
+    assert len(seen) == 50
+
+
+# --- rows by addresses, and ids that lost their zeros -------------------------------------------
+
+OWN = {"01003": Fraction(9), "01004": Fraction(15, 2)}
+SIGNS = signs(
+    ["01003", "01004"],
+    emails={"01003": "ana.s@example.org", "01004": "Pat@Example.org"},
+)
+WORKSHEET = (
+    "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Feedback comments\r\n"
+    "Participant 12345,Ana,ana.s@example.org,Submitted,,10,\r\n"
+    "Participant 12346,Pat,pat@example.org,Submitted,,10,\r\n"
+)
+
+
+def test_a_gradebook_without_ids_is_filled_by_addresses(book):
+    found = filled(book(WORKSHEET), OWN, "Grade", SIGNS)
+    assert b"org,Submitted,9,10," in found.data and b"org,Submitted,7.5,10," in found.data
+    assert found.worth == 10 and not found.absent
+    unnamed = filled(book(WORKSHEET.replace("Status,", "Last modified,")), OWN, None, SIGNS)
+    assert unnamed.data == found.data.replace(b"Status,", b"Last modified,")
+    with pytest.raises(GradebookError, match="no column holds ids of this class"):
+        filled(book(WORKSHEET), OWN, "Grade", SIGNS, "id")
+    with pytest.raises(GradebookError, match="the class list has no column e-mail"):
+        filled(book(WORKSHEET), OWN, "Grade", signs(OWN))
+
+
+def test_a_row_without_an_id_is_found_by_its_address(book):
+    """Where that is one student's, who has no row with the id; a foreign id is nobody's."""
+    text = "Row,ID number,Grade\r\n1,1003,\r\n2,1004,\r\n"
+    found = filled(book(text), OWN, "Grade", SIGNS)
+    assert found.data == b"Row,ID number,Grade\r\n1,1003,9\r\n2,1004,7.5\r\n"
+    text = "ID,E-mail,Grade\r\n01003,,\r\n,PAT@example.org,\r\n,ana.s@example.org,\r\n"
+    found = filled(book(text), OWN, "Grade", SIGNS)
+    rows = found.data.decode().split("\r\n")
+    assert rows[1:4] == ["01003,,9", ",PAT@example.org,7.5", ",ana.s@example.org,"]
+    assert (found.count, found.absent) == (2, ())
+    assert filled(book(text), OWN, "Grade", SIGNS, "id").absent == ("01004",)
+    foreign = text.replace(",PAT", "77,PAT")
+    assert filled(book(foreign), OWN, "Grade", SIGNS).absent == ("01004",)
+    with pytest.raises(GradebookError, match='"01004" stands there twice'):
+        filled(book(text + ",pat@example.org,\r\n"), OWN, "Grade", SIGNS)
+    worth = text.replace(",PAT@example.org", "    Points Possible,,10\r\n,PAT@example.org")
+    assert filled(book(worth), OWN, "Grade", SIGNS).count == 2
+
+
+# --- workbooks ----------------------------------------------------------------------------------
+
+PACKED = (
+    ("Prenume", "Nume", "Număr de identificare", "Temă: Lab 3 (Valoare reală)", "Feedback: Lab 3"),
+    ("Ana", "O'Neil, Jr.", "0001", "-", None),
+    ("Ștefan", "=1+1", "0002", "-", None),
+    ("Guest", "X", "9999", "-", None),
+)
+SCORED = (
+    ("Student", "ID", "SIS User ID", "Section", "Lab 3 (4711)", "Final Score", None),
+    ("    Points Possible", None, None, None, 24, "(read only)", None),
+    ("O'Neil, Ana", 77, "0001", "A", None, 88.5, None),
+    ("Ionescu, Ștefan", 78, "0002", "A", None, None, None),
+)
+
+
+@pytest.fixture
+def saved(tmp_path):
+    """A workbook with a bold head, a formula beside it, and a second sheet."""
+
+    def written(rows) -> Path:
+        book = openpyxl.Workbook()
+        for row in rows:
+            book.active.append(row)
+        book.active["A1"].font = openpyxl.styles.Font(bold=True)
+        book.active["J2"] = "=SUM(D2:D4)"
+        book.create_sheet("other")["B2"] = "kept"
+        book.save(tmp_path / "book.xlsx")
+        return tmp_path / "book.xlsx"
+
+    return written
+
+
+def parts(data: bytes) -> dict[str, bytes]:
+    """The parts of a workbook by name."""
+    with zipfile.ZipFile(io.BytesIO(data)) as packed:
+        return {name: packed.read(name) for name in packed.namelist()}
+
+
+def changed(path: Path, *pieces: tuple[str, str, str], **more: bytes) -> None:
+    """Put other text for some of the parts of a workbook, and more parts into it."""
+    found = parts(path.read_bytes())
+    for name, old, new in pieces:
+        assert old in found[name].decode()
+        found[name] = found[name].decode().replace(old, new).encode()
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as packed:
+        for name, data in (found | more).items():
+            packed.writestr(zipfile.ZipInfo(name, (2001, 2, 3, 4, 5, 6)), data)
+
+
+def cells(data: bytes) -> dict[str, object]:
+    """The cells of the first sheet that hold something."""
+    sheet = openpyxl.load_workbook(io.BytesIO(data)).worksheets[0]
+    return {cell.coordinate: cell.value for row in sheet for cell in row if cell.value is not None}
+
+
+@pytest.mark.parametrize(
+    ("rows", "column", "changed"),
+    [
+        (PACKED, "Lab 3", {"D2": 8.5, "D3": 12}),
+        (PACKED, None, {"D2": 8.5, "D3": 12}),
+        (SCORED, None, {"E3": 8.5, "E4": 12}),
+        (SCORED, "Lab 3 (4711)", {"E3": 8.5, "E4": 12}),
+    ],
+)
+def test_only_the_marks_change(saved, rows, column, changed):
+    path = saved(rows)
+    found = filled_gradebook(path, MARKS, column)
+    before, after = cells(path.read_bytes()), cells(found.data)
+    assert {**before, **changed} == after
+    assert found.count == 2
+    assert found.absent == ("X9",)
+    assert found.worth == (24 if rows is SCORED else None)
+    book = openpyxl.load_workbook(io.BytesIO(found.data))
+    assert book.worksheets[0]["A1"].font.bold
+    assert book["other"]["B2"].value == "kept"
+
+
+SHEET, MAIN = "xl/worksheets/sheet1.xml", "xl/workbook.xml"
+RICH = "<is><r><rPr><b/></rPr><t>An</t></r><r><t>a</t></r></is>"
+SPARKS = (
+    '<extLst><ext xmlns:x14="http://schemas.microsoft.com/office/spreadsheetml/2009/9/main"'
+    ' uri="{05C60535-1F16-4fd2-B633-F4F36F0B64E0}"><x14:sparklineGroups/></ext></extLst>'
+)
+BESIDE = {
+    "customXml/item1.xml": b"<course xmlns='urn:x'>mechanics</course>",
+    "xl/vbaProject.bin": bytes(range(256)) * 4,
+    "xl/media/image1.png": b"\x89PNG\r\n",
+}
+
+
+def test_rich_text_sparklines_custom_parts_and_macros_stay_byte_for_byte(saved):
+    path = saved(PACKED)
+    changed(
+        path,
+        (SHEET, "<is><t>Ana</t></is>", RICH),
+        (SHEET, "</worksheet>", f"<!-- <c> -->{SPARKS}</worksheet>"),
+        **BESIDE,
+    )
+    before = parts(path.read_bytes())
+    after = parts(filled_gradebook(path, MARKS).data)
+    assert {name for name in before if before[name] != after[name]} == {SHEET, MAIN}
+    assert after.keys() == before.keys()
+    marked = before[SHEET].decode()
+    for place, number in (("D2", "8.5"), ("D3", "12")):
+        cell = re.compile(rf'<c r="{place}"[^>]*>.*?</c>')
+        assert cell.search(marked)
+        marked = cell.sub(f'<c r="{place}"><v>{number}</v></c>', marked)
+    assert after[SHEET].decode() == re.sub(r"(</f>)<v */>|(</f>)<v></v>", r"\1\2", marked)
+    assert b'fullCalcOnLoad="1"' in after[MAIN]
+
+
+def test_results_of_formulas_are_computed_anew_on_every_sheet(tmp_path):
+    book = openpyxl.Workbook()
+    for row in (PACKED[0], PACKED[1], PACKED[3]):
+        book.active.append(row)
+    book.create_sheet("sums")["A1"] = "=Sheet!D2"
+    book.save(tmp_path / "book.xlsx")
+    path, other = tmp_path / "book.xlsx", "xl/worksheets/sheet2.xml"
+    changed(path, (other, "</f>", "</f><!-- kept --><v>3</v><!--"), (other, "</c>", "--></c>"))
+    after = parts(filled_gradebook(path, MARKS).data)
+    assert b"<f>Sheet!D2</f><!-- kept --><!--" in after[other]
+    assert b'fullCalcOnLoad="1"' in after[MAIN]
+
+
+def test_no_mark_takes_the_place_of_a_formula(saved):
+    rows = [PACKED[0], *((*row[:3], "=1+2", None) for row in PACKED[1:])]
+    with pytest.raises(GradebookError, match=r"holds a formula|no points"):
+        filled_gradebook(saved(rows), MARKS, "Lab 3")
+    rows = [PACKED[0], (*PACKED[1][:3], "=1+2", None), (*PACKED[2][:3], 3, None)]
+    with pytest.raises(GradebookError, match=r"row 2: .*holds a formula"):
+        filled_gradebook(saved(rows), MARKS, "Lab 3")
+
+
+HEAD = '<worksheet xmlns="u"><sheetData>'
+TAIL = "</sheetData></worksheet>"
+
+
+def pairs(text: str) -> list[tuple[str, str]]:
+    """Every other line of a text with the line below it."""
+    lines = text.splitlines()
+    return list(zip(lines[::2], lines[1::2], strict=True))
+
+
+CELLS = """<row r="2"><c r="A2"/></row>
+<row r="2"><c r="A2"/><c r="C2"><v>7</v></c></row>
+<row r="2"><c r="C2" s="4"/></row>
+<row r="2"><c r="C2" s="4"><v>7</v></c></row>
+<row r="2"><c r="C2" t="inlineStr"><is><t>-</t></is></c></row>
+<row r="2"><c r="C2"><v>7</v></c></row>
+<row r="2"><c r="A2"/><c r="AA2"/></row>
+<row r="2"><c r="A2"/><c r="C2"><v>7</v></c><c r="AA2"/></row>
+<row/><row><c/><c/><c><v>1</v></c></row>
+<row/><row><c/><c/><c r="C2"><v>7</v></c></row>
+<row r="2"><c r="A2" t="str"><f>B2</f><v>a</v></c><c r="C2"/></row>
+<row r="2"><c r="A2"><f>B2</f></c><c r="C2"><v>7</v></c></row>
+<row r="2"><c r="A2"><f>B2</f><v/></c ><c r="C2"/></row>
+<row r="2"><c r="A2"><f>B2</f></c ><c r="C2"><v>7</v></c></row>"""
+"""Rows, each followed by what becomes of it."""
+
+
+@pytest.mark.parametrize(("row", "found"), pairs(CELLS))
+def test_a_number_comes_into_its_cell_and_nowhere_else(row, found):
+    """Worked out by hand; cells and rows may leave out their places, tags may have a prefix."""
+    numbers = {(2, 3): "7"}
+    assert with_numbers((HEAD + row + TAIL).encode(), numbers).decode() == HEAD + found + TAIL
+
+    def prefixed(text: str) -> str:
+        return re.sub(r"<(/?)", r"<\1x:", text)
+
+    whole = with_numbers(prefixed(HEAD + row + TAIL).encode(), numbers).decode()
+    assert whole == prefixed(HEAD + found + TAIL)
+
+
+COMPUTED = """<w><sheets></sheets></w>
+<w><sheets></sheets><calcPr fullCalcOnLoad="1"/></w>
+<w><sheets></sheets><definedNames>a</definedNames><pivotCaches/></w>
+<w><sheets></sheets><definedNames>a</definedNames><calcPr fullCalcOnLoad="1"/><pivotCaches/></w>
+<x:w><x:calcPr calcId="1" fullCalcOnLoad="0"/></x:w>
+<x:w><x:calcPr fullCalcOnLoad="1" calcId="1"/></x:w>"""
+
+
+@pytest.mark.parametrize(("xml", "found"), pairs(COMPUTED))
+def test_a_workbook_is_told_to_compute_anew(xml, found):
+    assert computed_anew(xml.encode()).decode() == found
+
+
+def test_a_declared_type_or_another_coding_is_refused():
+    for xml in (b'<!DOCTYPE w [<!ENTITY a "b">]><w>&a;</w>', "<w/>".encode("utf-16")):
+        with pytest.raises(ValueError):
+            with_numbers(xml, {})
+
+
+def test_ids_that_a_format_shows_with_zeros_are_found(saved):
+    rows = [PACKED[0], *((a, b, int(c), *rest) for a, b, c, *rest in PACKED[1:])]
+    path = saved(rows)
+    book = openpyxl.load_workbook(path)
+    for row in range(2, 5):
+        book.active.cell(row, 3).number_format = "0000"
+    book.save(path)
+    assert filled_gradebook(path, MARKS).count == 2
+
+
+@pytest.mark.parametrize("column", ["Lab 3", None])
+def test_an_average_below_the_students_is_no_mark_of_anybody(saved, column):
+    rows = [("Nume", "Matricol", "Lab 3"), ("Ana", "0001", None), ("Ștefan", "0002", None)]
+    rows += [("Media", None, "=AVERAGE(C2:C3)")]
+    found = cells(filled_gradebook(saved(rows), MARKS, column).data)
+    assert [found[place] for place in ("C2", "C3", "C4")] == [8.5, 12, "=AVERAGE(C2:C3)"]
+
+
+@pytest.mark.parametrize(
+    ("rows", "column", "words"),
+    [
+        (PACKED, "Lab 9", "is no column"),
+        ([PACKED[0], *[PACKED[1]] * 2], None, "stands there twice"),
+        ([PACKED[0], ("A", "B", "7", "-", None)], None, "no column holds ids"),
+    ],
+)
+def test_a_workbook_that_cannot_be_filled_is_refused(saved, rows, column, words):
+    with pytest.raises(GradebookError, match=words):
+        filled_gradebook(saved(rows), MARKS, column)
+
+
+def test_a_broken_workbook_is_refused(tmp_path):
+    for data in (b"PK\x03\x04 no zip", b"PK\x03\x04"):
+        (tmp_path / "book.xlsx").write_bytes(data)
+        with pytest.raises(GradebookError, match="cannot be read as XLSX"):
+            filled_gradebook(tmp_path / "book.xlsx", MARKS)
+
+
+def test_a_workbook_far_larger_unpacked_is_refused(tmp_path):
+    path = tmp_path / "bomb.xlsx"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as packed, packed.open("a", "w") as part:
+        for _ in range(65):
+            part.write(bytes(1 << 20))
+    with pytest.raises(GradebookError, match="far larger unpacked"):
+        filled_gradebook(path, MARKS)
