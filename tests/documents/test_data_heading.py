@@ -9,6 +9,7 @@ from graphkin.documents.data_heading import NAME, data, data_heading
 from graphkin.documents.sheet import Moved, sheet, title_line, writing
 from graphkin.drawing.areas import A3_AREA, ABOVE, AREA
 from graphkin.drawing.marks import LineMark, Text, reach
+from graphkin.drawing.richtext import CLEAR, signs
 from graphkin.text import LANGUAGES
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
@@ -41,14 +42,22 @@ def test_every_datum_stands_there_once(which, language):
 def test_data_stay_clear_of_captions_and_of_the_frame(which):
     for drawing in drawings(*which):
         marks = sheet(drawing, "key", "1/2").marks
-        boxes = [reach(mark) for mark in marks if isinstance(mark, Text) and mark.name == NAME]
+        told = [mark for mark in marks if isinstance(mark, Text) and mark.name == NAME]
         captions = [mark for mark in marks if isinstance(mark, Text) and mark.name == "heading"]
-        heads = [reach(mark) for mark in captions]
-        assert max(box[2] for box in boxes) < AREA[2]
-        for box in boxes:
-            for head in heads:
-                beside = box[2] < head[0] or head[2] < box[0]
-                assert beside or box[3] < head[1] + 0.4, which
+        assert max(reach(mark)[2] for mark in told) < AREA[2]
+        below = [sign for mark in captions for sign in inked(mark)]
+        for left, _, right, foot in (sign for mark in told for sign in inked(mark)):
+            for start, top, end, _ in below:
+                assert right < start or end < left or foot + CLEAR < top, which
+
+
+def inked(mark: Text) -> list[tuple[float, float, float, float]]:
+    """The left, top, right and bottom of the ink of each sign of a line of text."""
+    x = reach(mark)[0]
+    return [
+        (x + left, mark.y + top, x + right, mark.y + low)
+        for left, right, top, low in signs(mark.markup, mark.height)
+    ]
 
 
 @pytest.mark.parametrize("which", [("gears-planet", None), ("locomotive", None), ("pump", 7)])
