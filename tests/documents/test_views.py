@@ -29,8 +29,9 @@ SOME = ["pump", *(str(SCENES / f"{name}.toml") for name in ("rapid-return", "gea
 SOME += [str(SCENES / f"{name}.toml") for name in ("oscillating-slide", "centrodes-cardan")]
 SOME += [str(SCENES / f"{name}.toml") for name in ("stephenson-2-ternary", "rod-and-wheel")]
 
-UNDRAWN = {"closing", "share", "c", "ν none", "ν by number"}
-"""The names of sentences that may draw nothing: of numbers, of trials without a locus."""
+UNDRAWN = {"closing", "share", "c", "ν none", "ν by number", "short"}
+"""The names of sentences that may draw nothing: of numbers, of trials without a locus, of what is
+too short to be drawn."""
 ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[0])]
 
 
