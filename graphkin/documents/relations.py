@@ -122,10 +122,14 @@ def of_plan(drawing: Drawing) -> list[Relation]:
     for rate, relation in of_equations(drawing):
         found += before_use(drawing, rate)
         found.append(relation)
-    found += [*of_trials(drawing), *read_off(drawing)]
-    for also in ALSO_READ:
-        found += also(drawing)
+    found += [*of_trials(drawing), *read_off(drawing), *read_besides(drawing)]
     return list(dict.fromkeys(found))
+
+
+def read_besides(drawing: Drawing) -> Iterator[Relation]:
+    """What is read off without a vector of its own."""
+    for also in ALSO_READ:
+        yield from also(drawing)
 
 
 def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
@@ -135,7 +139,8 @@ def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
             if "*λ*" in relation.symbols:
                 yield from of_trials(drawing)
             yield from before_use(drawing, relation.symbols)
-            yield from (r for r in read_off(drawing) if relation.symbols.startswith(f"{r.left}/"))
+            read = (*read_off(drawing), *read_besides(drawing))
+            yield from (r for r in read if relation.symbols.startswith(f"{r.left}/"))
             yield relation
 
 

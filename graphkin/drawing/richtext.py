@@ -38,11 +38,12 @@ NUMBERED = (
 """Words with which the number or the one letter after them stays in a line, in all languages."""
 AFTER_WORD = "".join(rf"(?<!\b{word} )" for word in NUMBERED)
 GAP = (
-    rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<= \. ))(?:{UNITS}))"
+    rf"(?<![=⊥∥÷]) (?![=.])(?!(?:(?<=[\d}}] )|(?<=\d\) )|(?<= \. ))(?:{UNITS}))"
     rf"(?:{AFTER_WORD}|(?!\d|[^\W_]\b))"
 )
-"""Blanks at which a line may end: not before a unit, nor beside =, nor after ⊥, ∥ and ÷, nor
-between the dots of room to write in, nor between a link, a wheel or a guide and its number."""
+"""Blanks at which a line may end: not before a unit of a number or a place, nor beside =, nor after
+⊥, ∥ and ÷, nor between the dots of room to write in, nor between a link, a wheel or a guide and its
+number."""
 EQUAL = "(?<= =) "
 """Blanks behind =, at which a line of what is equal ends where nothing else will do."""
 WORDS = "[^ ]+(?: [^ ]+)* ?"

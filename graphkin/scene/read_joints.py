@@ -101,7 +101,8 @@ def read_profile(table: Table, measures: Measures) -> Profile:
         point_name(table.at(key), table.take(key), table.findings) or ""
         for key in ("about", "through")
     )
-    arc = measures.angle(table.at("arc"), table.take("arc")) if "arc" in table else None
+    raw = table.take("arc")
+    arc = None if raw is None else measures.angle(table.at("arc"), raw)
     hollow = table.flag("hollow")
     table.finish()
     return Profile(about, through, arc, hollow)

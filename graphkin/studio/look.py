@@ -40,7 +40,7 @@ profiles = {{ about = "A" }}
 cam = {{ law = [{{}}] }}
 [links.2]
 O-B = 1
-cam = {{ tip = "roller" }}
+cam = {{ tip = "roller", conjugate = {{}} }}
 {LINES.join(f"[[drivers]]{LINES}{kind} = 1" for kind in DRIVEN)}
 [branches]
 [ask]

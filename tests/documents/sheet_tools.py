@@ -90,18 +90,21 @@ class Labelled:
 
     text: Text
     leader: LineMark | None = None
-    ring: CircleMark | None = None
+    ring: CircleMark | Polyline | None = None
 
     def names(self) -> list[str]:
-        """The names of what the label names: of several points where they fall together."""
-        shared = " ≡ " in self.text.markup or " ≈ " in self.text.markup
+        """The names of what the label names: of several points where they fall together, also where
+        a number stands for them that the foot of the field explains."""
+        shared = re.search(r" [≡≈] |^\d+\)$", self.text.markup)
         return self.text.name.split(" ") if shared else [self.text.name]
 
     def ink(self) -> BaseGeometry:
         """What the label takes up on the page."""
-        if self.ring:
+        if isinstance(self.ring, CircleMark):
             disc = shapely.Point(self.ring.cx, self.ring.cy)
             return disc.buffer(self.ring.r + half_width(self.ring), quad_segs=32)
+        if self.ring:
+            return shapely.Polygon(self.ring.points).buffer(half_width(self.ring))
         return shapely.box(*reach(self.text))
 
 
@@ -235,20 +238,16 @@ def half_width(mark: Mark) -> float:
 
 
 def labels_of(marks: Sequence[Mark]) -> list[Labelled]:
-    """The labels among marks; a ring stands just before its text."""
-    leaders = {
-        (mark.name, mark.step): mark
-        for mark in marks
-        if isinstance(mark, LineMark) and kind_of(mark) == "leader" and mark.name
-    }
+    """The labels among marks; before its text stands a ring, if it has one, and before that its
+    leader."""
     found = []
     for i, mark in enumerate(marks):
         if isinstance(mark, Text) and kind_of(mark) == "label":
-            before = marks[i - 1]
-            ring = (
-                before if isinstance(before, CircleMark) and kind_of(before) == "number" else None
-            )
-            found.append(Labelled(mark, leaders.get((mark.name, mark.step)), ring))
+            before = [*marks[max(i - 2, 0) : i]]
+            ring = before.pop() if before and kind_of(before[-1]) == "number" else None
+            leads = before and kind_of(before[-1]) == "leader" and before[-1].name == mark.name
+            leader = before[-1] if leads else None
+            found.append(Labelled(mark, leader, ring))
     return found
 
 

@@ -27,8 +27,9 @@ ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[0])]
 SOME = ["pump", *(str(FOLDER / f"{name}.toml") for name in ("rapid-return", "oscillating-slide"))]
 SOME += [name for name in ALL if "centrodes" in name or "stephenson" in name]
 
-UNDRAWN = {"closing", "share", "c", "ν none", "ν by number"}
-"""The names of sentences that may draw nothing: of numbers, of trials without a locus."""
+UNDRAWN = {"closing", "share", "c", "ν none", "ν by number", "short"}
+"""The names of sentences that may draw nothing: of numbers, of trials without a locus, of what is
+too short to be drawn."""
 
 
 @cache

@@ -140,8 +140,8 @@ class Drawing(Struct, frozen=True, dict=True):
         return float(max(box.width, box.height))
 
     @cached_property
-    def grounds(self) -> dict[float, dict[str, complex]]:
-        """The ways of the grounds of pivots that were chosen at this position, by the scale."""
+    def grounds(self) -> dict[float, dict[str, tuple[complex, float]]]:
+        """The grounds of pivots that were chosen at this position, by the scale."""
         return {}
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import sqrt
+from math import hypot, sqrt
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.guides.rails import BEYOND, REACH, places_of, rails_of, swivelling
@@ -13,6 +13,8 @@ from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME
 
 Segment = tuple[complex, complex]
+Ground = tuple[complex, float]
+"""The unit way from a fixed pivot to its ground, and the height of its triangle in mm."""
 
 HALFWAY = sqrt(0.5)
 WAYS = {
@@ -32,12 +34,19 @@ RAIL = BLOCK[1] / 2 + HATCH
 """How far a guide of the frame reaches to both sides of its line, in mm."""
 RAY = 17.0
 """How far the axis from which a crank's angle counts is drawn from its pin, in mm."""
-NEAR = 2 * PIVOT + AIR
+NEAR = hypot(TALL + HATCH / 2, STRIP + HIP * (TALL - PIVOT)) + AIR
 """How far from its pin lies what a ground may meet, in mm."""
+RAISED = 1.0
+"""What a tall ground costs, in mm of air: a bar that passes the pin then crosses its triangle."""
 
 
 def ground_ways(drawing: Drawing, mm: float) -> dict[str, complex]:
-    """The way from each fixed pivot to its ground, held while the mechanism moves.
+    """The way from each fixed pivot to its ground."""
+    return {name: way for name, (way, _) in grounds_of(drawing, mm).items()}
+
+
+def grounds_of(drawing: Drawing, mm: float) -> dict[str, Ground]:
+    """The ground of each fixed pivot, held while the mechanism moves.
 
     ``mm`` are the millimetres of paper that a metre takes up.
     """
@@ -47,14 +56,19 @@ def ground_ways(drawing: Drawing, mm: float) -> dict[str, complex]:
     return still.grounds[mm]
 
 
-def chosen(drawing: Drawing, mm: float) -> dict[str, complex]:
-    """The freest way of each pivot, which leads down where that is as free as any."""
+def chosen(drawing: Drawing, mm: float) -> dict[str, Ground]:
+    """The freest ground of each pivot: down and low where that is as free as any."""
     drawn, found = [*segments(drawing, mm)], {}
     for name, here in pivots(drawing).items():
-        height = height_at(drawing, here, mm)
         lines = (((p - here) * mm, (q - here) * mm) for p, q in drawn)
         near = [line for line in lines if away_from(0j, line) < NEAR]
-        found[name] = min(WAYS, key=lambda way: WAYS[way] + crowding(near, way, height))
+        heights = {TALL: 0.0} if is_covered(drawing, here, mm) else {PIVOT: 0.0, TALL: RAISED}
+        costs = {
+            (way, height): cost + raised + crowding(near, way, height)
+            for height, raised in heights.items()
+            for way, cost in WAYS.items()
+        }
+        found[name] = min(costs, key=costs.__getitem__)
     return found
 
 
@@ -68,10 +82,9 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
     }
 
 
-def height_at(drawing: Drawing, here: complex, mm: float) -> float:
-    """The height of a pivot's triangle in mm: greater where a block turns about its pin."""
-    covered = any(abs(place - here) * mm < PIN for place in swivelling(drawing))
-    return TALL if covered else PIVOT
+def is_covered(drawing: Drawing, here: complex, mm: float) -> bool:
+    """Whether a block turns about the pin of a pivot."""
+    return any(abs(place - here) * mm < PIN for place in swivelling(drawing))
 
 
 def segments(drawing: Drawing, mm: float) -> Iterator[Segment]:

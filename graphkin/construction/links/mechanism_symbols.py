@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.construction.cams.cam_symbols import draw_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import draw_line
-from graphkin.construction.guides.pivot_grounds import ground_ways, height_at
+from graphkin.construction.guides.pivot_grounds import ground_ways, grounds_of, is_covered
 from graphkin.construction.guides.rails import places_of, rails_of
 from graphkin.construction.guides.slide_symbols import (
     draw_blocks,
@@ -48,9 +48,8 @@ def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
     """The grounds of the fixed pivots, without their pins."""
-    for name, way in ground_ways(drawing, field.mm).items():
-        here = drawing.positions[name]
-        ground = [*pivot_ground(field(here), field.way(way), height_at(drawing, here, field.mm))]
+    for name, (way, height) in grounds_of(drawing, field.mm).items():
+        ground = [*pivot_ground(field(drawing.positions[name]), field.way(way), height)]
         board.marks += ground
         boxes = [*zip(*(reach(mark) for mark in ground if mark.cls != "fixed-pivot"), strict=True)]
         board.taken.append((min(boxes[0]), min(boxes[1]), max(boxes[2]), max(boxes[3])))
@@ -134,7 +133,7 @@ def draw_guides(board: FieldContent, drawing: Drawing, field: Field) -> None:
     draw_slides(board, drawing, field)
     for name, way in ground_ways(drawing, field.mm).items():
         here = drawing.positions[name]
-        if height_at(drawing, here, field.mm) == TALL:
+        if is_covered(drawing, here, field.mm):
             board.marks += legs(field(here), field.way(way), TALL)
 
 

@@ -59,9 +59,10 @@ def test_nobody_who_is_honest_is_named(name, kind):
 
 
 @pytest.mark.parametrize("name", DRAW)
-def test_what_a_misunderstanding_moves_far_is_never_right(name):
-    """By more than twice what is allowed at most, in the same drawing without errors."""
-    rng, tried = np.random.default_rng(4), 0
+def test_what_a_misunderstanding_moves_far_is_right_for_no_one_in_a_thousand(name):
+    """By more than twice what is allowed at most, in the same drawing without errors: those of the
+    hand may bring a value back by chance."""
+    rng, tried, right = np.random.default_rng(4), 0, []
     for each in takers_of(name, COUNT):
         for slip in SLIPS:
             marker = book_of(name).marker(each.settings)
@@ -76,8 +77,10 @@ def test_what_a_misunderstanding_moves_far_is_never_right(name):
                 off = abs(abs(moved.get(field, 0.0)) - abs(marker.standard.key[field]))
                 if field in moved and off > 2 * allowed.most:
                     tried += 1
-                    assert graded.mark(field).status is not Status.RIGHT, (slip, field)
+                    if graded.mark(field).status is Status.RIGHT:
+                        right.append((each.settings, slip, field))
     assert tried > 500
+    assert len(right) < tried / 1000, right
 
 
 @pytest.mark.parametrize("name", DRAW)
