@@ -50,13 +50,15 @@ def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[flo
     if tracing.closings:
         at, turn = np.array(course["at"]), course["turn"]
         place = at[0] + (x - at[0]) % turn if turn else x
-        near = tuple(np.interp(place, at, column) for column in np.array(course["states"]).T)
-        tried = {place - 1 for place in course["places"]}
-        near = tuple(n if k in tried else float(np.sign(n)) for k, n in enumerate(near))
+        k = int(np.clip(np.searchsorted(at, place), 1, len(at) - 1))
+        part, (before, after) = (place - at[k - 1]) / (at[k] - at[k - 1]), course["states"][k - 1 : k + 1]
+        between = tuple(a + part * (b - a) for a, b in zip(before, after, strict=True))
+        is_stretched = any(a == -b for a, b in zip(before, after, strict=True))
         size = moving.data["reach"]
         names = tuple(tracing.beside(x))
         solve = solver(tracing.graph, INPUT, tracing.closings, names, tracing.beside, size)
-        state = solve(x, near)
+        found = (solve(x, near) for near in ((before, after) if is_stretched else (between,)))
+        state = next((each for each in found if each is not None), None)
         if state is None:
             return None
         names = (name for each in tracing.closings for name in each.names)

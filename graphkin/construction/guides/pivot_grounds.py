@@ -69,8 +69,9 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
 
 
 def height_at(drawing: Drawing, here: complex, mm: float) -> float:
-    """The height of a pivot's triangle in mm: greater where a block turns about its pin."""
-    covered = any(abs(place - here) * mm < PIN for place in swivelling(drawing))
+    """The height of a pivot's triangle in mm: greater where a block turns about its pin, held while
+    the mechanism moves."""
+    covered = any(abs(place - here) * mm < PIN for place in swivelling(drawing.choosing))
     return TALL if covered else PIVOT
 
 
