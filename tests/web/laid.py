@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Mapping
 from math import atan2, degrees, hypot, isfinite
 from typing import Any
 
@@ -16,7 +17,7 @@ from graphkin.drawing.marks import Arc
 from graphkin.drawing.symbols import SHORT, head
 from graphkin.web.moving import Moving
 from graphkin.web.page_driver import INPUT
-from graphkin.web.traced_closings import solver
+from graphkin.web.traced_closings import State, solver
 from tests.web.redrawn import arc_numbers
 
 Laid = list[float] | None
@@ -48,16 +49,10 @@ def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[flo
     tracing, course = moving.tracing, moving.data["course"]
     inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.beside(np.array([x]))}
     if tracing.closings:
-        at, turn = np.array(course["at"]), course["turn"]
-        place = at[0] + (x - at[0]) % turn if turn else x
-        k = int(np.clip(np.searchsorted(at, place), 1, len(at) - 1))
-        part, (before, after) = (place - at[k - 1]) / (at[k] - at[k - 1]), course["states"][k - 1 : k + 1]
-        between = tuple(a + part * (b - a) for a, b in zip(before, after, strict=True))
-        is_stretched = any(a == -b for a, b in zip(before, after, strict=True))
         size = moving.data["reach"]
         names = tuple(tracing.beside(x))
         solve = solver(tracing.graph, INPUT, tracing.closings, names, tracing.beside, size)
-        found = (solve(x, near) for near in ((before, after) if is_stretched else (between,)))
+        found = (solve(x, near) for near in states_near(course, x))
         state = next((each for each in found if each is not None), None)
         if state is None:
             return None
@@ -66,6 +61,20 @@ def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[flo
     inputs |= {name: np.array([value]) for name, value in figures.items()}
     outputs = runner(tracing.graph, tracing.tape.outputs)(inputs)
     return [float(np.ravel(value)[0]) for value in outputs]
+
+
+def states_near(course: dict[str, Any], x: float) -> Iterator[State]:
+    """The states near which groups are closed at a place: those between which it lies where a dyad
+    is stretched there, else what lies between them."""
+    at, turn = course["at"], course["turn"]
+    place = at[0] + (x - at[0]) % turn if turn else x
+    k = min(max(bisect_left(at, place), 1), len(at) - 1)
+    part = (place - at[k - 1]) / (at[k] - at[k - 1])
+    before, after = map(tuple, course["states"][k - 1 : k + 1])
+    if any(a == -b for a, b in zip(before, after, strict=True)):
+        yield from (before, after)
+    else:
+        yield tuple(a + part * (b - a) for a, b in zip(before, after, strict=True))
 
 
 class Shapes:
