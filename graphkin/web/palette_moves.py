@@ -239,7 +239,7 @@ class MoveFinder:
     # --- moves -----------------------------------------------------------------------------------
 
     def move(self, number: int) -> None:
-        """Note the move that gives a step, if one does; a second step that is alike is the first."""
+        """Note the move that gives a step, if one does; a step that is alike is the first one."""
         step = self.steps[number]
         key = self.drawn_alike(number)
         alike = self.known.get(key, number)
