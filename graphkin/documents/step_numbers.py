@@ -125,7 +125,7 @@ def settled(drawing: Drawing, number: int, staged: dict[int, int]) -> int:
 def stage_of_curve(drawing: Drawing, mark: Mark, said: Sequence[Sentence]) -> int | None:
     """The sentence that tells of a curve, of several of its kind each its own; else None."""
     for curve in drawing.curves:
-        if mark.name == f"{curve.kind} {curve.of}":
+        if mark.name == curve.name:
             if curve.kind == "locus":
                 return next(at for at, one in enumerate(said) if curve.of in traced(drawing, one))
             alike = [other.of for other in drawing.curves if other.kind == curve.kind]

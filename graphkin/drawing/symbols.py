@@ -13,8 +13,9 @@ from graphkin.numbers.arithmetic import pick
 
 HEAD, SHARE = 3.2, 0.4
 """Length of an arrowhead in mm, and of that of a short vector in parts of it."""
-SHORT, SHAFTED = 2.0, 6.0
-"""Vectors shorter than this, in mm, have no head; a thin shaft."""
+SHORT, SHAFTED = 2.0 - 1e-6, 6.0
+"""Vectors shorter than this, in mm, have no head; a thin shaft. One as long as a crank of 2 mm has
+one, however it is rounded."""
 HALF, BLUNT, LEAST = 0.25, 0.5, 0.6
 """Half the width of a head in parts of its length, of a small one at most; and at least, in mm."""
 PIN = 1.1

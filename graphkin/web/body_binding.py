@@ -15,6 +15,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.link_poses import Disc, Touch
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.plot import inside
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.gear_symbols import gear
@@ -49,18 +50,18 @@ def told(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
         for mark, follows in zip(drawn.marks, moving.marks, strict=True):
             binding, seen = following(binder, follows, borne), [*within([mark], binder.field.rect)]
             if binding is still and isinstance(mark, LineMark) and seen != [mark]:
-                binding = grown(binder, mark)
+                binding = grown(binder, mark, inside(binder.room))
             found |= dict.fromkeys((mark, *seen), binding)
         found |= gears(binder)
     return found
 
 
-def grown(binder: FieldBinder, mark: LineMark, room: Rect | None = None) -> Binding:
+def grown(binder: FieldBinder, mark: LineMark, room: Rect) -> Binding:
     """A line that stays, cut at the edge of its field: all of it where the field grows, to the
     edge of its ``room``."""
     ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
     start, end = (binder.tape.lifted(complex(*place)) for place in ends)
-    return binder.joining(start, end, room or binder.room)
+    return binder.joining(start, end, room)
 
 
 def draw_bodies(board: FieldContent, drawing: Drawing, field: Field) -> None:
@@ -97,12 +98,12 @@ def following(
         pose = poses[0]
         if mark.cls == "ground":  # a stroke of the frame stays, or stands where another did
             pose = stepped(binder, pose, dot(*pose), SPACING)
-        return binder.on(pose, binder.room)
+        return binder.on(pose, inside(binder.room))
     if any(place.at for place in places) and isinstance(mark, Polyline):
         return binder.by_poses(poses)
     corners = [place.on_page for place in places]
     if isinstance(mark, LineMark):
-        return binder.joining(corners[0], corners[1], binder.room)
+        return binder.joining(corners[0], corners[1], inside(binder.room))
     return binder.corners(corners)
 
 

@@ -13,7 +13,6 @@ from graphkin.construction.result_tables import slide_rows, slide_sense, turning
 from graphkin.documents.members import members
 from graphkin.documents.sheet import asked
 from graphkin.documents.task_scale import plan_at
-from graphkin.drawing.columns import Row
 from graphkin.scene.link_points import lettered
 from graphkin.writers.html_markup import marked_up
 
@@ -39,6 +38,7 @@ def results(drawing: Drawing) -> Iterator[ResultTable]:
         words(f"table.{key}") for key in ("symbol", "millimetres", "sense")
     )
     asked_for = asked_rows(drawing)
+    names = {f"slide {block}": name for name, block in blocks_asked(drawing).items()}
     kinds = (
         (
             "vectors",
@@ -50,15 +50,14 @@ def results(drawing: Drawing) -> Iterator[ResultTable]:
         ("slides", "screen.slides", (first, unit, sense), slide_rows),
     )
     for kind, key, head, rows in kinds:
-        found = [(name_of(drawing, row), row.cells) for row in rows(drawing, empty=False)]
+        found = [(names.get(row.name, row.name), row.cells) for row in rows(drawing, empty=False)]
         if found:
             yield ResultTable(kind, words(key), head, found, asked_for)
 
 
-def name_of(drawing: Drawing, row: Row) -> str:
-    """The name of a row's quantity, on no other sheet the same."""
-    what, _, block = row.name.partition(" ")
-    return f"{SLIDES[drawing.kind]} {block}" if what == "slide" else row.name
+def blocks_asked(drawing: Drawing) -> dict[str, str]:
+    """The blocks that are asked for by the names of their rows, on no other sheet the same."""
+    return {f"{SLIDES[drawing.kind]} {block}": block for block in drawing.scene.ask.slides}
 
 
 def asked_rows(drawing: Drawing) -> frozenset[str]:
@@ -68,7 +67,7 @@ def asked_rows(drawing: Drawing) -> frozenset[str]:
         (
             *(f"{vector.letter}_{lettered(point)}" for point in names_asked(ask, vector)),
             *(f"{rate.letter}{link}" for link in names_asked(ask, rate)),
-            *(f"{SLIDES[drawing.kind]} {block}" for block in ask.slides),
+            *blocks_asked(drawing),
         )
     )
 

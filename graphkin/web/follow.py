@@ -11,6 +11,7 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.plot import above_foot, stretched
+from graphkin.construction.core.solution import Curve
 from graphkin.drawing.marks import LineMark, Mark, Text, style_class
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
@@ -20,12 +21,10 @@ from graphkin.web.field_extents import must_be_seen
 
 LABELS = ("label", "number", "leader")
 """The classes of a letter and of the circle and the leader that go with it."""
-FIXED = ("caption", "guide", "ground", "centre-line", "fixed-pivot", "title", "panel")
+FIXED = ("caption", "guide", "ground", "fixed-pivot", "title", "panel")
 """The classes of marks that stay, where nothing else is known of them."""
-ACROSS = ("guide ", "track ")
-"""The beginnings of the names of lines that go across a whole field."""
-CURVES = ("trajectory", "fixed-centrode")
-"""The curves that stay; the locus of a group that is tried is another at each place."""
+ACROSS = "centre-line"
+"""The class of lines that go across a whole field, where no driver draws them."""
 
 
 class MarkBindings(Struct, frozen=True, dict=True):
@@ -58,6 +57,12 @@ class MarkBindings(Struct, frozen=True, dict=True):
         if not self.on_mechanism:
             return {}
         return told(self.binder, self.angles)
+
+    @cached_property
+    def curves(self) -> Mapping[str, Curve]:
+        """The curves of the whole motion by the names of their marks; not the locus of a group that
+        is tried, which is another at each place."""
+        return {curve.name: curve for curve in self.drawing.curves if curve.kind != "locus"}
 
     def records(self) -> Iterator[tuple[int, Record]]:
         """The record of every mark that moves, with the mark's number in the field."""
@@ -146,12 +151,12 @@ class MarkBindings(Struct, frozen=True, dict=True):
 
     def body(self, mark: Mark, first: str) -> Binding:
         """A mark of the mechanism that no step has drawn."""
-        places = self.binder.places
-        if isinstance(mark, LineMark) and mark.name.startswith(ACROSS):
+        if isinstance(mark, LineMark) and first == ACROSS:
             return self.across(mark)
-        if first == "moving-centrode":
-            return self.binder.carried_by(places.pose(mark.name.partition(" ")[2]))
-        is_fixed = first in FIXED or first in CURVES or mark.name in self.drawing.scene.fixed_points
+        if curve := self.curves.get(mark.name):
+            is_led = curve.kind == "moving-centrode"
+            return self.binder.carried_by(self.binder.places.pose(curve.of)) if is_led else still
+        is_fixed = first in FIXED or mark.name in self.drawing.scene.fixed_points
         return still if is_fixed else only_at_start
 
     def across(self, mark: LineMark) -> Binding:
@@ -177,9 +182,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         if name.startswith(("omega ", "speed ")):
             pose = places.pose(name.partition(" ")[2])
             return self.binder.carried_by(pose)
-        if name.partition(" ")[0] in (*CURVES, "moving-centrode"):
-            return still
-        return only_at_start
+        return still if name in self.curves else only_at_start
 
     def text_of(self, k: int) -> Text | None:
         """The text of a label: a leader and a circle come right before it."""

@@ -97,7 +97,7 @@ def triangles(sheets: Sequence[ScreenSheet]) -> dict[int, list[list[int]]]:
 
 def ghosts(sheet: ScreenSheet, told: PageProtocol) -> list[int]:
     """The numbers of the marks of the mechanism on the first sheet: all but the construction."""
-    curves = {f"{curve.kind} {curve.of}" for curve in sheet.drawing.curves}
+    curves = {curve.name for curve in sheet.drawing.curves}
     found = []
     for k, timed in enumerate(told.timed[0][: len(sheet.left)]):
         if timed.mark.name in curves:

@@ -360,13 +360,14 @@ def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:
 
 
 def way_through(course: TrackedBranch, tracing: Tracing, reach: Reach) -> dict[str, Any]:
-    """The way of groups of higher class through the range, as a page knows it."""
+    """The way of groups of higher class through the range, as a page knows it: near what it tells
+    they are closed anew, so that few digits do."""
     places = [tracing.inputs[each.names[0]] for each in tracing.closings]
     sizes = [each.sizes if each.count > 1 else each.size for each in tracing.closings]
     turn = TURN if reach.whole else 0
     return {
         "at": course.at,
-        "states": course.states,
+        "states": [[float(f"{number:.6g}") for number in state] for state in course.states],
         "places": places,
         "sizes": sizes,
         "turn": turn,

@@ -269,19 +269,19 @@ class MovingCanvas(Struct, frozen=True):
 
     def through(self, first: Any, second: Any, third: Any) -> None:
         """The line through two points as far as a third, a little beyond them all."""
-        self.put(lambda: self.joining(*self.around(first, second, third)))
+        self.put(lambda: self.around(*map(self.binder.tape.lifted, (first, second, third))))
 
-    def around(self, first: Any, second: Any, third: Any) -> Ends:
-        """The ends of such a line."""
+    def around(self, first: Any, last: Any, third: Any) -> Binding:
+        """The same line, while the two points stand apart."""
         lift = self.binder.tape.lifted
-        first, last = lift(first), lift(second)
         way = unit(last - first)
         low = high = lift(0.0)
-        for point in (last, lift(third)):
+        for point in (last, third):
             along = dot(point - first, way)
             low, high = smaller(low, along), larger(high, along)
         beyond = BEYOND / 2 / self.mm
-        return first + way * (low - beyond), first + way * (high + beyond)
+        ends = first + way * (low - beyond), first + way * (high + beyond)
+        return self.binder.between(*ends, shown=self.size(last - first) - SHORTEST)
 
     # --- centres -----------------------------------------------------------------------------
 

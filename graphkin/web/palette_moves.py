@@ -42,6 +42,7 @@ from graphkin.construction.higher_class.divided_point import DividedPoint, betwe
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.construction.registry import ON_PALETTE
+from graphkin.construction.rolling.contact_points import CentrePath
 from graphkin.construction.velocity.image_of_link import alike
 from graphkin.construction.velocity.lines_through import parallel_to, square_to
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
@@ -238,16 +239,18 @@ class MoveFinder:
     # --- moves -----------------------------------------------------------------------------------
 
     def move(self, number: int) -> None:
-        """Note the move that gives a step, if one does; a second one that is alike is the first."""
+        """Note the move that gives a step, if one does; a step that is alike is the first one."""
         step = self.steps[number]
-        alike = self.known.get(self.drawn_alike(step))
-        if alike is not None:
-            self.same[number] = alike
-            return
-        way = self.way(number)
+        key = self.drawn_alike(number)
+        alike = self.known.get(key, number)
+        way = None if alike in self.moves else self.way(number)
         if way is None:
+            if step.args:  # what is given is like nothing else
+                self.known[key] = alike
+                if alike != number:
+                    self.same[number] = alike
             return
-        self.known.setdefault(self.drawn_alike(step), number)
+        self.known[key] = number
         action, inputs = way
         name, about = self.words_of(number, action, inputs)
         picks = [self.picks[name] for name in inputs]
@@ -269,10 +272,12 @@ class MoveFinder:
         by_hand = self.steps[kind.share].by_hand
         return by_hand if by_hand in self.values and by_hand is not None else kind.share
 
-    def drawn_alike(self, step: Step) -> tuple[Any, ...]:
+    def drawn_alike(self, number: int) -> tuple[Any, ...]:
         """What two steps have in common that are drawn alike: the same once more."""
+        step = self.steps[number]
         args = tuple(self.same.get(arg, arg) for arg in step.args)
-        return id(step.action), args, step.extra, step.part, step.plane, step.arrow
+        drawn = id(step.action), args, step.extra, step.part, step.plane, step.arrow
+        return *drawn, self.values[number]
 
     def way(self, number: int) -> Way | None:
         """The action that gives a step, and its inputs; None where it comes along."""
@@ -382,9 +387,10 @@ class MoveFinder:
                     return other
                 by = other
         else:
-            if isinstance(kind, LaidOff) and number not in self.moves:
-                by = self.point_or_line(kind.start) or ""
-                if value == self.values[kind.start]:
+            ends = isinstance(kind, LaidOff | LaidOffByRate) and not step.name
+            if ends and number not in self.moves:
+                by = self.point_or_line(step.args[0]) or ""
+                if not self.drawing(number).settled(abs(value - self.values[step.args[0]])):
                     return by
             seen = number in self.told.at or bool(by) or number in self.moves
             seen = seen and self.place(number) is not None
@@ -478,7 +484,7 @@ class MoveFinder:
         likewise = (step.action, tuple(others), step.extra)
         key, on = f"v{self.rates.setdefault(likewise, number)}", tuple(others[:2])
         if step.action in LAID_OFF:
-            key, value = f"v{others[0]}", self.values[others[0]]
+            key, value = f"v{self.same.get(others[0], others[0])}", self.values[others[0]]
             component = construction(self.steps[others[0]])
             name = component.symbol if isinstance(component, Component) else ""
             ends = component.shown_between() if isinstance(component, Component) else ()
@@ -559,6 +565,8 @@ class MoveFinder:
         kind, drawing = construction(self.steps[number]), self.drawing(number)
         if isinstance(kind, ShiftedGuide):
             return drawing.words("turn.beside", guide=way_of(drawing, kind.block))
+        if isinstance(kind, CentrePath):
+            return drawing.words("page.trajectory", of=symbol(kind.centre))
         if isinstance(kind, GuideLine | GuideThroughBlock):
             return way_of(drawing, kind.block)
         points = kind.points if kind is not None else ()
@@ -583,7 +591,7 @@ class MoveFinder:
         """What a move gives, and what it is about in a line that tells why a choice is wrong."""
         names = [self.picks[name].name for name in inputs]
         kind, drawing = construction(self.steps[number]), self.drawing(number)
-        if isinstance(kind, Component):
+        if isinstance(kind, Component) and kind.vector == number:
             return kind.symbol, kind.symbol
         if action in ("perpendicular", "parallel"):
             sign = "⊥" if action == "perpendicular" else "∥"

@@ -25,7 +25,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.text.errors import Problem, SceneError
 from graphkin.web.animation_pictures import MECHANISM, Stage, scale_bar, stage
-from graphkin.web.facts import asked_rows, senses
+from graphkin.web.facts import asked_rows, blocks_asked, senses
 from graphkin.web.field_pictures import ink_sheet
 from graphkin.web.field_pictures import placed as drawn
 from graphkin.web.frame_marks import driver_marks
@@ -234,8 +234,7 @@ def row_words(row: str, drawing: Drawing) -> tuple[str, str]:
     words, unit = drawing.words, drawing.words(f"table.{drawing.kind}")
     if row[0] == drawing.rate.letter:
         return symbol(row), words(f"table.{drawing.rate.target}")
-    if row.startswith("slide "):
-        block = row.rpartition(" ")[2]
+    if block := blocks_asked(drawing).get(row):
         on = drawing.scene.links[block].slides[0].on
         return f"*{drawing.sliding.letter}*_{{{markup(block)}/{markup(on)}}}", unit
     return symbol(row), unit

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
+from cmath import rect
+from math import radians
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +16,9 @@ from hypothesis import strategies as st
 
 from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.cli.report.cycle_table import cycle_table
+from graphkin.construction.links.plates import hull
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.closures_followed import interpolated
-from graphkin.motion.curves.outline import hull
 from graphkin.motion.curves.over_driver import pictures
 from graphkin.motion.curves.plane_paths import box_of, breadth_of, dotted, near_box
 from graphkin.motion.curves.sampled import sampled
@@ -184,6 +186,14 @@ def test_of_curves_that_run_far_away_the_picture_shows_what_lies_near():
     for touch, more in ((5 + 12j, [5 + 12j]), (5 + 60j, [])):
         found = near_box(places, [np.concatenate([near, far])], breadth, touch)
         assert found == box_of([places, near, np.array(more, dtype=complex)])
+
+
+def test_a_point_on_the_side_of_a_plate_is_none_of_its_corners():
+    """However the plate is turned, though rounding puts the point a little aside."""
+    for turn in range(0, 360, 7):
+        places = [rect(1, radians(turn)) * place for place in (0, 0.3, 1, 0.4 + 0.5j)]
+        assert {*hull(places)} == {*places} - {places[1]}
+        assert hull(places[:3]) in (places[:3:2], places[2::-2])
 
 
 WHOLE = st.integers(-9, 9)

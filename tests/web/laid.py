@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Mapping
 from math import atan2, degrees, hypot, isfinite
 from typing import Any
 
@@ -16,7 +17,7 @@ from graphkin.drawing.marks import Arc
 from graphkin.drawing.symbols import SHORT, head
 from graphkin.web.moving import Moving
 from graphkin.web.page_driver import INPUT
-from graphkin.web.traced_closings import solver
+from graphkin.web.traced_closings import State, solver
 from tests.web.redrawn import arc_numbers
 
 Laid = list[float] | None
@@ -48,15 +49,11 @@ def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[flo
     tracing, course = moving.tracing, moving.data["course"]
     inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.beside(np.array([x]))}
     if tracing.closings:
-        at, turn = np.array(course["at"]), course["turn"]
-        place = at[0] + (x - at[0]) % turn if turn else x
-        near = tuple(np.interp(place, at, column) for column in np.array(course["states"]).T)
-        tried = {place - 1 for place in course["places"]}
-        near = tuple(n if k in tried else float(np.sign(n)) for k, n in enumerate(near))
         size = moving.data["reach"]
         names = tuple(tracing.beside(x))
         solve = solver(tracing.graph, INPUT, tracing.closings, names, tracing.beside, size)
-        state = solve(x, near)
+        found = (solve(x, near) for near in states_near(course, x))
+        state = next((each for each in found if each is not None), None)
         if state is None:
             return None
         names = (name for each in tracing.closings for name in each.names)
@@ -64,6 +61,20 @@ def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[flo
     inputs |= {name: np.array([value]) for name, value in figures.items()}
     outputs = runner(tracing.graph, tracing.tape.outputs)(inputs)
     return [float(np.ravel(value)[0]) for value in outputs]
+
+
+def states_near(course: dict[str, Any], x: float) -> Iterator[State]:
+    """The states near which groups are closed at a place: those between which it lies where a dyad
+    is stretched there, else what lies between them."""
+    at, turn = course["at"], course["turn"]
+    place = at[0] + (x - at[0]) % turn if turn else x
+    k = min(max(bisect_left(at, place), 1), len(at) - 1)
+    part = (place - at[k - 1]) / (at[k] - at[k - 1])
+    before, after = map(tuple, course["states"][k - 1 : k + 1])
+    if any(a == -b for a, b in zip(before, after, strict=True)):
+        yield from (before, after)
+    else:
+        yield tuple(a + part * (b - a) for a, b in zip(before, after, strict=True))
 
 
 class Shapes:

@@ -21,7 +21,7 @@ from tests.chosen import CHOSEN, SCENES
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
-ALL = (*LABS, *CHOSEN)
+ALL = tuple(dict.fromkeys((*LABS, *CHOSEN, "plank-two-sizes")))
 PLANS = (Plane.VELOCITIES, Plane.ACCELERATIONS)
 NEAR = 1e-9
 RESULTS = """([source, record]) => {

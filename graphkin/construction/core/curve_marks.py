@@ -48,18 +48,17 @@ def clipped_path(
 def draw_curves(board: FieldContent, drawing: Drawing, field: Field, rect: Rect) -> None:
     """Paths of points and centrodes, each with its name."""
     for curve in drawing.curves:
-        name = f"{curve.kind} {curve.of}"
         parts = [
             part
             for run in curve.runs
-            for part in clipped_path([field(point) for point in run], rect, curve.kind, name)
+            for part in clipped_path([field(point) for point in run], rect, curve.kind, curve.name)
         ]
         board.marks += parts
         if parts:
             subject = middle_of(max(parts, key=length), share=SHARES[curve.kind])
             words = name_of(drawing.words, curve)
             cls = CENTRODES.get(curve.kind, "")
-            board.labels.append(Label(words, cls, subject, 2.5, name, led=True))
+            board.labels.append(Label(words, cls, subject, 2.5, curve.name, led=True))
 
 
 SHARES = {"fixed-centrode": 0.5, "moving-centrode": 0.3, "trajectory": 0.15, "locus": 0.6}

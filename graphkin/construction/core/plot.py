@@ -42,6 +42,11 @@ def line_part(plot: Plot, value: Any, low: float, high: float) -> tuple[XY, XY] 
     return clipped(start, end, above_foot(plot.field.rect))
 
 
+def inside(rect: Rect) -> Rect:
+    """A field without its edges."""
+    return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - EDGE
+
+
 def above_foot(rect: Rect) -> Rect:
     """A field without its edges and its lowest part, which is for notes."""
     return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - FOOT

@@ -79,6 +79,11 @@ class Curve(Struct, frozen=True):
     runs: tuple[tuple[complex, ...], ...]
     now: complex | None = None
 
+    @property
+    def name(self) -> str:
+        """The name of its marks."""
+        return f"{self.kind} {self.of}"
+
 
 class Verdict(Struct, frozen=True):
     """How far the independent route lies from the construction.

@@ -16,7 +16,7 @@ from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, LineMark, Mark
-from graphkin.drawing.symbols import BLOCK, across, arrow, head, turned_arrow
+from graphkin.drawing.symbols import BLOCK, SHORT, across, arrow, distance, head, turned_arrow
 from graphkin.numbers.arithmetic import Real, phase, pick, turn_by
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.model import FRAME, Driver, Slide
@@ -312,8 +312,10 @@ def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way:
 
 
 def dimension(lines: Iterable[tuple[XY, XY]], name: str) -> Iterator[Mark]:
-    """The thin lines that lead to what is measured, then the dimension line with arrowheads."""
+    """The thin lines that lead to what is measured, then the dimension line, with arrowheads where
+    it is long enough for them."""
     for low, high in lines:
         yield LineMark(*low, *high, "drive", name)
-    yield head(low, high, "sense", name)
-    yield head(high, low, "sense", name)
+    if distance(low, high) >= SHORT:
+        yield head(low, high, "sense", name)
+        yield head(high, low, "sense", name)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.plot import EDGE
+from graphkin.construction.core.plot import inside
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import (
     ALIKE,
@@ -193,7 +193,7 @@ def overlap(one: Rect, other: Rect) -> bool:
 
 def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
     """Marks whose lines end clear of the edges of a field; strokes of hatching are left whole."""
-    inner = rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - EDGE
+    inner = inside(rect)
     for mark in marks:
         if not isinstance(mark, LineMark):
             yield mark

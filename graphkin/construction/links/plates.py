@@ -44,15 +44,17 @@ def is_all_wheel(drawing: Drawing, link: str) -> bool:
     )
 
 
-def hull(places: list[complex]) -> list[complex]:
-    """The corners of the convex figure around places, in order around it."""
+def hull(places: list[complex], flat: float = FLAT) -> list[complex]:
+    """The corners of the convex figure around places, in order around it, but for those nearly in
+    line with others (``flat``, in parts of its size); two where all lie in line."""
     ordered = sorted(places, key=lambda p: (p.real, p.imag))
     ordered = [p for i, p in enumerate(ordered) if not i or p != ordered[i - 1]]
+    least = flat * max(abs(p - ordered[0]) for p in ordered) ** 2
     around: list[complex] = []
     for half in (ordered, ordered[::-1]):
         chain: list[complex] = []
         for p in half:
-            while len(chain) > 1 and cross(chain[-1] - chain[-2], p - chain[-1]) <= 0:
+            while len(chain) > 1 and cross(chain[-1] - chain[-2], p - chain[-1]) <= least:
                 chain.pop()
             chain.append(p)
         around += chain[:-1]

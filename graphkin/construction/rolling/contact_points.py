@@ -178,7 +178,7 @@ class Track(Construction, frozen=True, kw_only=True):
 
 
 class CentrePath(Construction, frozen=True, kw_only=True):
-    """The ``line`` on which the centre of a ``wheel`` moves, beside its straight ``track``.
+    """The ``line`` on which the ``centre`` of a ``wheel`` moves, beside its straight ``track``.
 
     ``sign`` is what the wheel is called among those of its link.
     """
@@ -190,6 +190,7 @@ class CentrePath(Construction, frozen=True, kw_only=True):
 
     wheel: str
     sign: str
+    centre: str
     track: int
     line: int
 

@@ -175,7 +175,8 @@ def path_of_centre(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
         line = pen.draw(radius_along, track, radius_of(pen, contact))
     wheel = contact.links[0]
     sign = contact.sign_of(pen.scene, wheel)
-    pen.make(CentrePath(wheel=wheel, sign=sign, track=track, line=line))
+    centre = contact.wheel.centre
+    pen.make(CentrePath(wheel=wheel, sign=sign, centre=centre, track=track, line=line))
     return line
 
 

@@ -14,7 +14,7 @@ from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.construction.core.vocabulary import action, meet, similar_point
 from graphkin.construction.velocity.relative_motion import known, stated
 from graphkin.drawing.symbol_markup import bar, symbol
-from graphkin.numbers.arithmetic import Point
+from graphkin.numbers.arithmetic import Point, pick
 
 
 @action("alike")
@@ -156,28 +156,36 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The point, with the sides of the image that nothing else draws."""
-        for start, end in self.undrawn_sides(canvas.drawing):
+        drawing = canvas.drawing.choosing
+        sides = [*self.undrawn_sides(drawing)]
+        if len(sides) == 3 and self.is_in_line(drawing):
+            share = canvas.value(self.ratio).real
+            first, second, image = map(canvas.value, (self.first, self.second, self.image))
+            start = pick(share < 0, second, first)
+            canvas.side(start, pick(abs(share - 0.5) > 0.5, image, second))
+            sides = []
+        for start, end in sides:
             canvas.side(canvas.value(start), canvas.value(end))
         canvas.image()
 
     def undrawn_sides(self, drawing: Drawing) -> Iterator[tuple[int, int]]:
         """The sides of the image, by the steps of their ends, along which no arrow of a plan lies.
 
-        None where the hand finds the point by crossing two lines. Three points in line have one
-        side, or, where an arrow lies along a part of it, those from each to the next.
+        None where the hand finds the point by crossing two lines. Of three points in line, where an
+        arrow lies along a part of the longest side, those from each to the next.
         """
         if self.hand in drawing.trace.values:
             return
         corners = [self.first, self.second, self.image]
         sides = [*combinations(corners, 2)]
         bare = [side for side in sides if not is_joined(drawing, *side)]
-        if self.is_in_line(drawing):
+        if bare != sides and self.is_in_line(drawing):
             share = drawing.trace.values[self.ratio].real
             along = dict(zip(corners, (0.0, 1.0, share), strict=True))
             whole = max(sides, key=lambda side: abs(along[side[1]] - along[side[0]]))
             if whole not in bare:
                 return
-            bare = [whole] if bare == sides else [side for side in bare if side != whole]
+            bare.remove(whole)
         yield from bare
 
     # --- saying it -------------------------------------------------------------------------------

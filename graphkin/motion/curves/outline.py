@@ -10,6 +10,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.construction.links.plates import hull
 from graphkin.construction.links.wheel_symbols import edges_of
 from graphkin.motion.cycle import Cycle
 from graphkin.scene.link_points import is_under
@@ -155,7 +156,7 @@ def body(ax: Axes, stand: Outline, link: Link) -> None:
     ]
     if len(places) < 2:
         return
-    corners = hull(places)
+    corners = hull(places, FLAT)
     if len(corners) < 3:
         first, last = corners
         ax.plot(
@@ -169,28 +170,6 @@ def body(ax: Axes, stand: Outline, link: Link) -> None:
         return
     xs, ys = [z.real for z in corners], [z.imag for z in corners]
     ax.fill(xs, ys, facecolor=PLATE, alpha=0.55, edgecolor=FAINT, linewidth=1.4, zorder=2.5)
-
-
-def hull(places: list[complex]) -> list[complex]:
-    """The corners of the smallest convex plate around points; two where they lie in line."""
-    ordered = sorted(set(places), key=lambda z: (z.real, z.imag))
-    size = max(abs(z - ordered[0]) for z in ordered)
-
-    def half(run: list[complex]) -> list[complex]:
-        kept: list[complex] = []
-        for z in run:
-            while len(kept) > 1 and turn(kept[-2], kept[-1], z) <= FLAT * size * size:
-                kept.pop()
-            kept.append(z)
-        return kept[:-1]
-
-    corners = half(ordered) + half(ordered[::-1])
-    return corners if len(corners) > 2 else [ordered[0], ordered[-1]]
-
-
-def turn(a: complex, b: complex, c: complex) -> float:
-    """Twice the area of a triangle, positive counter-clockwise."""
-    return ((b - a).conjugate() * (c - b)).imag
 
 
 def wheels(ax: Axes, stand: Outline, link: Link) -> None:

@@ -1,6 +1,6 @@
 // Marks that follow the driver: `data` says of each from which of the results in y its coordinates are
 // laid off (see field_binder.py).
-const BEYOND = 7, HEAD = 3.2, SHORT = 2, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6, OVER = 0.5;
+const BEYOND = 7, HEAD = 3.2, SHORT = 2 - 1e-6, TINY = 0.5, RING = 240, DIGITS = 4, NOTHING = 1e-6, OVER = 0.5;
 const written = (number) => String(Number(number.toFixed(DIGITS)));
 const point = (i) => [y[i], y[i + 1]];
 const laid = (o, d, a, b) => [y[o] + a * y[d] - b * y[d + 1], y[o + 1] + a * y[d + 1] + b * y[d]];
