@@ -4,7 +4,6 @@ vector equations as the school writes them, with what is known of each vector be
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import ceil, floor, log10
 
 from msgspec import Struct
@@ -14,7 +13,9 @@ from graphkin.construction.core.quantities import OnPaper
 
 
 class Term(Struct, frozen=True):
-    """A vector under its ``symbol``: of its size and direction, how many are ``known``, and how."""
+    """A vector under its ``symbol``: of its size and direction, how many are ``known``, and how,
+    before the equation is solved that it stands in.
+    """
 
     symbol: str
     known: int = 0
@@ -33,18 +34,20 @@ class VectorEquation(Struct, frozen=True):
         sums = (" + ".join(term.symbol for term in terms) for terms in self.sums)
         return " = ".join((self.whole.symbol, *sums))
 
+    def joined_to(self, before: VectorEquation) -> VectorEquation:
+        """It and one for the same vector as one; or with what is known of a summand put in."""
+        if before.whole.symbol == self.whole.symbol:
+            whole = max(before.whole, self.whole, key=lambda term: term.known)
+            if before.whole.known and self.whole.known and before.whole.note != self.whole.note:
+                whole = Term(whole.symbol, 1, f"{before.whole.note}, {self.whole.note}")
+            return VectorEquation(whole, before.sums + self.sums)
+        return VectorEquation(self.whole, tuple(map(before.put_into, self.sums)))
 
-def chained(equations: Sequence[VectorEquation]) -> list[VectorEquation]:
-    """Those for one vector as one, where the first of them stands."""
-    found: dict[str, VectorEquation] = {}
-    for each in equations:
-        before = found.get(each.whole.symbol)
-        if before is None:
-            found[each.whole.symbol] = each
-            continue
-        whole = max(before.whole, each.whole, key=lambda term: term.known)
-        found[each.whole.symbol] = VectorEquation(whole, before.sums + each.sums)
-    return list(found.values())
+    def put_into(self, terms: tuple[Term, ...]) -> tuple[Term, ...]:
+        """A sum with what is known of this vector in its place: its own sum, or how it lies."""
+        own = self.sums[0] if self.sums else (self.whole,)
+        symbol = self.whole.symbol
+        return tuple(each for t in terms for each in (own if t.symbol == symbol else (t,)))
 
 
 DIGITS = 5
