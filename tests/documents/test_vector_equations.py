@@ -14,7 +14,7 @@ from graphkin.documents.calculation import calculation
 from graphkin.documents.relations import relations
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.scene.link_points import lettered
+from graphkin.scene.link_points import lettered, under
 from tests.chosen import HALVES
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
@@ -23,6 +23,7 @@ SLOTTED = ("shaper", "geneva-wheel", "cam-lever", "plank-hinged", "oscillating-s
 """Scenes in which a driven point slides on a link that turns."""
 NAMES = dict.fromkeys((*HALVES[0], *SLOTTED, "crank-slot", "platform-3rpr", "geneva-dwell"))
 WHICH = [*((name, None) for name in NAMES), *((lab, 7) for lab in SHIPPED)]
+LAID_OFF = RollingNormal | DrivenSlide
 VECTOR = re.compile(r"\*[va]\*_\{[^}]*\}(?:\^\{[^}]*\})?")
 
 
@@ -39,15 +40,13 @@ def terms_of(equation: VectorEquation) -> list[Term]:
 
 def laid_off(drawing) -> set[str]:
     """The accelerations of points that are laid off from known ones by relations of their own."""
-    letter = drawing.vector.letter
-    return {
-        symbol(f"{letter}_{lettered(point)}")
-        for (what, point), number in drawing.trace.program.targets.items()
-        if what == drawing.kind
-        and isinstance(
-            construction(drawing.trace.program.steps[number]), RollingNormal | DrivenSlide
-        )
-    }
+    ends = (
+        step.letter.replace("′", "").partition("_")
+        for step in drawing.trace.program.steps
+        if step.plane is drawing.plane and isinstance(construction(step), LAID_OFF)
+    )
+    points = (under(point.upper(), link) if link else point.upper() for point, _, link in ends)
+    return {symbol(f"{drawing.vector.letter}_{lettered(point)}") for point in points}
 
 
 @pytest.mark.parametrize("which", WHICH, ids=str)

@@ -106,13 +106,16 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """A foot of a cylinder, which is lettered as a point under another, slides at that one."""
         scene = drawing.scene
-        for point in (*scene.frame.points, *(p for link in scene.links.values() for p in link.points)):
+        for point in (
+            *scene.frame.points,
+            *(p for link in scene.links.values() for p in link.points),
+        ):
             if any(lettered(under(point, link)) == self.point for link in scene.links):
                 return self.point, point
         return super().slider(drawing, sought)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide; where it is tried the motion along it, by what is tried."""
+        """What is given along the guide; of what is tried the motion along it, by that."""
         if self.image in drawing.auxiliary:
             tried = symbol(f"{drawing.vector.letter}_{self.guide}")
             yield self.motion_of(drawing, self.point, tried)
