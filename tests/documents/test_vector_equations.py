@@ -23,7 +23,6 @@ SLOTTED = ("shaper", "geneva-wheel", "cam-lever", "plank-hinged", "oscillating-s
 """Scenes in which a driven point slides on a link that turns."""
 NAMES = dict.fromkeys((*HALVES[0], *SLOTTED, "crank-slot", "platform-3rpr", "geneva-dwell"))
 WHICH = [*((name, None) for name in NAMES), *((lab, 7) for lab in SHIPPED)]
-LAID_OFF = RollingNormal | DrivenSlide
 VECTOR = re.compile(r"\*[va]\*_\{[^}]*\}(?:\^\{[^}]*\})?")
 
 
@@ -40,11 +39,16 @@ def terms_of(equation: VectorEquation) -> list[Term]:
 
 def laid_off(drawing) -> set[str]:
     """The accelerations of points that are laid off from known ones by relations of their own."""
-    ends = (
-        step.letter.replace("′", "").partition("_")
-        for step in drawing.trace.program.steps
-        if step.plane is drawing.plane and isinstance(construction(step), LAID_OFF)
+    kinds = (
+        (step, construction(step), number in drawing.auxiliary)
+        for number, step in enumerate(drawing.trace.program.steps)
+        if step.plane is drawing.plane
     )
+    ends = [
+        step.letter.replace("′", "").partition("_")
+        for step, kind, tried in kinds
+        if isinstance(kind, RollingNormal) or (isinstance(kind, DrivenSlide) and not tried)
+    ]
     points = (under(point.upper(), link) if link else point.upper() for point, _, link in ends)
     return {symbol(f"{drawing.vector.letter}_{lettered(point)}") for point in points}
 
