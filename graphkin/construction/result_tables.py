@@ -8,6 +8,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, sense, way_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import OnPaper, in_mm
+from graphkin.construction.core.relation import value_of
 from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.columns import SMALL, ColumnTable, Row, laid_out, on_sheets
@@ -15,12 +16,9 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import flowed
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.plane import Vector
-from graphkin.text import Words
 
 VECTORS, TURNS, SLID = (13.5, 13.5, 13, 16), (13, 14, 33), (12.5, 12, 31.5)
 """Widths of the columns of the tables, in mm."""
-UNSEEN = 0.1
-"""Length of a vector in mm below which nobody reads it."""
 LEGIBLE = 2.0
 """Length of a vector in mm below which it is not read off a plan: 0.5 mm are a quarter of it."""
 LEADING = 2.9
@@ -82,11 +80,6 @@ def vector_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
         values = ("", "") if empty else (drawn, value_of(words, size, length))
         rows.append(Row((symbol(name), segment, *values), name))
     return rows
-
-
-def value_of(words: Words, size: float, length: OnPaper) -> str:
-    """The value of a vector that is so many mm long; in two digits where it is next to nothing."""
-    return words.significant(size, 2 if length < UNSEEN else 4)
 
 
 def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:

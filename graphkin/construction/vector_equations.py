@@ -11,36 +11,47 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.relation import Relation, chained
+from graphkin.construction.core.relation import Relation, VectorEquation
 from graphkin.construction.velocity.relative_motion import stated
 
 
 def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
     """The equations of a plan in the order of drawing, each once, with the rate that it takes."""
-    found: dict[str, tuple[str, Relation]] = {}
+    found: dict[object, tuple[str, Relation]] = {}
     for number, step, _ in drawing.steps(drawing.plane):
         if (plan := auxiliary_plan(drawing, number)) and plan.repeats:
             continue
         kind = construction(step)
         for relation in kind.equations(drawing, step.role) if kind else ():
             taken = kind.rate_taken(drawing, step.role) if kind and relation.symbols else ""
-            found.setdefault(relation.left + relation.symbols, (taken, relation))
+            said = relation.equation or relation.left + relation.symbols
+            found.setdefault(said, (taken, relation))
     return joined(list(found.values()))
 
 
 def joined(found: list[tuple[str, Relation]]) -> list[tuple[str, Relation]]:
-    """The same with the equations for one vector chained, where the last of them stands."""
-    last = {r.equation.whole.symbol: i for i, (_, r) in enumerate(found) if r.equation}
-    chains = {
-        each.whole.symbol: each for each in chained([r.equation for _, r in found if r.equation])
-    }
-    rest: list[tuple[str, Relation]] = []
-    for i, (taken, relation) in enumerate(found):
-        if relation.equation is None:
-            rest.append((taken, relation))
-        elif last[name := relation.equation.whole.symbol] == i:
-            rest.append((taken, stated(chains[name])))
-    return rest
+    """The same with the equations by which one vector is found in one, where the last of them
+    stands: chained, and put in where it is a summand of a vector that is known before.
+    """
+    rest: dict[str, tuple[str, Relation]] = {}
+    for taken, relation in found:
+        equation = relation.equation
+        if equation is None:
+            rest[relation.left + relation.symbols] = taken, relation
+            continue
+        for name in unknown_in(equation):
+            _, before = rest.pop(name, ("", None))
+            if before is not None and before.equation is not None:
+                equation = equation.joined_to(before.equation)
+        is_known = equation.whole.known == 2 and bool(equation.sums)
+        rest[equation.markup if is_known else equation.whole.symbol] = taken, stated(equation)
+    return list(rest.values())
+
+
+def unknown_in(equation: VectorEquation) -> list[str]:
+    """The vectors of points that an equation helps to find: its whole one, or a summand."""
+    found = [term.symbol for terms in equation.sums for term in terms if not term.known]
+    return found if equation.whole.known == 2 else [equation.whole.symbol, *found]
 
 
 def is_laid_off(drawing: Drawing, step: Step) -> bool:

@@ -83,6 +83,8 @@ def all_rows(
                 yield CalculationRow(line, legend=True)
         if solved and section == FIRST and any(relation.equation for relation in found):
             yield CalculationRow(words("calculation.underlined"), legend=True)
+            if any(drawing.auxiliary for drawing in drawings):
+                yield CalculationRow(words("calculation.tried"), legend=True)
         for relation in found:
             if relation.equation and relation.equation.sums:
                 yield from of_equation(relation.equation, solved=solved)

@@ -139,7 +139,7 @@ def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list
     sheet from a place on."""
     words, width, lines = drawing.words, AREA[2] - x - 3, list[str]()
     if Moved.DATA in moved:
-        first, *others = given(drawing, solved=view != "task")
+        first, *others = given(drawing, solved=view != "task", laws=True)
         lines += flowed([f"{words('page.data')}: {first}", *others], "; ", width, 2.5)
     if Moved.ASKED in moved:
         first, *others = asked(drawing)

@@ -44,7 +44,7 @@ def data_heading(
     ``spare`` is the height in mm that the drawings leave free below the captions, into which data
     of many lines reach, and the captions with them. Raises PageError where they do not fit.
     """
-    found = data(drawing, solved=view != "task")
+    found = data(drawing, solved=view != "task", laws=True)
     return in_table(found, x, y) or in_lines(drawing, found, x, y, spare)
 
 

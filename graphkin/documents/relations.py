@@ -22,10 +22,11 @@ from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import (
     Relation,
     answer,
+    as_read,
     figure,
     length_of,
-    reading,
     rounded,
+    ruler,
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
@@ -85,7 +86,7 @@ def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
     return Relation(
         bar(p, q),
         "",
-        *reading(mm).times(drawing, drawing.scales.kL / 1000),
+        *as_read(drawing, mm, drawing.scales.kL / 1000),
         "m",
         drawing.words("calculation.measured"),
         over=((p, q),),
@@ -165,9 +166,9 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
                 yield laid_off_length(drawing, step, value)
             continue
         size = drawing.settled(abs(value.tip - value.tail))
-        read = reading(drawn_in(drawing, drawing.plane, size))
+        read = as_read(drawing, drawn_in(drawing, drawing.plane, size), scale / 1000)
         symbols = f"{k}·{segment_of(drawing, step)}"
-        yield Relation(symbol(vector.symbol), symbols, *read.times(drawing, scale / 1000), unit)
+        yield Relation(symbol(vector.symbol), symbols, *read, unit)
 
 
 def of_laid_off(drawing: Drawing) -> Iterator[Relation]:
@@ -186,7 +187,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
         segment_of(drawing, step),
         f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
         f"{figure(drawing, size)}/{figure(drawing, scale)}",
-        reading(OnPaper(rounded(size) / rounded(scale))).figures(drawing),
+        ruler(drawing, OnPaper(rounded(size) / rounded(scale))),
         "mm",
         drawing.words("calculation.drawn"),
     )

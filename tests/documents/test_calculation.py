@@ -9,6 +9,7 @@ import pytest
 
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.rate_relations import of_gears
+from graphkin.construction.result_tables import vector_rows
 from graphkin.documents.calculation import (
     BOTTOM,
     BY_HAND,
@@ -101,6 +102,21 @@ def test_the_figures_of_every_relation_give_its_result_to_the_last_digit(which):
         if abs(value_of(figures) - printed) > 1.000001 * unit:
             wrong.append(f"({number}) {figures} = {value_of(figures):.7g}, not {result}")
     assert not wrong or name in ROUGH, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("which", dict.fromkeys(ALL), ids=named)
+def test_a_vector_has_one_value_on_the_sheet_and_in_the_calculation(which):
+    both = drawings(*which)
+    told = {r.left: (r.symbols, r.result) for _, found in relations(both) for r in found}
+    compared = 0
+    for drawing in both:
+        for row in vector_rows(drawing, empty=False):
+            vector, *_, value = row.cells
+            symbols, result = told.get(vector, ("", ""))
+            if symbols.startswith("*k*_"):
+                assert result == value, (vector, symbols)
+                compared += 1
+    assert compared or not any(vector_rows(each, empty=False) for each in both)
 
 
 def test_what_two_trial_plans_miss_of_a_driver_between_moving_links_is_reckoned_in_figures():

@@ -7,6 +7,7 @@ from itertools import cycle, pairwise
 import pytest
 
 from graphkin.construction.core.layout import lay_out
+from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.set_lengths import divided, inverse
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
@@ -42,6 +43,24 @@ def test_no_sheet_of_a_task_tells_what_its_calculation_asks(name, language):
             if each.result and not each.given:
                 answer = f"{plain(each.left)} = {plain(each.result)}"
                 assert not re.search(re.escape(answer) + r"(?![\d.,])", printed), answer
+
+
+@pytest.mark.parametrize(
+    ("name", "laws"),
+    [
+        (("pump", 7), ("(30 + 2·n)°", "(300 + 10·n) rev/min")),
+        (("excavator-relative", None), ()),
+        (("cam-roller", None), ()),
+    ],
+    ids=str,
+)
+def test_a_task_says_of_each_driver_where_it_stands_by_number_or_by_its_law(name, laws):
+    """Nobody can begin a drawing without the angle of the crank, and a sheet may lie alone."""
+    for drawing in drawings(*name):
+        page = told(task(drawing))
+        for driver in drawing.scene.drivers:
+            assert plain(angle_symbol(drawing.scene, driver)) in page
+        assert all(law in page for law in laws)
 
 
 @pytest.mark.parametrize(

@@ -1,18 +1,29 @@
 """Vector equations: each says of every vector what is known, and all that is asked follows."""
 
+import re
 from itertools import pairwise
 
 import pytest
 
-from graphkin.construction.core.relation import VectorEquation
+from graphkin.construction.core.kind import construction
+from graphkin.construction.core.relation import Term, VectorEquation
+from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.rolling.rolling_normal import RollingNormal
 from graphkin.construction.vector_equations import of_equations
 from graphkin.documents.calculation import calculation
+from graphkin.documents.relations import relations
 from graphkin.drawing.marks import LineMark, Text
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.scene.link_points import lettered, under
 from tests.chosen import HALVES
 from tests.documents.sheet_tools import drawings
 from tests.mechanisms import SHIPPED
 
-WHICH = [*((name, None) for name in HALVES[0]), *((lab, 7) for lab in SHIPPED)]
+SLOTTED = ("shaper", "geneva-wheel", "cam-lever", "plank-hinged", "oscillating-slide")
+"""Scenes in which a driven point slides on a link that turns."""
+NAMES = dict.fromkeys((*HALVES[0], *SLOTTED, "crank-slot", "platform-3rpr", "geneva-dwell"))
+WHICH = [*((name, None) for name in NAMES), *((lab, 7) for lab in SHIPPED)]
+VECTOR = re.compile(r"\*[va]\*_\{[^}]*\}(?:\^\{[^}]*\})?")
 
 
 def equations(drawing) -> list[VectorEquation]:
@@ -21,16 +32,85 @@ def equations(drawing) -> list[VectorEquation]:
     return [each for each in every if each is not None and each.sums]
 
 
+def terms_of(equation: VectorEquation) -> list[Term]:
+    """All vectors of an equation."""
+    return [equation.whole, *(term for terms in equation.sums for term in terms)]
+
+
+def laid_off(drawing) -> set[str]:
+    """The accelerations of points that are laid off from known ones by relations of their own."""
+    kinds = (
+        (step, construction(step), number in drawing.auxiliary)
+        for number, step in enumerate(drawing.trace.program.steps)
+        if step.plane is drawing.plane
+    )
+    ends = [
+        step.letter.replace("′", "").partition("_")
+        for step, kind, tried in kinds
+        if isinstance(kind, RollingNormal) or (isinstance(kind, DrivenSlide) and not tried)
+    ]
+    points = (under(point.upper(), link) if link else point.upper() for point, _, link in ends)
+    return {symbol(f"{drawing.vector.letter}_{lettered(point)}") for point in points}
+
+
 @pytest.mark.parametrize("which", WHICH, ids=str)
-def test_each_equation_leaves_two_unknowns_or_none(which):
-    """Two sizes or directions can be found from one vector equation in the plane, never three."""
+def test_lines_say_what_is_known_before_the_equation_is_solved(which):
+    """Two lines: size and direction are known; one: direction; none: neither (Artobolevskii).
+
+    Read as a student reads the pages, from their head: known is what a driver gives, what stands in
+    a relation or an equation before, and what has both its direction and its size below it.
+    """
+    both = drawings(*which)
+    known = set().union(*map(laid_off, both))
+    for _, found in relations(both):
+        for relation in found:
+            equation = relation.equation
+            if equation is None:
+                known.update(VECTOR.findall(relation.left))
+                continue
+            for term in terms_of(equation) if equation.sums else ():
+                told = term.known == 2 and any(s in term.note for s in (", ", "·", "= 0"))
+                assert (term.known == 2) == (told or term.symbol in known), (term, equation.markup)
+                assert bool(term.note) >= (term.known == 1), (term, equation.markup)
+            names = [term.symbol for term in terms_of(equation) if equation.sums or term.known == 2]
+            known.update(names)
+            known.update(name.partition("^")[0] for name in names if re.search(r"\^\{[τr]", name))
+
+
+@pytest.mark.parametrize("which", WHICH, ids=str)
+def test_each_equation_leaves_two_unknowns_for_each_sum(which):
+    """Two sizes or directions can be found from one vector equation in the plane, never three.
+
+    That points of contact differ in their accelerations along the common normal only, as is said
+    after their equation, is another equation.
+    """
     for drawing in drawings(*which):
-        for each in equations(drawing):
-            for terms in each.sums:
-                missing = sum(2 - term.known for term in (each.whole, *terms))
-                chained = sum(2 - term.known for term in terms)
-                assert missing <= 2 + 2 * (each.whole.known == 0), each.markup
-                assert chained <= 1 or len(each.sums) == 1, each.markup
+        found = [relation for _, relation in of_equations(drawing)]
+        for relation, after in zip(found, [*found[1:], None], strict=True):
+            if relation.equation is None or not relation.equation.sums:
+                continue
+            touching = after is not None and after.equation is None and not after.symbols
+            missing = sum(2 - term.known for term in terms_of(relation.equation))
+            assert missing <= 2 * (len(relation.equation.sums) + touching), relation.left
+
+
+@pytest.mark.parametrize("name", SLOTTED)
+def test_a_driven_point_on_a_slotted_link_has_one_equation(name):
+    """v_B = v_B3 + v_BB3 and a_B = a_B3^n + a_B3^t + a_BB3^c + a_BB3^r: what is known on the left,
+    on the right two sizes are sought (Norton, Design of Machinery, 7.3; Artobolevskii, 4.3)."""
+    velocity, acceleration = (
+        next(
+            each
+            for each in equations(drawing)
+            if each.whole.known == 2 and any(f"^{{{s}}}" in each.markup for s in signs) == bool(s)
+        )
+        for drawing, signs, s in zip(drawings(name), ((), ("c",)), ("", "c"), strict=True)
+    )
+    assert [[term.known for term in terms] for terms in velocity.sums] == [[1, 1]]
+    assert [[term.known for term in terms] for terms in acceleration.sums] == [[2, 1, 2, 1]]
+    across, along = (term.note for term in velocity.sums[0])
+    assert across.startswith("⊥ ")
+    assert along.startswith("∥ guide")
 
 
 @pytest.mark.parametrize("which", WHICH, ids=str)

@@ -7,7 +7,7 @@ from collections.abc import Container, Iterator
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
-from graphkin.construction.core.relation import Relation, length_of, reading
+from graphkin.construction.core.relation import Relation, as_read, length_of
 from graphkin.drawing.richtext import words_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 
@@ -79,7 +79,7 @@ def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:
 def of_distance(drawing: Drawing, centre: CurvatureCentre) -> Relation:
     """How far the centre lies from the pivot, as it is measured."""
     size = drawing.on_paper(length_of(drawing, centre.start, centre.name))
-    told = reading(size).times(drawing, drawing.scales.kL / 1000)
+    told = as_read(drawing, size, drawing.scales.kL / 1000)
     remark = drawing.words("calculation.measured")
     ends = centre.start, centre.name
     return Relation(bar(*ends), "", *told, "m", remark, over=(ends,))

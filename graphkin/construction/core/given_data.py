@@ -18,6 +18,7 @@ from graphkin.construction.core.naming import (
 from graphkin.construction.core.parameter_words import (
     after_parameter,
     is_derived,
+    law,
     lone,
     other_parameters,
     parameter,
@@ -76,15 +77,16 @@ class Datum(Struct, frozen=True):
         return f"{self.name}: {self.sense}" if self.sense else self.words
 
 
-def given(drawing: Drawing, *, solved: bool = True) -> list[str]:
+def given(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[str]:
     """The data of a scene as short pieces of markup, in the order of the scene.
 
-    Unless ``solved``, without the numbers that a student reckons from the parameters.
+    Unless ``solved``, without the numbers that a student reckons from the parameters; ``laws``
+    stand for them, where no form beside says these.
     """
-    return [datum.said for datum in data(drawing, solved=solved)]
+    return [datum.said for datum in data(drawing, solved=solved, laws=laws)]
 
 
-def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
+def data(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[Datum]:
     """The same, names and values apart."""
     scene, words = drawing.scene, drawing.words
     sentences = [
@@ -111,7 +113,7 @@ def data(drawing: Drawing, *, solved: bool = True) -> list[Datum]:
         *(
             piece
             for driver in scene.drivers
-            for piece in of_driver(scene, words, driver, solved=solved)
+            for piece in of_driver(scene, words, driver, solved=solved, laws=laws)
         ),
         *lengths(scene, words),
         *fixed_points(scene, words),
@@ -208,10 +210,12 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
 
 
 def of_driver(
-    scene: Scene, words: Words, driver: Driver, *, solved: bool = True
+    scene: Scene, words: Words, driver: Driver, *, solved: bool = True, laws: bool = False
 ) -> Iterator[Datum]:
     """Position, speed and acceleration of a driver."""
-    if solved or not reckoned(scene, driver.position):
+    if laws and not solved and reckoned(scene, driver.position):
+        yield Datum(name=angle_symbol(scene, driver), value=law(scene, words, driver.position))
+    elif solved or not reckoned(scene, driver.position):
         angle = in_degrees(scene, words, driver.position)
         place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
         yield Datum(name=angle_symbol(scene, driver), value=place, of=driver.position)
@@ -225,6 +229,8 @@ def of_driver(
             continue  # its law tells its sense, too
         size, sense = with_sense(scene, words, driver, quantity)
         told = size if solved or not reckoned(scene, quantity) else ""
+        if laws and not told:
+            told, sense = law(scene, words, quantity), ""
         if told or constant or sense:
             by = tuple(filter(None, [lone(scene, quantity)]))
             yield Datum(

@@ -9,7 +9,7 @@ from fractions import Fraction
 from graphkin.construction.core.naming import angle_symbol, speed_symbol
 from graphkin.construction.core.quantities import written
 from graphkin.drawing.symbol_markup import escape
-from graphkin.scene.expression import TIME
+from graphkin.scene.expression import CONSTANT, TIME
 from graphkin.scene.model import Scene, lengths_of, quantities_within
 from graphkin.scene.quantity import LENGTHS, Quantity, shortest
 from graphkin.text import Words
@@ -95,6 +95,38 @@ def reckoned(scene: Scene, quantity: Quantity) -> bool:
     """Whether a relation of its own tells how a driver's quantity follows from the parameters."""
     derived = is_derived(quantity) and not quantity.is_zero()
     return derived or (bool(quantity.uses()) and not lone(scene, quantity))
+
+
+def expression(scene: Scene, words: Words, quantity: Quantity, *, values: bool) -> str:
+    """The text of a quantity as markup, its parameters as symbols or as figures."""
+    text = re.sub(r"^d\(d\((.*)\)/dt\)/dt$", r"d**2(\1)/dt**2", quantity.text).replace("**", "^")
+    known = scene.values
+
+    def replaced(match: re.Match[str]) -> str:
+        name = match[0]
+        if name not in known:
+            return "π" if name == CONSTANT else name
+        return words.decimal(shortest(known[name])) if values else parameter_symbol(name)
+
+    parts = re.split(r"([A-Za-z_]\w*)", text)
+    return "".join(
+        re.sub(r"^\w+$", replaced, part) if i % 2 else spelled(words, part)
+        for i, part in enumerate(parts)
+    )
+
+
+def spelled(words: Words, text: str) -> str:
+    """Signs of an expression as they are printed."""
+    plain = escape(words.decimal(text).replace("*", "·").replace(" · ", "·"))
+    return re.sub(r"\\\^(\d)(?!\d)", r"^\1", plain)
+
+
+def law(scene: Scene, words: Words, quantity: Quantity) -> str:
+    """The expression of a quantity with its unit: 15·n°, (30 + 2·n) rev/min."""
+    text, unit = expression(scene, words, quantity, values=False), quantity.unit
+    unit = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    text = f"({text})" if re.search(r"[^^(][+−-]", text) else text
+    return f"{text}{'' if unit == '°' else ' '}{unit}"
 
 
 def is_derived(quantity: Quantity) -> bool:

@@ -4,17 +4,19 @@ vector equations as the school writes them, with what is known of each vector be
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import ceil, floor, log10
+from math import floor, log10
 
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import OnPaper
+from graphkin.text import Words
 
 
 class Term(Struct, frozen=True):
-    """A vector under its ``symbol``: of its size and direction, how many are ``known``, and how."""
+    """A vector under its ``symbol``: of its size and direction, how many are ``known``, and how,
+    before the equation is solved that it stands in.
+    """
 
     symbol: str
     known: int = 0
@@ -33,18 +35,20 @@ class VectorEquation(Struct, frozen=True):
         sums = (" + ".join(term.symbol for term in terms) for terms in self.sums)
         return " = ".join((self.whole.symbol, *sums))
 
+    def joined_to(self, before: VectorEquation) -> VectorEquation:
+        """It and one for the same vector as one; or with what is known of a summand put in."""
+        if before.whole.symbol == self.whole.symbol:
+            whole = max(before.whole, self.whole, key=lambda term: term.known)
+            if before.whole.known and self.whole.known and before.whole.note != self.whole.note:
+                whole = Term(whole.symbol, 1, f"{before.whole.note}, {self.whole.note}")
+            return VectorEquation(whole, before.sums + self.sums)
+        return VectorEquation(self.whole, tuple(map(before.put_into, self.sums)))
 
-def chained(equations: Sequence[VectorEquation]) -> list[VectorEquation]:
-    """Those for one vector as one, where the first of them stands."""
-    found: dict[str, VectorEquation] = {}
-    for each in equations:
-        before = found.get(each.whole.symbol)
-        if before is None:
-            found[each.whole.symbol] = each
-            continue
-        whole = max(before.whole, each.whole, key=lambda term: term.known)
-        found[each.whole.symbol] = VectorEquation(whole, before.sums + each.sums)
-    return list(found.values())
+    def put_into(self, terms: tuple[Term, ...]) -> tuple[Term, ...]:
+        """A sum with what is known of this vector in its place: its own sum, or how it lies."""
+        own = self.sums[0] if self.sums else (self.whole,)
+        symbol = self.whole.symbol
+        return tuple(each for t in terms for each in (own if t.symbol == symbol else (t,)))
 
 
 DIGITS = 5
@@ -111,37 +115,44 @@ def answer(drawing: Drawing, value: float) -> str:
     return drawing.words.significant(value, 4)
 
 
-POWERS = 1e6
-"""From which size numbers are written by powers of ten."""
+UNSEEN = 0.1
+"""A length on paper below this, in mm, is a point's: next to nothing."""
 
 
-class RulerReading(Struct, frozen=True):
-    """A drawn length as it is told to be read: to 0.1 mm, one below 1 mm in two digits."""
-
-    millimetres: float
-    unit: float
-
-    def figures(self, drawing: Drawing) -> str:
-        """The length as it is printed."""
-        return drawing.words.fixed(self.millimetres, -round(log10(self.unit)))
-
-    def times(self, drawing: Drawing, scale: float) -> tuple[str, str]:
-        """It times a scale factor, and what that gives, in as many digits as it carries; a number
-        that is written without a power of ten to its units."""
-        value = rounded(scale) * self.millimetres
-        last = ceil(log10(scale * self.unit / 2))
-        last = last if value >= POWERS else min(last, 0)
-        value = round(value, -last)
-        if not value:
-            return f"{figure(drawing, scale)}·0", "0"
-        told = drawing.words.significant(value, max(floor(log10(value)) - last + 1, 1))
-        return f"{figure(drawing, scale)}·{self.figures(drawing)}", told
+def value_of(words: Words, size: float, length: OnPaper) -> str:
+    """The value of a vector that is so many mm long; in two digits where it is next to nothing."""
+    return words.significant(size, 2 if length < UNSEEN else 4)
 
 
-def reading(millimetres: OnPaper) -> RulerReading:
-    """How a drawn length is told."""
-    unit = 10.0 ** min(floor(log10(millimetres)) - 1, -1) if millimetres else 0.1
-    return RulerReading(round(millimetres / unit) * unit, unit)
+def ruler_places(millimetres: OnPaper) -> int:
+    """Decimals of a drawn length that is set with a ruler: 0.1 mm, below 1 mm two digits."""
+    return max(1 - floor(log10(millimetres)), 1) if millimetres else 1
+
+
+def ruler(drawing: Drawing, millimetres: OnPaper) -> str:
+    """A drawn length as it is set with a ruler."""
+    return drawing.words.fixed(millimetres, ruler_places(millimetres))
+
+
+def as_read(drawing: Drawing, millimetres: OnPaper, scale: float) -> tuple[str, str]:
+    """A drawn length times what a millimetre stands for, and its value: that on the sheet.
+
+    The length is told to 0.1 mm, or in as many digits more as that value follows from.
+    """
+    if not millimetres:
+        return f"{figure(drawing, scale)}·0", "0"
+    value = value_of(drawing.words, scale * millimetres, millimetres)
+    first = ruler_places(millimetres)
+    places = next(
+        (
+            some
+            for some in range(first, first + DIGITS)
+            if value
+            == value_of(drawing.words, rounded(scale) * round(millimetres, some), millimetres)
+        ),
+        first + 2,
+    )
+    return f"{figure(drawing, scale)}·{drawing.words.fixed(millimetres, places)}", value
 
 
 def drawn_length(drawing: Drawing, millimetres: OnPaper) -> str:

@@ -18,6 +18,7 @@ from graphkin.construction.velocity.turned_velocity import LaidOffByRate, falls,
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
+from graphkin.scene.link_points import lettered, under
 
 LETTERS = {each.target: each.letter for each in RATES} | {"v": "v", "a": "a"}
 """The letters of the given rates of drivers by their names."""
@@ -94,10 +95,22 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     # --- marks and relations ---------------------------------------------------------------------
 
+    def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
+        """A foot of a cylinder, which is lettered as a point under another, slides at that one."""
+        scene = drawing.scene
+        for point in (
+            *scene.frame.points,
+            *(p for link in scene.links.values() for p in link.points),
+        ):
+            if any(lettered(under(point, link)) == self.point for link in scene.links):
+                return self.point, point
+        return super().slider(drawing, sought)
+
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide; where it is tried the motion along it."""
+        """What is given along the guide; of what is tried the motion along it, by that."""
         if self.image in drawing.auxiliary:
-            yield self.motion_of(drawing, self.point)
+            tried = symbol(f"{drawing.vector.letter}_{self.guide}")
+            yield self.motion_of(drawing, self.point, tried)
             return
         letter = drawing.vector.letter
         default = symbol(f"{letter}_{self.point}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from functools import partial
 
@@ -16,7 +15,7 @@ from graphkin.construction.core.naming import (
     sense,
     speed_symbol,
 )
-from graphkin.construction.core.parameter_words import is_derived, parameter_symbol, reckoned
+from graphkin.construction.core.parameter_words import expression, is_derived, reckoned
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import written
 from graphkin.construction.core.relation import (
@@ -30,9 +29,8 @@ from graphkin.construction.core.relation import (
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
-from graphkin.scene.expression import CONSTANT
 from graphkin.scene.model import FRAME, Driver
-from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
 
 OMEGA = 6
@@ -54,12 +52,12 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
         if reckoned(scene, quantity):
             value = written(scene, words, quantity)
             amount, _, unit = value.removesuffix("°").partition(" ")
-            symbols, law = expression(drawing, quantity, values=False), quantity
+            symbols, law = expression(scene, words, quantity, values=False), quantity
             if is_derived(quantity):  # figures are put in only after it is derived
                 law = short(quantity)
-                derived = expression(drawing, law, values=False)
+                derived = expression(scene, words, law, values=False)
                 symbols += f" = {derived}" if law.uses() else ""
-            figures = expression(drawing, law, values=True)
+            figures = expression(scene, words, law, values=True)
             yield Relation(
                 letter,
                 symbols,
@@ -150,30 +148,6 @@ def of_pin(
             "m/s^2",
             square,
         )
-
-
-def expression(drawing: Drawing, quantity: Quantity, *, values: bool) -> str:
-    """The text of a quantity as markup, its parameters as symbols or as figures."""
-    text = re.sub(r"^d\(d\((.*)\)/dt\)/dt$", r"d**2(\1)/dt**2", quantity.text).replace("**", "^")
-    known = drawing.scene.values
-
-    def replaced(match: re.Match[str]) -> str:
-        name = match[0]
-        if name not in known:
-            return "π" if name == CONSTANT else name
-        return drawing.words.decimal(shortest(known[name])) if values else parameter_symbol(name)
-
-    parts = re.split(r"([A-Za-z_]\w*)", text)
-    return "".join(
-        re.sub(r"^\w+$", replaced, part) if i % 2 else spelled(drawing, part)
-        for i, part in enumerate(parts)
-    )
-
-
-def spelled(drawing: Drawing, text: str) -> str:
-    """Signs of an expression as they are printed."""
-    plain = escape(drawing.words.decimal(text).replace("*", "·").replace(" · ", "·"))
-    return re.sub(r"\\\^(\d)(?!\d)", r"^\1", plain)
 
 
 def of_scales(drawing: Drawing) -> Iterator[Relation]:

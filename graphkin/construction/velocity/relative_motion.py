@@ -107,25 +107,36 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         default = symbol(f"a_{index}^r") if index else ""
         return next((name for name in found if name), default)
 
-    def motion_of(self, drawing: Drawing, sought: str) -> Relation:
-        """The motion of a point: alone where the guide stands still, else on its point's."""
+    def motion_of(self, drawing: Drawing, sought: str, size: str = "") -> Relation:
+        """The motion of a point: alone where the guide stands still, else on its point's.
+
+        Of the point that slides and the one beneath it the one that is ``sought`` is unknown.
+        ``size`` is that of the motion along the guide, where it is given or tried.
+        """
         point, beneath = self.slider(drawing, sought)
         velocity, guide = drawing.kind == "velocity", self.way(drawing)
         letter = drawing.vector.letter
+        along = joined(f"∥ {guide}", size)
         if drawing.trace.program.steps[self.start].name == drawing.pole:
-            name = symbol(f"{letter}_{beneath if '@' in sought else point}")
+            name = symbol(f"{letter}_{beneath if is_under(sought) else point}")
             rests = self.rests(drawing, point) if is_under(sought) else ""
-            return stated(VectorEquation(Term(name, 1, joined(f"∥ {guide}", rests))))
-        terms = [known(drawing, beneath)]
+            return stated(VectorEquation(Term(name, 1 + bool(size), joined(along, rests))))
+        unknown = Term(symbol(f"{letter}_{beneath if is_under(sought) else point}"))
+        rests = self.rests(drawing, point)
+        if is_under(sought):
+            known_one = known(drawing, point)
+            whole, first = Term(known_one.symbol, 2, rests or known_one.note), unknown
+        else:
+            whole, first = unknown, known(drawing, beneath)
+        at_rest = first is not unknown and beneath in drawing.scene.frame.points
+        terms = [] if at_rest else [first]
         laid = laid_off(drawing.trace.program, self.start)
         if laid is not None:
             component = laid.component
             name = symbol(f"a_{point}{beneath}^{component.sign}")
             terms.append(Term(name, 2, component.formula(drawing)))
         relative = symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
-        terms.append(Term(relative, 1, f"∥ {guide}"))
-        rests = self.rests(drawing, point)
-        whole = Term(symbol(f"{letter}_{point}"), 2 if rests else 0, rests)
+        terms.append(Term(relative, 1 + bool(size), along))
         return stated(VectorEquation(whole, (tuple(terms),)))
 
     def rests(self, drawing: Drawing, point: str) -> str:
