@@ -100,7 +100,9 @@ def read_cam(
     slides = seat is not None and seat.slides
     tip = table.choice("tip", TIPS)
     if tip == "flat" and slides:
-        hint = "a plate lifts a roller or a knife; a straight flank under a face is a guide on it"
+        hint = (
+            "a plate lifts a roller or a knife, and a straight flank under a face is a guide on it"
+        )
         findings.add(table.at("tip"), "a flat face on a plate that slides", listed(TIPS[:2]), hint)
     base = measures.length(table.at("base"), table.take("base"), positive=True)
     raw = table.take("roller")
