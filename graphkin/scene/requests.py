@@ -201,7 +201,9 @@ def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity,
         return ()
     if rule != RULES[0]:
         hint = 'leave out enlarge, or rule = "lab"'
-        measures.findings.add(place, 'is written beside rule = "lab", which says 1', "one", hint)
+        measures.findings.add(
+            place, 'is written beside rule = "lab", which says 1', "one of the two", hint
+        )
     pair = raw if isinstance(raw, list) else [raw]
     if len(pair) not in (1, 2):
         measures.findings.add(place, shown(raw), "a number, or one for each of the two plans")
