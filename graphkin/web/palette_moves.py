@@ -20,7 +20,7 @@ from graphkin.construction.centres.relative_centre import kennedy_line, kennedy_
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
-from graphkin.construction.core.naming import rate_symbol, sense, vector_of, way_of
+from graphkin.construction.core.naming import rate_symbol, sense, vector_of
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
@@ -36,13 +36,11 @@ from graphkin.construction.core.vocabulary import (
 )
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
-from graphkin.construction.guides.guide_line import GuideLine, GuideThroughBlock, ShiftedGuide
 from graphkin.construction.guides.set_by_coordinate import set_at
 from graphkin.construction.higher_class.divided_point import DividedPoint, between, line_through
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.construction.registry import ON_PALETTE
-from graphkin.construction.rolling.contact_points import CentrePath
 from graphkin.construction.velocity.image_of_link import alike
 from graphkin.construction.velocity.lines_through import parallel_to, square_to
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
@@ -563,12 +561,8 @@ class MoveFinder:
     def name_of_line(self, number: int) -> str:
         """A line that no move draws: a guide, the line of a crank, a side of the mechanism."""
         kind, drawing = construction(self.steps[number]), self.drawing(number)
-        if isinstance(kind, ShiftedGuide):
-            return drawing.words("turn.beside", guide=way_of(drawing, kind.block))
-        if isinstance(kind, CentrePath):
-            return drawing.words("page.trajectory", of=symbol(kind.centre))
-        if isinstance(kind, GuideLine | GuideThroughBlock):
-            return way_of(drawing, kind.block)
+        if kind is not None and (name := kind.path_name(drawing)):
+            return name
         points = kind.points if kind is not None else ()
         name = "".join(map(symbol, points))
         return drawing.words("turn.line", name=name or self.letters_behind(number))

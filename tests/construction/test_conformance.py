@@ -70,7 +70,16 @@ OWN = {
 """Scenes of tests that draw what no example does."""
 MARKING = {"slips", "sizes", "power_of", "as_measured", "proportions"}
 """Faces that only labs and marking look at: tests/classroom holds them."""
-FAILING = {"at_end", "failing", "found_link", "in_line", "lies_along", "points", "undetermined"}
+FAILING = {
+    "at_end",
+    "failing",
+    "found_link",
+    "in_line",
+    "lies_along",
+    "points",
+    "reaching",
+    "undetermined",
+}
 """Faces that only the words for what cannot be drawn look at: tests/diagnosis holds them."""
 PLANNING = {"absence", "cause", "comes_along", "draw", "lines_at"}
 """Faces of classes: how a program is written, and why ``explain`` leaves an effect out."""

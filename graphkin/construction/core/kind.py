@@ -139,6 +139,10 @@ class Construction(Roles, frozen=True):
         """What is said of a role's line within the sentence of the point that it helps to find."""
         return ""
 
+    def path_name(self, drawing: Drawing) -> str:
+        """What the line is called on which something is guided; nothing for other lines."""
+        return ""
+
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """How the point of a role is found; nothing for other roles."""
         return ""

@@ -137,6 +137,10 @@ class GuideLine(Construction, frozen=True, kw_only=True):
         """By the point that it passes through, or its block."""
         return f"the line through {self.start}" if self.start else f"guide {self.block}"
 
+    def path_name(self, drawing: Drawing) -> str:
+        """The guide of its block."""
+        return way_of(drawing, self.block)
+
     def clause(self, drawing: Drawing, role: str) -> str:
         """The only guide needs no name; of a link found with its group the angle is told."""
         links, steps = drawing.scene.links, drawing.trace.program.steps
@@ -175,6 +179,10 @@ class GuideThroughBlock(Construction, frozen=True, kw_only=True):
     axis: int
     line: int
 
+    def path_name(self, drawing: Drawing) -> str:
+        """The guide of its block."""
+        return way_of(drawing, self.block)
+
     def clause(self, drawing: Drawing, role: str) -> str:
         """Through the point of the block; at an angle where that was found with a group."""
         point = drawing.scene.links[self.block].points[0]
@@ -194,6 +202,10 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
     block: str
     guide: int
     line: int
+
+    def path_name(self, drawing: Drawing) -> str:
+        """The parallel to the guide of its block."""
+        return drawing.words("turn.beside", guide=way_of(drawing, self.block))
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """By the offset as it is drawn, and to which side."""

@@ -194,6 +194,10 @@ class CentrePath(Construction, frozen=True, kw_only=True):
     track: int
     line: int
 
+    def path_name(self, drawing: Drawing) -> str:
+        """The path of the centre."""
+        return drawing.words("page.trajectory", of=symbol(self.centre))
+
     def clause(self, drawing: Drawing, role: str) -> str:
         """Parallel to the track at the radius."""
         return drawing.words("step.radius-along", k=escape(self.sign))
