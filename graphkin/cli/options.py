@@ -75,7 +75,8 @@ def named(option: str, text: str, known: tuple[str, ...]) -> tuple[str, ...]:
     wrong = [word for word in words if word not in known]
     if wrong or not words:
         found = ", ".join(wrong) or "nothing"
-        raise click.UsageError(f"{option}: {found} is none of {', '.join(known)}", current())
+        told = f"{found} is none of {', '.join(known)}; several are written {','.join(known[:2])}"
+        raise click.UsageError(f"{option}: {told}", current())
     return tuple(word for word in known if word in words)
 
 

@@ -15,7 +15,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.scene.toml_spans import Path as Keys
 from graphkin.scene.toml_spans import spans
 from graphkin.studio.problem_places import MarkedProblem, line_of, marked
-from graphkin.text.errors import GraphkinError, Problem, SceneError
+from graphkin.text.errors import GraphkinError, Problem, SceneError, Sought
 from tests.chosen import CHOSEN, FOLDER
 from tests.scene.conftest import DATA
 from tests.scene.test_problems import CASES, PLANETS, SAID, SEVERAL
@@ -216,6 +216,29 @@ def test_no_toml_is_marked_at_the_column_of_its_reader(written, column, helps):
     assert f"(at line {mark.line}, column {mark.column})" in str(caught.value)
     assert (mark.line, mark.column) == (24, column)
     assert helps in str(mark.problem.hint)
+
+
+@pytest.mark.parametrize(
+    ("names", "where"),
+    [
+        (("B",), 'B = "right of A-O2"'),
+        (("3",), "[links.3]"),
+        (("C",), "A-C = 20"),
+        ((), "[[drivers]]"),
+    ],
+)
+def test_what_is_sought_is_marked_at_its_branch_its_link_its_lengths_or_the_drivers(names, where):
+    """Whatever the words of its place are: none is read out of these."""
+    problem = Problem("in other words", "is not found", about=(Sought(names),))
+    (mark,) = marked([problem], PUMP)
+    assert selected(PUMP, mark) == where
+
+
+def test_a_point_that_the_arcs_do_not_reach_is_marked_at_its_branch():
+    text = PUMP.replace("A-B = 40", "A-B = 4").replace("A-C = 20", "A-C = 24")
+    (mark,) = mistakes(text)
+    assert mark.problem.place == "position of B"
+    assert selected(text, mark) == 'B = "right of A-O2"'
 
 
 def test_signs_beyond_the_basic_plane_count_as_two():

@@ -101,7 +101,19 @@ def test_an_expression_without_a_value_is_told_with_what_may_stand_there(text, l
     assert language == "en" or found["expected"] != said
 
 
-WRONG = ["forty", "40 mm", "40,5", ".5", "012", '"40', "[40", "{ a = 1", "True", "2*n"]
+WRONG = [
+    "forty",
+    "40\nA-B = 41",
+    "40 mm",
+    "40,5",
+    ".5",
+    "012",
+    '"40',
+    "[40",
+    "{ a = 1",
+    "True",
+    "2*n",
+]
 
 
 @pytest.mark.parametrize("language", FOREIGN)
