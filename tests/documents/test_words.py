@@ -16,7 +16,7 @@ from graphkin.classroom.grading.feedback_rows import SLIPS
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.calculation import calculation
-from graphkin.documents.sheet import Moved
+from graphkin.documents.sheet import Moved, asked
 from graphkin.documents.sheet_documents import (
     CALCULATED,
     by_itself,
@@ -73,13 +73,14 @@ class Recording(Words):
 USED: set[str] = set()
 
 
-def every_page(
-    mechanism: Mechanism, spoken: Words, views: Sequence[str] = ("key", "task")
-) -> list[Page]:
-    """All pages of a mechanism in some views; what does not fit is left out."""
+def every_page(mechanism: Mechanism, spoken: Words, views: Sequence[str] = ("key",)) -> list[Page]:
+    """All pages of a mechanism in some views, and what its task asks; what does not fit is left
+    out."""
     verdict = proved(mechanism, mechanism.solve())
     drawings = drawings_of(mechanism, verdict, spoken)
     pages: list[Page] = []
+    for drawing in drawings:
+        asked(drawing)
     for view in views:
         made = [partial(calculation, drawings, view)]
         made += [partial(one_page, drawing, view) for drawing in drawings]
