@@ -144,7 +144,7 @@ def kept_parallel(scene: Scene) -> bool:
     solution = shipped(scene.name).solve()
     for name in {slide.on for link in scene.links.values() for slide in link.slides} - {FRAME}:
         wheels = [
-            (rolling.on, rolling.angle.si({}), wheel.radius.si({}))
+            (rolling.on, rolling.angle.si(scene.values), wheel.radius.si(scene.values))
             for link in scene.links.values()
             for wheel in link.wheels
             for rolling in link.rolls

@@ -85,6 +85,7 @@ def test_the_sign_of_a_component_stands_above_any_index():
 
 def test_lines_do_not_end_between_a_number_and_its_unit_or_before_a_bar():
     markup = "lay off *a* ⊥ *AB*, 12.3 mm, at 4.5 rad/s^2, *k* = 0.1 (m/s)/mm, 3·10^{−3} m"
+    markup += ", (0, −250) mm, (2) at"
     assert words_of(markup) == [
         "lay",
         "off",
@@ -94,7 +95,11 @@ def test_lines_do_not_end_between_a_number_and_its_unit_or_before_a_bar():
         "at",
         "4.5 rad/s^2,",
         "*k* = 0.1 (m/s)/mm,",
-        "3·10^{−3} m",
+        "3·10^{−3} m,",
+        "(0,",
+        "−250) mm,",
+        "(2)",
+        "at",
     ]
 
 
