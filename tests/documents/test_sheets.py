@@ -26,7 +26,7 @@ from graphkin.drawing.areas import AREA
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.label import SMALL
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
-from graphkin.drawing.richtext import plain, runs
+from graphkin.drawing.richtext import CLEAR, plain, runs, signs
 from graphkin.drawing.style import OWN_LINES, style_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import SHORT
@@ -430,13 +430,21 @@ def test_the_bar_of_a_plan_is_as_long_as_it_says(page):
 
 def test_data_stay_clear_of_captions_and_of_the_frame(page):
     marks = [mark for mark in page.page.marks if isinstance(mark, Text)]
-    boxes = [reach(mark) for mark in marks if mark.name == DATA]
-    heads = [reach(mark) for mark in marks if mark.name == HEADING]
-    assert max(box[2] for box in boxes) < AREA[2]
-    for box in boxes:
-        for head in heads:
-            beside = box[2] < head[0] or head[2] < box[0]
-            assert beside or box[3] < head[1] + 0.4
+    told = [mark for mark in marks if mark.name == DATA]
+    below = [sign for mark in marks if mark.name == HEADING for sign in inked(mark)]
+    assert max(reach(mark)[2] for mark in told) < AREA[2]
+    for left, _, right, foot in (sign for mark in told for sign in inked(mark)):
+        for start, top, end, _ in below:
+            assert right < start or end < left or foot + CLEAR < top
+
+
+def inked(mark: Text) -> list[tuple[float, float, float, float]]:
+    """The left, top, right and bottom of the ink of each sign of a line of text."""
+    x = reach(mark)[0]
+    return [
+        (x + left, mark.y + top, x + right, mark.y + low)
+        for left, right, top, low in signs(mark.markup, mark.height)
+    ]
 
 
 @pytest.mark.parametrize(
