@@ -152,9 +152,7 @@ def test_the_inflection_circle_runs_through_both_ends_of_its_diameter():
     drawing = drawn("slider-crank", "inflection = [2]")[-1]
     assert drawing.kind == "acceleration"
     field, page = field_of(drawing), page_of(drawing)
-    number, circle = next(
-        (n, v) for n, s, v in drawing.on_mechanism if s.name == "inflection 2"
-    )
+    number, circle = next((n, v) for n, s, v in drawing.on_mechanism if s.name == "inflection 2")
     arcs = [m for m in page.marks if isinstance(m, Polyline) and m.step == number]
     assert arcs
     x, y = field(circle.centre)

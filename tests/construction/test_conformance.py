@@ -24,9 +24,8 @@ from graphkin.accuracy.pencil.pencil_marks import Pencil
 from graphkin.cli.report.crossing_words import place_words
 from graphkin.cli.report.pencil_report import pencil_lines, step_words
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.core.solution import Verdict
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import shown
