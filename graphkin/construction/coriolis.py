@@ -21,15 +21,20 @@ from graphkin.construction.core.component import (
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import Wording, construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Effect, Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.relation import (
+    Relation,
+    answer,
+    figure,
+    laid_times,
+    set_length,
+    twice_set,
+)
 from graphkin.construction.core.segments import laid_off
-from graphkin.construction.core.sentence import Wording
-from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
 from graphkin.construction.core.vocabulary import (
     action,
     join,

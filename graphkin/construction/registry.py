@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.coriolis import CoriolisComponent
 from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.plate_points import with_starts_together

@@ -8,8 +8,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import has_plan, length_scale, scale_of
 from graphkin.construction.core.quantities import ASKED, PLANES, SHEETS
-from graphkin.construction.core.relation import figure
-from graphkin.construction.core.set_lengths import beside_plan
+from graphkin.construction.core.relation import beside_plan, figure
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent, flowed, words_of

@@ -10,9 +10,9 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.component import components
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.sentence import Sentence
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.scene.link_points import ends_of, lettered
 from graphkin.text.markup import names_in

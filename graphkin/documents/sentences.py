@@ -8,12 +8,11 @@ from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import Component, component_of, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import PlanPole, construction
+from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.relation import beside_plan
 from graphkin.construction.core.segments import TINY
-from graphkin.construction.core.sentence import Sentence
-from graphkin.construction.core.set_lengths import beside_plan
 from graphkin.construction.links.idle_links import idle_sentences
 from graphkin.construction.registry import TOGETHER
 from graphkin.construction.step_sentences import point_sentence

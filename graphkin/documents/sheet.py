@@ -12,13 +12,12 @@ from graphkin.construction import step_marks
 from graphkin.construction.core.component import crowded_pins
 from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import PlanPole, construction
+from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
 from graphkin.construction.core.naming import called
 from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
 from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.quantities import ASKED
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols

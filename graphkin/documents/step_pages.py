@@ -9,8 +9,8 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import Crossing, flattest
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.layout import lay_out, lowered
-from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
 from graphkin.documents.inset import insets

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.step_numbers import stage_of
 from graphkin.drawing.field import Field

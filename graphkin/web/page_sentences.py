@@ -14,8 +14,7 @@ from msgspec import Struct
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
-from graphkin.construction.core.sentence import Sentence
+from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.higher_class.two_trials import divided_alone
 from graphkin.construction.rate_relations import of_turning

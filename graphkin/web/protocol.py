@@ -11,11 +11,10 @@ from msgspec.structs import replace
 from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.segments import segment_of
-from graphkin.construction.core.sentence import Sentence
 from graphkin.documents.detail import scale_words
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices

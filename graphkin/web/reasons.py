@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import component_of, is_hidden
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.program import Part, Step
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.construction.velocity.lines_through import PerpendicularThrough
 from graphkin.documents.flattest import OWN

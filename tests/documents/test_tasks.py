@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import angle_symbol
-from graphkin.construction.core.set_lengths import divided, inverse
+from graphkin.construction.core.relation import divided, inverse
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
 from graphkin.documents.sheet import asked, sheet

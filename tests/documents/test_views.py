@@ -7,8 +7,8 @@ from functools import cache
 import pytest
 from msgspec.structs import replace
 
+from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.core.solution import Verdict
 from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks

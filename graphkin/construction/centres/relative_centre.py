@@ -19,8 +19,7 @@ from graphkin.construction.centres.centre import (
 )
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
-from graphkin.construction.core.sentence import Sentence, together
+from graphkin.construction.core.kind import Sentence, construction, together
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.program import PlanAside
-from graphkin.construction.core.sentence import Sentence
 
 
 class AuxiliaryPlan(PlanAside):

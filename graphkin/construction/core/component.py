@@ -11,14 +11,13 @@ from msgspec import Struct
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction, constructions
+from graphkin.construction.core.kind import Construction, Wording, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Effect, Part, Plane, Program
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.segments import TINY, is_short, letter_at
-from graphkin.construction.core.sentence import Wording
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene

@@ -4,13 +4,15 @@ vector equations as the school writes them, with what is known of each vector be
 
 from __future__ import annotations
 
-from math import floor, log10
+from fractions import Fraction
+from math import floor, isclose, log10
 
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import OnPaper
 from graphkin.text import Words
+from graphkin.text.markup import saying
 
 
 class Term(Struct, frozen=True):
@@ -173,3 +175,54 @@ def rounded(value: float) -> float:
 def squared(figures: str) -> str:
     """The square of a figure that is put in; a power of ten is squared with the rest."""
     return f"({figures})^2" if "·" in figures else f"{figures}^2"
+
+
+# --- lengths at another scale than that of a plan ----------------------------------------------
+
+
+def set_length(drawing: Drawing, vector: str) -> str:
+    """A velocity as it is set on the mechanism: one m-th of its segment in the plan."""
+    return divided(drawing, vector, drawing.scales.larger)
+
+
+def twice_set(drawing: Drawing, vector: str) -> str:
+    """Twice a velocity as it is set on the mechanism."""
+    times = 2 / drawing.scales.larger
+    if times == 1:
+        return vector
+    short = f"{times:.4g}" == f"{times:.2g}"
+    if short:
+        return saying(f"{figure(drawing, times)}·{vector}", vector)
+    return set_length(drawing, saying(f"2·{vector}", vector))
+
+
+def laid_times(drawing: Drawing) -> str:
+    """What stands before a length of the mechanism that is laid off m′ times in the plan."""
+    times = drawing.scales.larger_still
+    return "" if times == 1 else f"{figure(drawing, times)}·"
+
+
+def divided(drawing: Drawing, what: str, times: float) -> str:
+    """Markup of a length divided by a number, or multiplied where that is below one."""
+    if times == 1:
+        return what
+    larger = f"{what}/{figure(drawing, times)}", f"{inverse(drawing, times)}·{what}"
+    return saying(larger[times < 1], what)
+
+
+def inverse(drawing: Drawing, times: float) -> str:
+    """One by a number as it is told: 4/3 where the decimal of it does not end."""
+    part = Fraction(1 / times).limit_denominator(9)
+    if part.denominator % 3 == 0 and isclose(part, 1 / times, rel_tol=1e-9):
+        return str(part)
+    return figure(drawing, 1 / times)
+
+
+def beside_plan(drawing: Drawing, kind: str) -> str:
+    """How long vectors on the mechanism are beside a plan's; nothing where they are alike."""
+    times = drawing.scales.times(kind)
+    if times == 1:
+        return ""
+    if times > 1:
+        return drawing.words("page.shorter", m=figure(drawing, times))
+    return drawing.words("page.longer", m=inverse(drawing, times))

@@ -177,9 +177,14 @@ def path_of_carrier(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, poin
     if lies_on(pair.slide, point):
         return line
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        along = pen.draw(way_between, *ends)
-        beside = pen.draw(beside_guide, shapes.local(carrier, point), ends[0], along)
+        beside = beside_line(pen, shapes, carrier, point, ends)
     return shift_guide(pen, pair.block, line, beside)
+
+
+def beside_line(pen: Pen, shapes: LinkShapes, link: str, point: str, ends: tuple[int, int]) -> int:
+    """How far a point of a link stands to the left of a guide through two places on the link."""
+    along = pen.draw(way_between, *ends)
+    return pen.draw(beside_guide, shapes.local(link, point), ends[0], along)
 
 
 def lies_on(slide: Slide, point: str) -> bool:
@@ -201,8 +206,7 @@ def height_of(pen: Pen, shapes: LinkShapes, pair: Sliding, pins: dict[str, str])
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         here = pen.draw(across, shapes.local(block, first), shapes.local(block, on_block))
         ends = local_line(pen, shapes, pair.slide, carrier)
-        along = pen.draw(way_between, *ends)
-        there = pen.draw(beside_guide, shapes.local(carrier, on_carrier), ends[0], along)
+        there = beside_line(pen, shapes, carrier, on_carrier, ends)
         offset = pen.given("length", pair.slide.offset)
         return pen.draw(gap, offset, here, there)
 

@@ -14,7 +14,7 @@ from graphkin.construction.acceleration.turned_acceleration import TurnedAcceler
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.naming import (
     NAUGHT,
     drawn_between,
@@ -27,7 +27,6 @@ from graphkin.construction.core.naming import (
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.higher_class.divided_point import CrossedLine, DividedPoint
 from graphkin.construction.step_sentences import point_parts, point_sentence

@@ -12,13 +12,19 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction, constructions
+from graphkin.construction.core.kind import (
+    Construction,
+    Sentence,
+    construction,
+    constructions,
+    in_one,
+    together,
+)
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Program, Target
 from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
-from graphkin.construction.core.sentence import Sentence, in_one, together
 from graphkin.construction.core.vocabulary import (
     action,
     difference,

@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 from graphkin.construction.cams.cam_symbols import face_words
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction, constructions
+from graphkin.construction.core.kind import Sentence, construction, constructions
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.sentence import Sentence
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.drawing.symbol_markup import bar, escape
 

@@ -11,10 +11,9 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import Construction, Sentence, construction, together
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guide_line import placed
 from graphkin.construction.guides.guides import axis

@@ -18,12 +18,12 @@ from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import Measured, PaletteAction
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Wording
 from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import figure
-from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes

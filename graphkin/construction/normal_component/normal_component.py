@@ -22,13 +22,20 @@ from graphkin.construction.core.component import (
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Sentence, Wording, in_one, together
 from graphkin.construction.core.naming import plan_amount
 from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Effect, Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
+from graphkin.construction.core.relation import (
+    Relation,
+    answer,
+    figure,
+    laid_times,
+    length_of,
+    set_length,
+    squared,
+)
 from graphkin.construction.core.segments import laid_off
-from graphkin.construction.core.sentence import Sentence, Wording, in_one, together
-from graphkin.construction.core.set_lengths import laid_times, set_length
 from graphkin.construction.core.vocabulary import (
     action,
     lay_off,

@@ -16,11 +16,10 @@ from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import Construction, Sentence, construction, together
 from graphkin.construction.core.naming import plan_amount, scale_of
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation, answer, figure
-from graphkin.construction.core.sentence import Sentence, together
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import bar, escape, symbol

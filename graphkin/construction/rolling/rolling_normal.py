@@ -13,7 +13,7 @@ from graphkin.construction.core.component import (
     components_on,
 )
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Construction, Wording
 from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.plan_vector import PlanVector
@@ -21,7 +21,6 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.segments import laid_off
-from graphkin.construction.core.sentence import Wording
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -19,16 +19,23 @@ from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading, Sliding
 
 
-class BarVelocity(Struct, frozen=True):
-    """What a bar to a known ``pivot`` says of the velocity of a ``point``."""
-
-    pivot: str
-    point: str
+class BoundVelocity(Struct, frozen=True):
+    """What a pair says of the velocity of a point: a line on which its image lies."""
 
     def component(
         self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
     ) -> None:
-        """Nothing is known of it."""
+        """No part of it is known."""
+
+    def rest(self, pen: Pen, end: int, found: int) -> None:
+        """Its arrows follow once it is found."""
+
+
+class BarVelocity(BoundVelocity, frozen=True):
+    """What a bar to a known ``pivot`` says of the velocity of a ``point``."""
+
+    pivot: str
+    point: str
 
     def end(self, pen: Pen, vector: int | None) -> int:
         """The image of the pivot."""
@@ -38,15 +45,12 @@ class BarVelocity(Struct, frozen=True):
         """That, and the perpendicular to the bar through it."""
         return self.end(pen, vector), perpendicular_through(pen, self.pivot, self.point)
 
-    def rest(self, pen: Pen, end: int, found: int) -> None:
-        """Its arrows follow once it is found."""
-
     def finish(self, pen: Pen) -> None:
         """The arrow from the pole, and that about the pivot."""
         velocity_arrows(pen, self.point, self.pivot)
 
 
-class GuideVelocity(Struct, frozen=True):
+class GuideVelocity(BoundVelocity, frozen=True):
     """What a pair says of the velocity of the point ``name`` that it leads against ``link``.
 
     It lies at ``point``, which is another where that of a guide's link under a block's is sought.
@@ -56,11 +60,6 @@ class GuideVelocity(Struct, frozen=True):
     link: str
     name: str
     point: str
-
-    def component(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
-    ) -> None:
-        """Nothing is known of it."""
 
     def end(self, pen: Pen, vector: int | None) -> int:
         """The image of the point beneath; where that is the one sought, of the point above."""
@@ -73,9 +72,6 @@ class GuideVelocity(Struct, frozen=True):
         along = led_by(self.pair).direction(pen, shapes)
         end = self.end(pen, vector)
         return end, parallel_through(pen, end, along, self.pair.links[0])
-
-    def rest(self, pen: Pen, end: int, found: int) -> None:
-        """Its arrows follow once it is found."""
 
     def finish(self, pen: Pen, *, driven: bool = False) -> None:
         """The arrow from the pole, that along the guide, and the point where it touches."""
