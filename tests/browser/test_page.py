@@ -191,8 +191,8 @@ def test_a_tap_beside_a_line_leads_to_its_step(kept: Opened, pages: Path):
 # --- both plans, and the pen ---------------------------------------------------------------------
 
 
-def test_the_velocity_plan_stands_beside_where_its_segment_is_carried_over(kept, pages: Path):
-    page = kept(pages / "pump.html", "#step=19", **DESKTOP)
+def test_the_velocity_plan_stands_beside_where_its_segment_is_carried_over(opened, pages: Path):
+    page = opened(pages / "pump.html", "#step=19", **DESKTOP)
     small = page.locator(".carried")
     assert small.is_visible()
     assert small.locator(".lit").count() == 1
@@ -277,8 +277,8 @@ def moved(drawing: Drawing, mechanism: Mechanism, degrees: float) -> Trace:
     return run(program, needed, mechanism.scene.values, FLOAT, overrides=overrides)
 
 
-def test_points_move_to_where_python_draws_them(kept: Opened, pages: Path):
-    page, mechanism = kept(pages / "pump.html", **DESKTOP), load("pump")
+def test_points_move_to_where_python_draws_them(opened: Opened, pages: Path):
+    page, mechanism = opened(pages / "pump.html", **DESKTOP), load("pump")
     page.goto(f"{(pages / 'pump.html').as_uri()}#step=99&x=20")
     compared = 0
     for place, sheet in enumerate(screen_sheets(mechanism, "en")):
