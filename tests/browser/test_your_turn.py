@@ -416,7 +416,7 @@ def test_a_plan_that_the_page_draws_is_said_to_be_given(opened: Opened, tmp_path
     assert EN("turn.say.kutzbach") in page.locator("#turn-say").inner_text()
 
 
-@pytest.mark.parametrize("way", ["mouse", "touch"])
+@pytest.mark.parametrize("way", ["mouse", "touch"] if EVERY else ["touch"])
 def test_the_velocity_plan_of_the_pump_by_one_hand(kept: Opened, pages: Path, way: str):
     """Each move by mouse up to the second point, by finger on a phone to the first: all right, none
     by help."""
