@@ -287,10 +287,6 @@ def test_labs_and_scenes_are_opened_after_asking_for_what_is_not_saved(studio):
     page.get_by_role("button", name="slotted-lever").click()
     page.click("#yes")
     opened_as(page, "slotted-lever.toml")
-    page.click("#open")
-    page.get_by_role("button", name="mine.toml").click()
-    opened_as(page, "mine.toml")
-    assert page.input_value("#text") == PUMP
     page.click("#new")
     opened_as(page, "new.toml")
     assert page.inner_text("#count") == "No mistakes."
@@ -401,10 +397,6 @@ def test_axe_finds_nothing_against_the_page(studio):
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     write(page, 'velocity = ["D"]', 'velocity = ["Q"]')
     assert not barred(page)
-    page.click("#open")
-    page.wait_for_selector("#labs button")
-    assert not barred(page)
-    page.keyboard.press("Escape")
     page.click("#sheets")
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 

@@ -154,8 +154,6 @@ def test_a_row_without_an_id_is_found_by_its_address(book):
     assert filled(book(foreign), OWN, "Grade", SIGNS).absent == ("01004",)
     with pytest.raises(GradebookError, match='"01004" stands there twice'):
         filled(book(text + ",pat@example.org,\r\n"), OWN, "Grade", SIGNS)
-    worth = text.replace(",PAT@example.org", "    Points Possible,,10\r\n,PAT@example.org")
-    assert filled(book(worth), OWN, "Grade", SIGNS).count == 2
 
 
 # --- workbooks ----------------------------------------------------------------------------------

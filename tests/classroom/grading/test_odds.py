@@ -17,7 +17,7 @@ import pytest
 
 from graphkin.classroom.grading.graded import Answer, Graded, Taker
 from graphkin.classroom.grading.keys import Keys, distinct
-from graphkin.classroom.grading.likelihood import MISTAKES, PENCILS, Key, drawn, noise_of, scattered
+from graphkin.classroom.grading.likelihood import MISTAKES, PENCILS, Key, drawn, scattered
 from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.same_digits import (
     FEW,
@@ -221,7 +221,7 @@ def test_answers_are_as_likely_as_the_normal_law_of_each_pencil_has_them(compute
     way, cranks = rng.normal(size=(4, 4)) + 1, rng.normal(size=(1, 4)) * 0.01
     rounding, sizes = np.full(4, computed), np.full(4, 50.0)
     key = Key(sizes, way @ way.T * 1e-4, np.full(4, computed), cranks, np.zeros(4, dtype=bool))
-    noise = noise_of(rounding, key)
+    noise = np.diag(computed**2 + rounding**2 / 3) + 25 * cranks.T @ cranks  # 5° for a crank
     off, fits = rng.normal(size=4) * computed, np.array([True, True, False, True])
     densities = []
     for pencil in PENCILS:

@@ -7,7 +7,6 @@ import errno
 import io
 import re
 import shutil
-import sys
 from functools import cache
 from pathlib import Path
 
@@ -29,7 +28,6 @@ from graphkin.text import words
 from tests.chosen import SPOKEN
 from tests.classroom.grading.students import book_of, given, key_answers, lab_of, marker_of
 from tests.classroom.grading.test_gradebooks import CANVAS
-from tests.running import killed_at
 
 HOSTILE = '<script>alert("1")</script> O\'Neil, Jr. Ștefan _*^{} \u202eabc'
 
@@ -309,20 +307,8 @@ def test_a_full_disk_leaves_the_earlier_report_and_nothing_half_written(folder, 
     assert tree(folder / "out") == before
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
-def test_kill_9_in_the_middle_leaves_whole_files_and_the_next_run_ends_it(folder):
-    args = ["grade", str(folder / "class"), str(folder / "answers.csv"), "-o", str(folder / "cut")]
-    killed_at(2, *args, *NO_PAGES)
-    assert run(folder, *NO_PAGES).exit_code == 0
-    whole, cut = tree(folder / "out"), tree(folder / "cut")
-    assert 0 < len(cut) < len(whole)
-    assert all(whole[name] == data for name, data in cut.items())
-    assert CliRunner().invoke(app, [*args, *NO_PAGES, "--force"]).exit_code == 0
-    assert tree(folder / "cut") == whole
-
-
 def tree(folder: Path) -> dict[str, bytes]:
-    """The files of a report, those left out that were put aside, and what changed."""
+    """The files of a report, but for those that were put aside, and for what changed."""
     files = (path for path in folder.rglob("*") if path.is_file() and path.name[0] != ".")
     found = {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
     return {name: data for name, data in found.items() if name != "differences.csv"}

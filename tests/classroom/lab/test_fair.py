@@ -33,7 +33,7 @@ def judgement(request):
 
 
 def test_segments_are_as_long_as_the_tables_of_the_sheets_say(judgement):
-    _, _, found, singles = judgement
+    lab, _, found, singles = judgement
     seen = 0
     for i, sheets in enumerate(singles):
         tables = {name: mm for sheet in sheets for name, _, mm, _ in vectors(sheet)}
@@ -41,6 +41,11 @@ def test_segments_are_as_long_as_the_tables_of_the_sheets_say(judgement):
             name = field.removesuffix("_mm").replace("_nu", "^ν")
             if name in tables:
                 assert lengths[i] == pytest.approx(tables[name], abs=1e-9)
+                small = tables[name] < lab.fair.segment  # and so are computed
+                assert [f in found.computed(i) for f in (field, field.removesuffix("_mm"))] == [
+                    small and field in lab.rubric.points,
+                    small and field.removesuffix("_mm") in lab.rubric.points,
+                ]
                 seen += 1
     assert seen >= 2 * len(singles)
 

@@ -23,7 +23,7 @@ from graphkin.classroom.lab.fair_ranges_words import as_toml, variants_lines
 from graphkin.classroom.lab.formula_mending import candidates, is_fair, mended
 from graphkin.classroom.lab.lab_model import Range, ValueList
 from graphkin.classroom.lab.lab_trial import tried
-from graphkin.classroom.lab.proposed_ranges import proposed_ranges
+from graphkin.classroom.lab.proposed_ranges import formula_faults, proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.cli.main import app
 from graphkin.cli.ranges_command import proposed
@@ -212,6 +212,7 @@ def test_one_number_that_is_changed_mends_the_pump(tmp_path):
     lab = read_lab("pump")
     trial = tried(lab)
     assert trial.unfair == 1
+    assert formula_faults(lab).unfair.keys() == {"30"}
     found = mended(lab, trial)
     assert found is not None
     assert abs(found.percent) < 3

@@ -105,8 +105,10 @@ def test_crosses_stand_clear_of_all_print_in_line_with_the_border(edition):
         crosses = np.array(crosses_of(page))
         assert len(crosses) > 100
         assert np.rint((crosses - (210, 148.5)) / 20) * 20 == pytest.approx(crosses - (210, 148.5))
-        first = [mark.cls for mark in page.marks[: 2 * len(crosses)]]
-        assert set(first) == {"register"}
+        first = page.marks[: 2 * len(crosses)]
+        assert {mark.cls for mark in first} == {"register"}
+        middles = [((mark.x1 + mark.x2) / 2, (mark.y1 + mark.y2) / 2) for mark in first]
+        assert np.array(middles) == pytest.approx(np.repeat(crosses, 2, axis=0))
         for mark in without_crosses(page).marks:
             for left, top, right, bottom in boxes(mark):
                 x, y = np.clip(crosses, (left, top), (right, bottom)).T - crosses.T
