@@ -176,7 +176,7 @@ def unread_lines(
             who=names.get(cell.who, cell.who),
             field=cell.field,
             text=shown(cell.text.strip()),
-            why=unread_words(cell.problem, cell.unit, shown(beyond_number(cell.text)), words),
+            why=unread_words(cell.problem, cell.unit, words, shown(beyond_number(cell.text))),
         )
 
 

@@ -125,7 +125,7 @@ class Spacing(Struct, frozen=True):
     room: float
 
 
-SPACINGS = (Spacing(3.4, 2.6), Spacing(3.1, 1.7))
+SPACINGS = (Spacing(3.4, 2.6), Spacing(3.3, 1.9), Spacing(3.1, 1.7))
 """From wide to narrow: the first that fits one page is taken, else the first."""
 
 

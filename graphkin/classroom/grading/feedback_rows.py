@@ -174,7 +174,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     """Why a field earned what it did, in a sentence."""
     if mark.status is Status.UNREADABLE:
         rest = escape(safe(beyond_number(mark.answer.text)))
-        reason = unread(mark.answer.problem, unit_markup(mark.item.unit), rest, words)
+        reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words, rest)
         return reason if mark.is_ruled else words("feedback.unreadable", why=reason)
     if mark.status is Status.RIGHT and mark.source:
         return words("feedback.right_by", source=graded.mark(mark.source).item.symbol)
@@ -220,7 +220,7 @@ def advice(mark: EarnedMark, words: Words) -> list[str]:
     return [words("feedback.turning_advice")] if turning else []
 
 
-def unread(problem: str, unit: str, rest: str, words: Words) -> str:
+def unread(problem: str, unit: str, words: Words, rest: str = "") -> str:
     """Why a cell cannot be read, of which ``rest`` stands after a number, and what could be."""
     return words(UNREAD[problem], unit=unit, rest=rest)
 

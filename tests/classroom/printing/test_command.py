@@ -181,8 +181,8 @@ def test_files_of_a_journal_that_notes_no_settings_are_refused_as_before(make):
 
 
 def test_readings_are_held_against_sheets_in_the_language_of_the_class(make):
-    folder = make("a", ["1"], language="en")
-    assert read_order(open_class(folder), Grid()).order.language == "en"
+    folder = make("a", ["1"], language="it")
+    assert read_order(open_class(folder), Grid()).order.language == "it"
 
 
 def test_a_language_that_no_page_has_is_refused(make):
