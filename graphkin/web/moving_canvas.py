@@ -223,10 +223,10 @@ class MovingCanvas(Struct, frozen=True):
         self.loci.append(self.put(lambda: self.part(FAR), self.beside_locus))
 
     def beside_locus(self) -> Binding:
-        """What stands beside the far end of a construction line."""
+        """What stands beside the far end of a construction line; of equal ones the latter."""
         low, high = self.binder.places.span(self.number, self.mm)
         way = self.binder.places.way(self.number).conjugate()
-        end = pick(abs(low) < abs(high), high, low)
+        end = pick(abs(low) < abs(high) + ALIKE, high, low)
         origin = self.binder.page(self.value(self.number).point)
         return self.binder.beside(BodyPose(origin + way * end, way))
 
