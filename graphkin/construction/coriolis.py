@@ -20,6 +20,7 @@ from graphkin.construction.core.component import (
     Size,
     TriangleComponent,
 )
+from graphkin.construction.core.drawn_scene import NOISE
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
@@ -28,7 +29,7 @@ from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.segments import laid_off
 from graphkin.construction.core.sentence import Wording
-from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set
+from graphkin.construction.core.set_lengths import laid_times, set_length, twice_set, why_set
 from graphkin.construction.core.vocabulary import (
     action,
     join,
@@ -45,7 +46,7 @@ from graphkin.numbers.plane import Line, cross
 from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
-from graphkin.text.markup import AND, NOTHING, saying
+from graphkin.text.markup import AND, COMMA, NOTHING, saying
 
 if TYPE_CHECKING:
     from graphkin.construction.core.drawn_scene import Drawing
@@ -252,11 +253,34 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return {
             "a": self.symbol,
             "v": symbol(self.speed),
-            "two": twice_set(drawing, symbol(self.speed)),
+            "two": saying(f"2·{symbol(self.speed)}", symbol(self.speed)),
             "segment": twice_set(drawing, segment),
+            "shorter": why_set(drawing),
+            "why": self.why_computed(drawing),
+            "zero": COMMA.join(self.zeros(drawing)),
             "omega": rate_symbol(drawing, self.omega),
             "drawn": plan_amount(drawing, Plane.ACCELERATIONS, self.size(drawing)),
         }
+
+    def why_computed(self, drawing: Drawing) -> str:
+        """Why its triangles are not drawn, where there are any."""
+        if self.read is None or self.is_drawn(drawing):
+            return ""
+        key = "too-small" if self.read in drawing.trace.values else "no-room"
+        return drawing.words(f"step.coriolis-{key}")
+
+    def zeros(self, drawing: Drawing) -> Iterator[str]:
+        """Which of both its factors is zero, where it is: at least the one that is next to it."""
+        values = drawing.trace.values
+        slid = abs(values[self.tip] - values[self.tail]) / (
+            drawing.longest(Plane.VELOCITIES) or 1.0
+        )
+        turned = drawing.rate_size(self.omega) / (drawing.fastest or 1.0)
+        least = max(NOISE, min(slid, turned))
+        if slid <= least:
+            yield f"{symbol(self.speed)} = 0"
+        if turned <= least:
+            yield f"{rate_symbol(drawing, self.omega)} = 0"
 
     def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
         """Its triangles in full: as far as the perpendicular; by the key ``top`` what cuts it."""

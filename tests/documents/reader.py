@@ -991,13 +991,20 @@ class Reader(Trials):
     def too_short(self) -> None:
         """Left out, as the page says."""
 
-    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩)(?: or ⟨w2:turning⟩)? is zero")
+    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩) is zero")
     def none(self, a: str, **_: str) -> None:
         self.lengths[a], self.vectors[a] = 0.0, 0j
 
+    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩) = 0(?:, ⟨w2:turning⟩ = 0)?")
+    def coriolis_none(self, a: str, v: str | None, **_: str) -> None:
+        if v is not None and abs(self.set_off(v)) > 1e-6:
+            raise DefectError(f"{v} is not zero")
+        self.none(a)
+
     @says(
-        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set ⟨v:set⟩ = ⟨xy:segment⟩, "
-        r"tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
+        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set ⟨v:set⟩ = ⟨xy:segment⟩"
+        r"(?: \(velocities are set ⟨m:number⟩ times \w+ than in the velocity plan\))?"
+        r", tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
         r"⟨more:times⟩⟨e3⟩⟨f3⟩ = ⟨a2:vector⟩, as ⟨v2:vector⟩ turned by 90° in the sense of "
         "⟨w:turning⟩"
     )
@@ -1026,8 +1033,8 @@ class Reader(Trials):
         self.coriolis(a, p, xy, "e", "f", line, w, f"{self.longer}·")
 
     @says(
-        "⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩, drawn ⟨drawn:number⟩ mm, as ⟨v2:vector⟩ turned by "
-        "90° in the sense of ⟨w2:turning⟩"
+        r"compute ⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩(?: \(its triangles would .*?\))?: "
+        "⟨drawn:number⟩ mm in the plan, as ⟨v2:vector⟩ turned by 90° in the sense of ⟨w2:turning⟩"
     )
     def coriolis_computed(self, a: str, v: str, drawn: str, w2: str, **_: str) -> None:
         slide = self.set_off(v)

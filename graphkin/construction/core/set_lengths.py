@@ -15,15 +15,21 @@ def set_length(drawing: Drawing, vector: str) -> str:
     return divided(drawing, vector, drawing.scales.larger)
 
 
-def twice_set(drawing: Drawing, vector: str) -> str:
-    """Twice a velocity as it is set on the mechanism."""
-    times = 2 / drawing.scales.larger
-    if times == 1:
-        return vector
-    short = f"{times:.4g}" == f"{times:.2g}"
-    if short:
-        return saying(f"{figure(drawing, times)}·{vector}", vector)
-    return set_length(drawing, saying(f"2·{vector}", vector))
+def twice_set(drawing: Drawing, segment: str) -> str:
+    """Twice a segment of the plan as it is set on the mechanism: 2·ab, 2·ab/5, or ab itself."""
+    if drawing.scales.larger == 2:
+        return segment
+    return set_length(drawing, saying(f"2·{segment}", segment))
+
+
+def why_set(drawing: Drawing) -> str:
+    """Why what is set on the mechanism is not as long as in the plan; nothing where it is."""
+    m = drawing.scales.larger
+    if m == 1:
+        return ""
+    if m > 1:
+        return drawing.words("step.coriolis-shorter", m=figure(drawing, m))
+    return drawing.words("step.coriolis-longer", m=inverse(drawing, m))
 
 
 def laid_times(drawing: Drawing) -> str:
