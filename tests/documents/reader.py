@@ -271,8 +271,8 @@ class Reader(Trials):
         self.put(name, found[0])
 
     @says(
-        "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle on ⟨m⟩⟨n⟩ meets it where the "
-        "tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
+        "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle with ⟨m⟩⟨n⟩ as diameter "
+        "meets it where the tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
     )
     def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
         """Of the two tangents that on which the pin lies where the data tell: side and place."""
@@ -903,7 +903,7 @@ class Reader(Trials):
         self.lengths[a] = number(times or "1") * abs(meets - self.at(c))
 
     @says(
-        r"on it lay off ⟨p⟩⟨name⟩ = ⟨a:vector⟩ along it/ω_\{.*?\}\^\{2\} "
+        r"on it lay off ⟨p⟩⟨name⟩ = \(component of ⟨a:vector⟩ along it\)/ω_\{.*?\}\^\{2\} "
         r"\((?:< )?⟨drawn:number⟩ mm\)"
     )
     def inflection_of(self, p: str, name: str, drawn: str, **_: str) -> None:
@@ -920,7 +920,9 @@ class Reader(Trials):
     def where_normals_meet(self, name: str) -> None:
         self.one_of(name, crossings(*self.square))
 
-    @says("(?:and )?the circle on ⟨i⟩⟨w⟩ is the inflection circle of link ⟨k:number⟩: .*")
+    @says(
+        "(?:and )?the circle with ⟨i⟩⟨w⟩ as diameter is the inflection circle of link ⟨k:number⟩.*"
+    )
     def inflection_circle(self, w: str, **_: str) -> None:
         self.at(w)
 
