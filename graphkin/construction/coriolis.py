@@ -263,11 +263,10 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         }
 
     def why_computed(self, drawing: Drawing) -> str:
-        """Why its triangles are not drawn, where there are any."""
-        if self.read is None or self.is_drawn(drawing):
+        """That its triangles are left out for the sake of the scale, where they are."""
+        if self.read is None or self.read in drawing.trace.values:
             return ""
-        key = "too-small" if self.read in drawing.trace.values else "no-room"
-        return drawing.words(f"step.coriolis-{key}")
+        return drawing.words("step.coriolis-no-room")
 
     def zeros(self, drawing: Drawing) -> Iterator[str]:
         """Which of both its factors is zero, where it is: at least the one that is next to it."""
