@@ -55,6 +55,7 @@ class Reader(Trials):
         "draw the mechanism as on the velocity sheet",
         "transfer .* to the mechanism, (?:each )?to its point.*",
         "over the motion .*",
+        "draw the path of .*",
         "nothing is set on the mechanism, because .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
         "join ⟨p⟩⟨q⟩: link .*? stands for the contact at this instant",
