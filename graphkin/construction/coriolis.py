@@ -20,7 +20,7 @@ from graphkin.construction.core.component import (
     Size,
     TriangleComponent,
 )
-from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Wording, construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
@@ -30,6 +30,7 @@ from graphkin.construction.core.relation import (
     Relation,
     answer,
     figure,
+    inverse,
     laid_times,
     set_length,
     twice_set,
@@ -51,7 +52,7 @@ from graphkin.numbers.plane import Line, cross
 from graphkin.scene.link_points import lettered, under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
-from graphkin.text.markup import AND, NOTHING, saying
+from graphkin.text.markup import AND, COMMA, NOTHING, saying
 
 CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle that is similar to the guide's."""
@@ -251,11 +252,42 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         return {
             "a": self.symbol,
             "v": symbol(self.speed),
-            "two": twice_set(drawing, symbol(self.speed)),
+            "two": saying(f"2·{symbol(self.speed)}", symbol(self.speed)),
             "segment": twice_set(drawing, segment),
+            "shorter": self.why_set(drawing),
+            "why": self.why_computed(drawing),
+            "zero": COMMA.join(self.zeros(drawing)),
             "omega": rate_symbol(drawing, self.omega),
             "drawn": plan_amount(drawing, Plane.ACCELERATIONS, self.size(drawing)),
         }
+
+    def why_set(self, drawing: Drawing) -> str:
+        """Why what is set is not as long as in the velocity plan; nothing where it is."""
+        m = drawing.scales.larger
+        if m == 1:
+            return ""
+        if m > 1:
+            return drawing.words("step.coriolis-shorter", m=figure(drawing, m))
+        return drawing.words("step.coriolis-longer", m=inverse(drawing, m))
+
+    def why_computed(self, drawing: Drawing) -> str:
+        """That its triangles are left out for the sake of the scale, where they are."""
+        if self.read is None or self.read in drawing.trace.values:
+            return ""
+        return drawing.words("step.coriolis-no-room")
+
+    def zeros(self, drawing: Drawing) -> Iterator[str]:
+        """Which of both its factors is zero, where it is: at least the one that is next to it."""
+        values = drawing.trace.values
+        slid = abs(values[self.tip] - values[self.tail]) / (
+            drawing.longest(Plane.VELOCITIES) or 1.0
+        )
+        turned = drawing.rate_size(self.omega) / (drawing.fastest or 1.0)
+        least = max(NOISE, min(slid, turned))
+        if slid <= least:
+            yield f"{symbol(self.speed)} = 0"
+        if turned <= least:
+            yield f"{rate_symbol(drawing, self.omega)} = 0"
 
     def in_full(self, drawing: Drawing, top: str) -> tuple[str, str]:
         """Its triangles in full: as far as the perpendicular; by the key ``top`` what cuts it."""

@@ -108,7 +108,7 @@ def sections_of(drawing: Drawing) -> list[Section]:
         *of_components(drawing),
         ("accelerations", plan),
         ("spinning", turning),
-        ("slides", list(of_slides(drawing))),
+        ("sliding", list(of_slides(drawing))),
         ("poles", list(of_centres(drawing))),
     ]
 

@@ -5,6 +5,7 @@ The mechanism stands in another position than the student's, so that nothing can
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Iterator
 from itertools import combinations
 from math import degrees, radians
@@ -12,11 +13,11 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
-from graphkin.construction.drivers.driver_symbols import draw_drivers
+from graphkin.construction.drivers.driver_symbols import draw_drivers, drawn_angle
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.mechanism_symbols import (
     draw_bars,
@@ -30,6 +31,7 @@ from graphkin.drawing.label import Label, segment_of
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Mark, Text, reach, scaled
 from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.model import Link
 from graphkin.text.errors import PageError
 
 SCHEMATIC = "scheme"
@@ -39,13 +41,20 @@ SIZE = (60.0, 50.0)
 SMALLER = 0.7
 """How large symbols are, as a part of those of a sheet, so that they hide little of the small
 mechanism."""
-TURNS = (35.0, -35.0, 25.0, -25.0, 15.0, -15.0)
+TURNS = tuple(
+    sign * turn for turn in (35.0, 25.0, 15.0, 50.0, 70.0, 90.0, 115.0, 150.0) for sign in (1, -1)
+)
 """By how much drivers are turned from the student's position, in degrees, in the order tried."""
 WAY = 1 / 200
 """How far one along a line is moved instead of a degree, in breadths of the mechanism."""
 CLEAR, CROSSING = 0.07, 0.25
 """The least distance of pins, in breadths of the mechanism, and sine of a crossing, that are read
 well."""
+APART, OPEN = 15.0, 20.0
+"""The least angle between links that lie on one another, and of a crank from its axis, in degrees,
+that are read well."""
+COMMON = 0.25
+"""The part of the shorter of two bars along which they lie on one another, so that they are one."""
 
 
 def scheme(drawing: Drawing) -> list[Mark]:
@@ -140,11 +149,64 @@ def elsewhere(drawing: Drawing) -> Drawing:
 
 
 def clearance(drawing: Drawing) -> float:
-    """How well a position is read, 1 where all pins stand apart and no two loci meet flatly."""
+    """How well a position is read, 1 where all pins stand apart and no two loci meet flatly, no
+    link lies on another, and each crank's angle is open.
+    """
     places = [*drawing.positions.values()]
     near = min((abs(p - q) for p, q in combinations(places, 2) if p != q), default=drawing.reach)
     sine = min(drawing.trace.margins.values(), default=1.0)
-    return min(near / (CLEAR * drawing.reach), float(sine) / CROSSING)
+    cranks = [driver for driver in drawing.scene.drivers if driver.kind == "turn"]
+    angles = (float(drawn_angle(drawing, driver)) for driver in cranks)
+    opened = min((abs((angle + 180) % 360 - 180) for angle in angles), default=OPEN)
+    return min(
+        near / (CLEAR * drawing.reach),
+        float(sine) / CROSSING,
+        opened / OPEN,
+        between_links(drawing) / APART,
+    )
+
+
+def between_links(drawing: Drawing) -> float:
+    """The least angle between links of bars that lie on one another, in degrees; 90 if none."""
+    bars = [bar for link in drawing.scene.links.values() if (bar := bar_of(drawing, link))]
+    return min(
+        (
+            angle
+            for one, other in combinations(bars, 2)
+            if (angle := angle_between(one, other)) < APART
+            and lie_on_one_another(one, other, CLEAR * drawing.reach)
+        ),
+        default=90.0,
+    )
+
+
+def bar_of(drawing: Drawing, link: Link) -> tuple[complex, complex] | None:
+    """The ends of the bar that a link is drawn as; None for a plate, a block or a wheel."""
+    places = [drawing.positions[p] for p in link.points if p in drawing.positions]
+    pairs = list(combinations(places, 2))
+    ends = max(pairs, key=lambda pair: abs(pair[1] - pair[0]), default=None)
+    if ends is None or ends[0] == ends[1]:
+        return None
+    beside = (abs(((place - ends[0]) / (ends[1] - ends[0])).imag) for place in places)
+    return ends if max(beside) < NOISE else None
+
+
+def angle_between(one: tuple[complex, complex], other: tuple[complex, complex]) -> float:
+    """The angle between two lines in degrees, 90 at most."""
+    turned = degrees(phase((one[1] - one[0]) / (other[1] - other[0]))) % 180
+    return min(turned, 180 - turned)
+
+
+def lie_on_one_another(
+    one: tuple[complex, complex], other: tuple[complex, complex], near: float
+) -> bool:
+    """Whether nearly parallel bars lie as ``near`` as that along much of the shorter one."""
+    shorter, longer = sorted((one, other), key=lambda ends: abs(ends[1] - ends[0]))
+    along = (longer[1] - longer[0]) / abs(longer[1] - longer[0])
+    ends = [(end - longer[0]) / along for end in shorter]
+    low, high = sorted(end.real for end in ends)
+    common = min(high, abs(longer[1] - longer[0])) - max(low, 0.0)
+    return common > COMMON * (high - low) and min(abs(end.imag) for end in ends) < near
 
 
 def moved_by(drawing: Drawing, turn: float) -> Drawing | None:

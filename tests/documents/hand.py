@@ -177,7 +177,7 @@ class Hand:
         symbols = (turning, f"n_{{{index}}}") if turning[0] == "ω" else (turning,)
         told = [item for item in self.items if re.split(" = |: ", item)[0] in symbols]
         if told:
-            if not (way := re.search(r"turning (counter-)?clockwise", " ".join(told))):
+            if not (way := re.search(r"(counter-)?clockwise", " ".join(told))):
                 raise DefectError(f"{turning} is given without its sense")
             return 1 if way[1] else -1
         points = re.findall(NAME, self.links.get(index, "").split(" ")[-1])

@@ -48,6 +48,7 @@ class Reader(Trials):
         "draw the mechanism as on the velocity sheet",
         "transfer .* to the mechanism, (?:each )?to its point.*",
         "over the motion .*",
+        "draw the path of .*",
         "nothing is set on the mechanism, because .*",
         "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
         "join ⟨p⟩⟨q⟩: link .*? stands for the contact at this instant",
@@ -255,8 +256,8 @@ class Reader(Trials):
         self.put(name, found[0])
 
     @says(
-        "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle on ⟨m⟩⟨n⟩ meets it where the "
-        "tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
+        "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle with ⟨m⟩⟨n⟩ as diameter "
+        "meets it where the tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
     )
     def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
         """Of the two tangents that on which the pin lies where the data tell: side and place."""
@@ -848,7 +849,7 @@ class Reader(Trials):
         self.lengths[a] = number(times or "1") * abs(meets - self.at(c))
 
     @says(
-        r"on it lay off ⟨p⟩⟨name⟩ = ⟨a:vector⟩ along it/ω_\{.*?\}\^\{2\} "
+        r"on it lay off ⟨p⟩⟨name⟩ = \(component of ⟨a:vector⟩ along it\)/ω_\{.*?\}\^\{2\} "
         r"\((?:< )?⟨drawn:number⟩ mm\)"
     )
     def inflection_of(self, p: str, name: str, drawn: str, **_: str) -> None:
@@ -865,7 +866,9 @@ class Reader(Trials):
     def where_normals_meet(self, name: str) -> None:
         self.one_of(name, crossings(*self.square))
 
-    @says("(?:and )?the circle on ⟨i⟩⟨w⟩ is the inflection circle of link ⟨k:number⟩: .*")
+    @says(
+        "(?:and )?the circle with ⟨i⟩⟨w⟩ as diameter is the inflection circle of link ⟨k:number⟩.*"
+    )
     def inflection_circle(self, w: str, **_: str) -> None:
         self.at(w)
 
@@ -936,13 +939,20 @@ class Reader(Trials):
     def too_short(self) -> None:
         """Left out, as the page says."""
 
-    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩)(?: or ⟨w2:turning⟩)? is zero")
+    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩) is zero")
     def none(self, a: str, **_: str) -> None:
         self.lengths[a], self.vectors[a] = 0.0, 0j
 
+    @says("⟨a:vector⟩ = 0, because (?:⟨v:vector⟩|⟨w:turning⟩) = 0(?:, ⟨w2:turning⟩ = 0)?")
+    def coriolis_none(self, a: str, v: str | None, **_: str) -> None:
+        if v is not None and abs(self.set_off(v)) > 1e-6:
+            raise DefectError(f"{v} is not zero")
+        self.none(a)
+
     @says(
-        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set ⟨v:set⟩ = ⟨xy:segment⟩, "
-        r"tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
+        r"Coriolis component ⟨a:vector⟩ by similar triangles: at ⟨p⟩ set ⟨v:set⟩ = ⟨xy:segment⟩"
+        r"(?: \(velocities are set ⟨m:number⟩ times \w+ than in the velocity plan\))?"
+        r", tip ⟨e⟩; at ⟨e2⟩ the perpendicular; it is cut in ⟨f⟩ by (?P<line>.*?); "
         r"⟨more:times⟩⟨e3⟩⟨f3⟩ = ⟨a2:vector⟩, as ⟨v2:vector⟩ turned by 90° in the sense of "
         "⟨w:turning⟩"
     )
@@ -971,8 +981,8 @@ class Reader(Trials):
         self.coriolis(a, p, xy, "e", "f", line, w, f"{self.longer}·")
 
     @says(
-        "⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩, drawn ⟨drawn:number⟩ mm, as ⟨v2:vector⟩ turned by "
-        "90° in the sense of ⟨w2:turning⟩"
+        r"compute ⟨a:vector⟩ = 2⟨w:turning⟩·⟨v:vector⟩(?: \(its triangles would .*?\))?: "
+        "⟨drawn:number⟩ mm in the plan, as ⟨v2:vector⟩ turned by 90° in the sense of ⟨w2:turning⟩"
     )
     def coriolis_computed(self, a: str, v: str, drawn: str, w2: str, **_: str) -> None:
         slide = self.set_off(v)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from cmath import phase
-from math import degrees
+from math import asin, degrees
 
 import pytest
 
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
+from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.segments import TINY
@@ -18,10 +19,15 @@ from graphkin.construction.drivers.driver_relations import drawn_bars
 from graphkin.construction.result_tables import slide_rows, vectors
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet_documents import drawings_of, proved
+from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from tests.chosen import CHOSEN
+from tests.chosen import CHOSEN, FOLDER
 from tests.documents.sheet_tools import drawings, named
 
 LABS = [(lab, n) for lab in ("pump", "slotted-lever") for n in (7, 20)]
@@ -114,6 +120,35 @@ def test_the_gaps_of_the_trials_divide_the_line_as_the_sentence_says(name):
                 parts = abs(right - first), abs(second - right)
                 assert abs(parts[0] * two - parts[1] * one) < 0.02 * apart * (one + two)
                 assert (sum(parts) > 1.000001 * apart) is ("beyond" in said.markup)
+
+
+# --- closing and Coriolis ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+@pytest.mark.parametrize(
+    ("angle", "zero"), [("90", "vAA3 = 0"), (f"{360 - degrees(asin(0.4))!r}", "ω3 = 0")]
+)
+def test_it_is_said_which_factor_of_a_coriolis_component_is_zero(angle, zero, language):
+    """With the crank along the lever the block stands on it; square to it the lever turns back."""
+    text = (FOLDER / "shaper.toml").read_text().replace('angle = "angle"', f"angle = {angle}")
+    mechanism = Mechanism(read_text(text, "shaper", None, {}))
+    found = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words(language))
+    told = [plain(one.markup) for one in sentences(found[1])]
+    (said,) = (one for one in told if one.startswith("aAA3c = 0, "))
+    assert said.endswith(f" {zero}")
+
+
+@pytest.mark.parametrize("name", ["shaper", "oscillating-slide"])
+def test_a_figure_and_its_sentence_have_the_same_factor_of_the_relative_velocity(name):
+    """On the mechanism stands 2v, as the law has it; its segment is told as it is set there."""
+    drawing = drawings(name)[1]
+    said = next(s.markup for s in sentences(drawing) if "Coriolis" in s.markup)
+    _, slid = re.search(r"set 2·(\*v\*_\{(\w+)\}) = ", said).groups()
+    page = sheet(drawing, "key", "2/2", lay_out(drawing))
+    labels = {mark.markup for mark in page.marks if isinstance(mark, Text)}
+    assert any(f"2*v*_{{{slid}}}" in label for label in labels), labels
+    assert ("times shorter than in the velocity plan" in said) is (drawing.scales.larger > 1)
 
 
 # --- guides --------------------------------------------------------------------------------------

@@ -49,8 +49,8 @@ def test_every_driver_has_its_position_speed_and_acceleration_with_units():
     for piece in (
         "φ1 = 30°",
         "φ2/1 = 40°",
-        "ω2/1 = 3 rad/s, turning clockwise",
-        "ε2/1 = 7 rad/s², turning counter-clockwise",
+        "ω2/1 = 3 rad/s, clockwise",
+        "ε2/1 = 7 rad/s², counter-clockwise",
         "s3 = 25 mm",
         "v3 = 60 mm/s",
         "a3 = −80 mm/s²",

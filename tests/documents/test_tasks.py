@@ -3,6 +3,7 @@
 import cmath
 import re
 from itertools import cycle, pairwise
+from math import degrees
 
 import pytest
 
@@ -12,10 +13,12 @@ from graphkin.construction.core.relation import divided, inverse
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
 from graphkin.documents.sheet import asked, sheet
+from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.areas import SCHEME, TABLES
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
 from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import collisions, drawings
@@ -111,6 +114,17 @@ def test_the_scheme_keeps_lengths_and_defines_the_angle_of_the_crank():
     marks = scheme(drawing)
     assert [mark for mark in marks if isinstance(mark, Arc) and mark.name == "phi"]
     assert [mark for mark in marks if isinstance(mark, Text) and mark.markup == "*φ*"]
+
+
+@pytest.mark.parametrize("n", [1, 7, 13, 21, 30])
+def test_crank_and_lever_of_a_scheme_are_two_links_and_its_angle_is_open(n):
+    """The crank pin slides on the lever: with the pivots in line one bar would hide the other."""
+    mechanism = load("slotted-lever", n=n)
+    found = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))
+    places = elsewhere(found[0]).positions
+    crank, lever = places["A"] - places["O1"], places["B"] - places["O2"]
+    assert 15 <= abs(degrees(cmath.phase(crank / lever))) <= 165
+    assert abs(degrees(cmath.phase(crank))) >= 20
 
 
 @pytest.mark.parametrize("name", ["cam-plate", "hoist-differential"])

@@ -185,15 +185,11 @@ def set_length(drawing: Drawing, vector: str) -> str:
     return divided(drawing, vector, drawing.scales.larger)
 
 
-def twice_set(drawing: Drawing, vector: str) -> str:
-    """Twice a velocity as it is set on the mechanism."""
-    times = 2 / drawing.scales.larger
-    if times == 1:
-        return vector
-    short = f"{times:.4g}" == f"{times:.2g}"
-    if short:
-        return saying(f"{figure(drawing, times)}·{vector}", vector)
-    return set_length(drawing, saying(f"2·{vector}", vector))
+def twice_set(drawing: Drawing, segment: str) -> str:
+    """Twice a segment of the plan as it is set on the mechanism: 2·ab, 2·ab/5, or ab itself."""
+    if drawing.scales.larger == 2:
+        return segment
+    return set_length(drawing, saying(f"2·{segment}", segment))
 
 
 def laid_times(drawing: Drawing) -> str:
