@@ -172,8 +172,9 @@ def test_a_block_moves_to_where_its_guide_is_positive_when_its_speed_is(name):
         speed = drawing.trace.value("slide speed", block)
         off = degrees(phase(velocity if speed > 0 else -velocity)) - ways[said[1]]
         assert abs((off + 180) % 360 - 180) < 46
-        positive = drawing.words("calculation.forward", guide="").strip()
-        assert table[f"slide {block}"].startswith(positive) is (speed > 0)
+        first, last = drawing.words("calculation.forward", guide="|").split("|")
+        told = table[f"slide {block}"]
+        assert (told.startswith(first) and told.endswith(last)) is (speed > 0)
         seen += 1
     assert seen
 

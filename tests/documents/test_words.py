@@ -125,11 +125,12 @@ def fields(sentence: str) -> set[str]:
 
 def literals() -> set[str]:
     """Every string that stands in the code by itself, and those that a template puts together."""
-    found = set()
-    for path in CODE.rglob("*.html"):
-        quoted = set(re.findall(r'"([\w. -]+)"', path.read_text(encoding="utf-8")))
-        begun = [text for text in quoted if text.endswith(".")]
-        found |= quoted | {first + last for first in begun for last in quoted}
+    pages = [*CODE.rglob("*.html"), *(CODE / "studio").rglob("*.js")]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in pages)
+    quoted = set(re.findall(r'"([\w. -]+)"', text))
+    begun = [each for each in quoted if each.endswith((".", "_"))]
+    begun += re.findall(r"`([\w.]+)\$\{", text)
+    found = quoted | {first + last for first in begun for last in quoted}
     for path in CODE.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
