@@ -78,15 +78,19 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
         body, sign = bodies[name], sign_of(drawing, name)
         at = None
         if body is not None:
-            near = [*places_beside(body, sign.radius + AIR)]
-            at = space.first(near, (0.0, 0.0), sign.radius + AIR)
+            wheels = wheels_of_others(drawing, field, name)
+            beside = places_beside(body, sign.radius + AIR)
+            near = [place for place in beside if is_beside(complex(*place), wheels)]
+            at = space.first(near, (0.0, 0.0), sign.radius + AIR) if near else None
         if at is None:
             left.append(name)
         else:
             yield from sign.put(space, at, rates[name])
     lost = []
     for name in left:
+        body = bodies[name]
         near = [*places_around(drawing, field, name, bodies)]
+        near += [] if body is None else places_beside(body, sign_of(drawing, name).radius + AIR)
         for sign in dict.fromkeys((sign_of(drawing, name), sign_of(drawing, name).aside)):
             at = space.first(near, sign.half, AIR) if near else None
             if at is not None:
@@ -157,16 +161,25 @@ def places_around(
     if body is not None:
         anchors += [p + share * (q - p) for share, (p, q) in product(SHARES, body.sides)]
     others = [each for other, each in bodies.items() if each is not None and other != name]
-    wheels = [
+    wheels = wheels_of_others(drawing, field, name)
+    for far, anchor, nth in product(RINGS, dict.fromkeys(anchors), range(WAYS)):
+        place = anchor + rect(far, radians(360 / WAYS * nth))
+        if is_beside(place, wheels) and not any(other.holds(place) for other in others):
+            yield place.real, place.imag
+
+
+def wheels_of_others(drawing: Drawing, field: Field, name: str) -> list[tuple[complex, float]]:
+    """The centres and radii of all links' wheels but one link's, rings left out."""
+    return [
         (complex(*field(disc.centre)), disc.outer * field.mm)
         for disc in drawing.standing.discs
         if disc.link != name and not disc.wheel.inside
     ]
-    for far, anchor, nth in product(RINGS, dict.fromkeys(anchors), range(WAYS)):
-        place = anchor + rect(far, radians(360 / WAYS * nth))
-        apart = (abs(place - centre) > radius for centre, radius in wheels)
-        if all(apart) and not any(other.holds(place) for other in others):
-            yield place.real, place.imag
+
+
+def is_beside(place: complex, wheels: Sequence[tuple[complex, float]]) -> bool:
+    """Whether a place lies in none of some wheels."""
+    return all(abs(place - centre) > radius for centre, radius in wheels)
 
 
 def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Iterator[Mark]:
