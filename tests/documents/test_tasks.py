@@ -64,6 +64,7 @@ def test_a_task_says_of_each_driver_where_it_stands_by_number_or_by_its_law(name
         for driver in drawing.scene.drivers:
             assert plain(angle_symbol(drawing.scene, driver)) in page
         assert all(law in page for law in laws)
+        assert not laws or plain(drawing.words("page.turning_anticlockwise")) in page
 
 
 @pytest.mark.parametrize(

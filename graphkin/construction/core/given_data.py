@@ -230,7 +230,7 @@ def of_driver(
         size, sense = with_sense(scene, words, driver, quantity)
         told = size if solved or not reckoned(scene, quantity) else ""
         if laws and not told:
-            told, sense = law(scene, words, quantity), ""
+            told = law(scene, words, quantity)
         if told or constant or sense:
             by = tuple(filter(None, [lone(scene, quantity)]))
             yield Datum(
