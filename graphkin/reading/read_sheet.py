@@ -109,19 +109,21 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         else:
             code, corners = known_code(grey, order.variants)
         found = found_sheet(grey, order, code, corners)
-        points, corners_at = unread(found, order) if order.by_hand else read_points(grey, found)
+        points, corners_at = (
+            points_to_click(found, order) if order.by_hand else read_points(grey, found)
+        )
     except (Unreadable, GraphkinError, *FAULTS, cv2.error) as error:
         spent = round(perf_counter() - start, 3)
         told = isinstance(error, Unreadable | GraphkinError)
         refused = str(error).splitlines()[0] if told else f"cannot be read: {type(error).__name__}"
-        who = called(order, code)
+        who = student_label(order, code)
         return SheetRead(replace(record, code=code, who=who, refused=refused, seconds=spent))
     pixels = mapped(found.map, order.grid)
     spent = round(perf_counter() - start, 3)
     read = replace(
         record,
         code=code,
-        who=called(order, code),
+        who=student_label(order, code),
         kind=found.sheet.kind,
         map=pixels,
         seconds=spent,
@@ -133,7 +135,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
     return SheetRead(read, flat_picture(grey, found.map))
 
 
-def called(order: ReadOrder, code: str) -> str:
+def student_label(order: ReadOrder, code: str) -> str:
     """Whose sheet has a code: id and name of the student; nothing for a code that is not read."""
     variant = order.variants.get(code)
     return f"{variant.id} {variant.name}".strip() if variant is not None else ""
@@ -254,7 +256,7 @@ def read_points(grey: Any, found: FoundSheet) -> Points:
     return points, reader.corners()
 
 
-def unread(found: FoundSheet, order: ReadOrder) -> Points:
+def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
     """The points of a sheet that a person is to click, nothing of them read: those that a mark
     needs are asked; where no length and no place is marked, all are.
     """

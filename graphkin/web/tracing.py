@@ -77,7 +77,10 @@ class Tracing(Struct, frozen=True, dict=True):
         """The places of the inputs: the driver, what closes groups, the angles links count near,
         and the figures."""
         names = [INPUT, *(name for each in self.closings for name in each.names)]
-        return {name: place for place, name in enumerate((*names, *self.beside(self.driven.start)))}
+        return {
+            name: place
+            for place, name in enumerate((*names, *self.fixed_inputs(self.driven.start)))
+        }
 
     def traced(self, drawn: Trace) -> Trace:
         """The steps that were run for a sheet, traced. Raises UntraceableError."""
@@ -88,7 +91,7 @@ class Tracing(Struct, frozen=True, dict=True):
         own = {after for number in scaled for after in program.descendants(number)}
         shared = {n: value for n, value in self.done.items() if n not in own}
         overrides = scaled | self.closers(drawn) | shared
-        overrides |= self.driven.overrides(program, self.x, values) | self.counted(drawn)
+        overrides |= self.driven.overrides(program, self.x, values) | self.trace_counted(drawn)
         overrides = {n: value for n, value in overrides.items() if n in drawn.values}
         needed = sorted(drawn.values)
         overrides |= self.tried_rates(drawn, needed, overrides)
@@ -123,7 +126,7 @@ class Tracing(Struct, frozen=True, dict=True):
         turned = through(followed(sweep).ranges[0])
         return None if turned is None else Turned(turned.at / self.driven.metres, turned.near)
 
-    def counted(self, drawn: Trace) -> dict[int, Any]:
+    def trace_counted(self, drawn: Trace) -> dict[int, Any]:
         """The steps that hold the angles near which these links count, traced."""
         found: dict[int, Any] = {}
         for number in drawn.values:
@@ -133,21 +136,24 @@ class Tracing(Struct, frozen=True, dict=True):
                 continue
             name = name_of(link)
             self.counting[name] = link
-            self.tape.inputs |= self.near(self.driven.start)
+            self.tape.inputs |= self.counting_angles(self.driven.start)
             angle = TracedNumber(self.graph, self.graph.input(name))
             _, heading, near = step.args
             found |= {heading: traced_kind().direction(angle), near: angle * (pi / 180)}
         return found
 
-    def near(self, at: Any) -> dict[str, Any]:
+    def counting_angles(self, at: Any) -> dict[str, Any]:
         """The angles near which links count at places of the driver, by their inputs."""
         every = self.turned.values(at) if self.counting and self.turned is not None else {}
         return {name: every[name] for name in self.counting}
 
-    def beside(self, at: Any) -> dict[str, Any]:
+    def fixed_inputs(self, at: Any) -> dict[str, Any]:
         """The inputs at places of the driver that nothing closes: those angles, and the figures as
         they are drawn."""
-        return {**self.near(at), **{each.name: at * 0 + each.start for each in self.driven.figures}}
+        return {
+            **self.counting_angles(at),
+            **{each.name: at * 0 + each.start for each in self.driven.figures},
+        }
 
     # --- groups of higher class ----------------------------------------------------------------
 
@@ -212,11 +218,11 @@ class Tracing(Struct, frozen=True, dict=True):
         """The range, and what closes groups on the way through it; None where nothing moves."""
         if not self.closings:
             outputs = [self.tape.outputs[i] for i in closed]
-            reach = reach_of(self.driven, self.graph, outputs, self.beside)
+            reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
             return None if reach is None else (reach, TrackedBranch())
         turning, start = self.driven.what == "turn", self.driven.start
-        names = tuple(self.beside(start))
-        solve = solver(self.graph, INPUT, self.closings, names, self.beside, size)
+        names = tuple(self.fixed_inputs(start))
+        solve = solver(self.graph, INPUT, self.closings, names, self.fixed_inputs, size)
         return around(solve, start, window(self.driven), turning=turning)
 
 

@@ -30,7 +30,7 @@ def pairs(points: Iterable[Point]) -> str:
 
 
 @lru_cache(maxsize=4096)
-def called(cls: str, name: str) -> str:
+def class_attributes(cls: str, name: str) -> str:
     """Write a mark's class and its name, if it has one."""
     return f'class="{escape(cls)}"' + (f' data-name="{escape(name)}"' if name else "")
 
@@ -38,7 +38,7 @@ def called(cls: str, name: str) -> str:
 def about(mark: Mark) -> str:
     """Write the attributes that tell what a mark is: class, name and step."""
     step = f' data-step="{mark.step}"' if mark.step is not None else ""
-    return called(mark.cls, mark.name) + step
+    return class_attributes(mark.cls, mark.name) + step
 
 
 def arc_path(arc: Arc) -> str:
@@ -50,7 +50,7 @@ def arc_path(arc: Arc) -> str:
 
 
 @lru_cache(maxsize=4096)
-def said(markup: str, height: float) -> tuple[tuple[float, float, str, str], ...]:
+def text_runs(markup: str, height: float) -> tuple[tuple[float, float, str, str], ...]:
     """Give the offsets of a markup's runs in mm, how each is lettered and what it says."""
     return tuple(
         (run.x, run.y, lettering(run), escape(run.text, quote=False))
@@ -73,7 +73,7 @@ def text_element(text: Text) -> str:
     left, base = text.x + text.left(), text.y
     parts = [
         (f'x="{number(left + x)}" y="{number(base + y)}" {letters}', words)
-        for x, y, letters, words in said(text.markup, text.height)
+        for x, y, letters, words in text_runs(text.markup, text.height)
     ]
     if len(parts) == 1:
         return f"<text {head} {parts[0][0]}>{parts[0][1]}</text>"
@@ -86,7 +86,7 @@ def parted_text(text: Text, parts: Sequence[tuple[str, str]]) -> str:
     left, told, spans = text.x + text.left(), "", ""
     for markup, attribute in parts:
         start = left + extent(told, text.height)[0]
-        for x, y, look, words in said(markup, text.height):
+        for x, y, look, words in text_runs(markup, text.height):
             place = f'x="{number(start + x)}" y="{number(text.y + y)}"'
             spans += f"<tspan {attribute} {place} {look}>{words}</tspan>"
         told += markup

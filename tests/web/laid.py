@@ -47,11 +47,11 @@ def laid(
 def reckoned(moving: Moving, x: float, figures: Mapping[str, float]) -> list[float] | None:
     """The outputs at a place of the driver; None where a group does not close."""
     tracing, course = moving.tracing, moving.data["course"]
-    inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.beside(np.array([x]))}
+    inputs: dict[str, Any] = {INPUT: np.array([x]), **tracing.fixed_inputs(np.array([x]))}
     if tracing.closings:
         size = moving.data["reach"]
-        names = tuple(tracing.beside(x))
-        solve = solver(tracing.graph, INPUT, tracing.closings, names, tracing.beside, size)
+        names = tuple(tracing.fixed_inputs(x))
+        solve = solver(tracing.graph, INPUT, tracing.closings, names, tracing.fixed_inputs, size)
         found = (solve(x, near) for near in states_near(course, x))
         state = next((each for each in found if each is not None), None)
         if state is None:

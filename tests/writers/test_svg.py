@@ -72,7 +72,7 @@ def test_two_processes_write_the_same_bytes():
     code = (
         "from graphkin.drawing.frame import *\n"
         "from graphkin.drawing.marks import *\n"
-        "from graphkin.writers.svg import number, write_svg\n"
+        "from graphkin.writers.svg import write_svg\n"
         "marks = sheet_frame(TitleBlock(title='Mecanism'))\n"
         "marks += (Text(50, 50, '*a*_{BA}^{ν}', 'label velocity', name='a'),)\n"
         "print(write_svg(Page(420, 297, marks, 't', 'ro')))\n"

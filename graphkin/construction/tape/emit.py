@@ -1,6 +1,6 @@
 """A traced graph printed as source: for whole arrays of numpy, and for a loop that numba compiles.
 
-Both keep to the order of the graph, so that each is a straight line. A printer is a table of what
+Both keep to the order of the graph, so that each is a straight line. An emitter is a table of what
 each operation is called and the few lines around it; others may stand beside these two.
 """
 
