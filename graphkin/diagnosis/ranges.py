@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
-from graphkin.scene.known_names import quoted
-from graphkin.scene.model import Driver, Scene
+from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS
+from graphkin.structure.driver_count import driver_name
 
 if TYPE_CHECKING:
     from graphkin.motion.course import Course
@@ -90,7 +90,7 @@ def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> str:
             return f"it closes for driver {noun}s {reached_words(scene, known[0].ranges)}{bound}"
         return f"it closes for no {noun} of the driver: check the lengths{bound}"
     told = [
-        f"{driver_words(driver)} from {reached_words(scene, found.ranges, n)}"
+        f"{driver_name(driver)} from {reached_words(scene, found.ranges, n)}"
         for n, (driver, found) in enumerate(zip(scene.drivers, known, strict=False), 1)
         if found.ranges
     ]
@@ -236,8 +236,3 @@ def within_turn(course: Course, at: Any) -> Any:
     if not course.sweep.whole:
         return at
     return course.sweep.start // 360 * 360 + at % 360
-
-
-def driver_words(driver: Driver) -> str:
-    """A driver in short, as it is written: turn = 1."""
-    return f"{driver.kind} = {quoted(driver.link)}"

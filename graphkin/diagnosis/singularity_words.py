@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.kind import construction, lies_along
 from graphkin.construction.core.program import Program, Step
-from graphkin.diagnosis.ranges import MOST, driver_words
+from graphkin.diagnosis.ranges import MOST
 from graphkin.scene.model import Driver, Scene
+from graphkin.structure.driver_count import driver_name
 
 
 def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> str:
@@ -78,7 +79,7 @@ def beside_dead_point(scene: Scene, program: Program, number: int) -> str:
     drivers = zip(scene.drivers, program.drives, strict=False)
     needed = set(program.behind((number,)))
     causes = [driver for driver, drive in drivers if drive.position in needed]
-    places = [f"{driver_words(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
+    places = [f"{driver_name(driver)} from {stands(scene, driver)}" for driver in causes[:MOST]]
     words = in_line(scene, program, number, "nearly ")
     return f"{words}: move {' or '.join(places)} to another position" if places else words
 

@@ -14,11 +14,11 @@ from msgspec import Struct, to_builtins
 from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.classroom.page_documents import hand_out_page
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.diagnosis.ranges import driver_words
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import tables_of
 from graphkin.scene.read_scene import read_text
+from graphkin.structure.driver_count import driver_name
 from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.folder import (
     ENDING,
@@ -284,7 +284,7 @@ class Session:
 
         def made() -> dict[str, Any]:
             mechanism = Mechanism(read_text(text, stem, None, settings))
-            drivers.extend(map(driver_words, mechanism.scene.drivers))
+            drivers.extend(map(driver_name, mechanism.scene.drivers))
             moved = driver if len(drivers) > 1 and 1 <= driver <= len(drivers) else None
             with self.drawing():
                 page = MOVING_PAGES[kind](mechanism, stem, language, moved)
