@@ -112,7 +112,8 @@ def small_text(subject: str, stem: str) -> str:
 def whole(path: Path) -> str:
     """The text of a scene with its head."""
     text = path.read_text(encoding="utf-8")
-    return text if "graphkin = 1" in text else HEAD + text
+    own = {line.partition(" = ")[0] for line in text.splitlines()}
+    return "".join(line for line in HEAD.splitlines(True) if line.split()[0] not in own) + text
 
 
 def graphkin(*words: object) -> str:
