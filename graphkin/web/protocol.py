@@ -15,6 +15,7 @@ from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.segments import segment_of
+from graphkin.construction.rate_relations import of_turning
 from graphkin.documents.detail import scale_words
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
@@ -343,10 +344,12 @@ def shown_by(drawing: Drawing, number: int, fresh: Iterable[int], shown: Abstrac
 
 
 def rates_read(drawing: Drawing, sentence: Sentence) -> Iterator[str]:
-    """The links whose rates a sentence reads off."""
+    """The links whose rates a sentence reads off: not what only keeps a wheel on its track."""
     if sentence.name == TURNING:
+        told = {relation.left for relation in of_turning(drawing)}
         for (what, link), number in drawing.trace.program.targets.items():
-            if what == drawing.rate.target and number in sentence.all_steps:
+            is_read = what == drawing.rate.target and number in sentence.all_steps
+            if is_read and symbol(f"{drawing.rate.letter}_{link}") in told:
                 yield link
 
 

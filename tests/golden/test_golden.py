@@ -53,6 +53,14 @@ def share() -> list[tuple[str, str]]:
     return found + [(each, "solve --json" if n % 3 else "check") for n, each in enumerate(rest)]
 
 
+def test_no_fault_of_the_program_and_no_scene_that_is_no_toml_is_kept():
+    """What fails would fail alike ever after."""
+    for path in sorted(STORE.glob("*.txt")):
+        text = path.read_text(encoding="utf-8")
+        assert "a fault in graphkin" not in text, path.name
+        assert path.stem == "mistakes" or "written twice" not in text, path.name
+
+
 @pytest.mark.parametrize(("subject", "work"), share())
 def test_nothing_changed(subject, work):
     """Where a change is meant, ``python -m tests.golden`` writes it down."""
