@@ -14,9 +14,9 @@ KEPT = (
     chords.arc_chords,
     pdf.lettering,
     pdf.outline,
-    svg.called,
+    svg.class_attributes,
     svg.element,
-    svg.said,
+    svg.text_runs,
     *(richtext.laid, richtext.spaced_runs, richtext.runs, richtext.extent),
 )
 SHAPES = (

@@ -137,7 +137,7 @@ def test_the_arm_beyond_half_a_turn_is_followed_by_range_and_moving_page():
     point = trace.value("position", "C")
     at = np.arange(0.0, 360.0)
     run = runner(tracing.graph, [point.node, point.imag.node])
-    x, y = run({INPUT: at, **tracing.near(at)})
+    x, y = run({INPUT: at, **tracing.counting_angles(at)})
     rows = cycle(mechanism).along(at)
     assert np.abs(x + 1j * y - rows.solution.points["C"].position).max() < 1e-12
 
