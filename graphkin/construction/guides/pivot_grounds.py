@@ -83,8 +83,8 @@ def pivots(drawing: Drawing) -> dict[str, complex]:
 
 
 def is_covered(drawing: Drawing, here: complex, mm: float) -> bool:
-    """Whether a block turns about the pin of a pivot."""
-    return any(abs(place - here) * mm < PIN for place in swivelling(drawing))
+    """Whether a block turns about the pin of a pivot, held while the mechanism moves."""
+    return any(abs(place - here) * mm < PIN for place in swivelling(drawing.choosing))
 
 
 def segments(drawing: Drawing, mm: float) -> Iterator[Segment]:
