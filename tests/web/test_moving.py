@@ -119,9 +119,10 @@ def test_every_mark_lies_where_it_is_drawn(name):
         assert at is not None, (mark_id, mark)
         drawn = [0.0, 0.0] if isinstance(mark, Text) else numbers(mark)
         rect = sheets[s].layout.plan.rect if side else sheets[s].layout.mechanism.rect
+        edges = rect, inside(rect), above_foot(rect)
         cut = [
             at,
-            *(cut_to(at, edge) for edge in (rect, above_foot(rect)) if isinstance(mark, LineMark)),
+            *(cut_to(at, edge) for edge in edges if isinstance(mark, LineMark)),
         ]
         assert min(apart(each, drawn) for each in cut) < 1e-5, (mark_id, mark)
 
