@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
+from itertools import chain, product
 from math import cos, floor, hypot, log10, radians, sin
 from typing import NamedTuple
 
@@ -80,8 +80,8 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
         if body is not None:
             wheels = wheels_of_others(drawing, field, name)
             beside = places_beside(body, sign.radius + AIR)
-            near = [place for place in beside if is_beside(complex(*place), wheels)]
-            at = space.first(near, (0.0, 0.0), sign.radius + AIR) if near else None
+            near = (place for place in beside if is_beside(complex(*place), wheels))
+            at = space.first(near, (0.0, 0.0), sign.radius + AIR)
         if at is None:
             left.append(name)
         else:
@@ -89,10 +89,11 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
     lost = []
     for name in left:
         body = bodies[name]
-        near = [*places_around(drawing, field, name, bodies)]
-        near += [] if body is None else places_beside(body, sign_of(drawing, name).radius + AIR)
-        for sign in dict.fromkeys((sign_of(drawing, name), sign_of(drawing, name).aside)):
-            at = space.first(near, sign.half, AIR) if near else None
+        whole = sign_of(drawing, name)
+        sides = () if body is None else tuple(places_beside(body, whole.radius + AIR))
+        for sign in dict.fromkeys((whole, whole.aside)):
+            around = places_around(drawing, field, name, bodies)
+            at = space.first(chain(around, sides), sign.half, AIR)
             if at is not None:
                 yield from sign.put(space, at, rates[name])
                 break
@@ -193,7 +194,7 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     (left, high, right, low), air = space.rect, AIR + 0.1
     xs = arange(left + half[0] + air, right - half[0] - air, 5.0).tolist()
     ys = arange(low - half[1] - air, high + half[1] + air, -5.0).tolist()
-    at = space.first([(x, y) for y in ys for x in xs], half, AIR) if xs and ys else None
+    at = space.first(((x, y) for y in ys for x in xs), half, AIR)
     if at is not None:
         x, y = at[0] - half[0], at[1] - (top + bottom) / 2
         space.take((x, at[1] - half[1], x + width, at[1] + half[1]))
@@ -223,7 +224,7 @@ def sense(at: XY, radius: float, rate: float, kind: str) -> Iterator[Mark]:
 def axes(space: Space) -> Iterator[Mark]:
     """The directions of x and y in a free corner."""
     half = AXIS / 2 + 1.5
-    at = space.first([*corners(space.rect, half, half)], (half, half), APART)
+    at = space.first(corners(space.rect, half, half), (half, half), APART)
     if at is None:
         return
     x, y = at[0] - AXIS / 2, at[1] + AXIS / 2
@@ -241,7 +242,7 @@ def plan_scale(drawing: Drawing, space: Space) -> Iterator[Mark]:
     length, unit = value / k, escape(drawing.vector.unit)
     beyond = extent(unit, HEIGHT)[0] + 3
     half = (length + beyond) / 2 + 1, 3.0
-    at = space.first([*corners(space.rect, *half)], half, APART)
+    at = space.first(corners(space.rect, *half), half, APART)
     if at is None:
         return
     x, y = at[0] - half[0] + 1, at[1] + 2.5

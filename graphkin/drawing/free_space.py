@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
+from itertools import islice
 from math import inf
 from typing import NamedTuple
 
@@ -27,6 +28,8 @@ from graphkin.drawing.shapes import (
 
 GRID = 5.0
 """Distance of the places tried, in mm."""
+ABREAST = 64
+"""Places of boxes that are compared with what is drawn about them at one go."""
 TOGETHER = 16
 """Places that are compared with all that is drawn at one go."""
 INNER = ((0.7, 0.7), (0.95, 0.3), (0.3, 0.95))
@@ -60,22 +63,26 @@ class Space:
         """Marks along what is drawn, which rule most places of discs out at a glance."""
         return Blots(self.drawn, self.rect, 0.0, BLOT)
 
-    def first(self, places: Sequence[XY], half: XY, air: float) -> XY | None:
+    def first(self, places: Iterable[XY], half: XY, air: float) -> XY | None:
         """The first place in the field where a box has so much air around it; None where none has.
 
-        ``half`` are half the sides of the box.
+        ``half`` are half the sides of the box. No more places are made than are looked at.
         """
-        x, y = np.array(places, dtype=np.float64).reshape(-1, 2).T
-        wide, high = (np.full(len(x), side) for side in half)
+        drawn, coming = joined(self.lines, self.texts), iter(places)
+        grown = drawn.boxes(air)
         left, top, right, bottom = self.rect
-        inside = (x - wide >= left + air) & (x + wide <= right - air)
-        inside &= (y - high >= top + air) & (y + high <= bottom - air)
-        hull = np.array([(x - wide).min(), (y - high).min(), (x + wide).max(), (y + high).max()])
-        drawn = joined(self.lines, self.texts)
-        near = drawn.take(where(overlap(hull[:, None], drawn.boxes(air))))
-        apart = distance(x, y, wide, high, near.upright())
-        free = where(inside & (apart.min(axis=0, initial=inf) > air))
-        return places[int(free[0])] if len(free) else None
+        while some := [*islice(coming, ABREAST)]:
+            x, y = np.array(some, dtype=np.float64).T
+            wide, high = (np.full(len(x), side) for side in half)
+            inside = (x - wide >= left + air) & (x + wide <= right - air)
+            inside &= (y - high >= top + air) & (y + high <= bottom - air)
+            lows, highs = ((x - wide).min(), (y - high).min()), ((x + wide).max(), (y + high).max())
+            near = drawn.take(where(overlap(np.array([*lows, *highs])[:, None], grown)))
+            apart = distance(x, y, wide, high, near.upright())
+            free = where(inside & (apart.min(axis=0, initial=inf) > air))
+            if len(free):
+                return some[int(free[0])]
+        return None
 
     def take(self, box: Rect) -> None:
         """Keep a rectangle free of discs from now on."""
