@@ -10,11 +10,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 SCENES_PAGE = EXAMPLES / "SCENES.md"
+CLASSES_PAGE = EXAMPLES / "CLASSES.md"
 README = ROOT / "README.md"
 VERSION = "graphkin ="
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ROW = re.compile(r"^\| (\d+) \| (.+) \| `(.+)` \|$", re.MULTILINE)
 CODE = re.compile(r"`([^`]+)`")
+LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]+))?\)")
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,18 @@ def whole_above(page: Path, line: int) -> str:
 def heading_above(text: str) -> str:
     """The last heading of a text."""
     return re.findall(r"^#+ (.+)$", text, re.MULTILINE)[-1]
+
+
+def anchors(page: Path) -> set[str]:
+    """What a link to a heading of a page may end with."""
+    headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", each.lower()).replace(" ", "-") for each in headings}
+
+
+def links(page: Path) -> Iterator[tuple[Path, str]]:
+    """Each link of a page to a file of the project, and the heading that it names there, if any."""
+    for to, heading in LINK.findall(page.read_text(encoding="utf-8")):
+        yield page.parent / to if to else page, heading
 
 
 def line_of(text: str, found: re.Match[str]) -> int:

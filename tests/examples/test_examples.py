@@ -1,4 +1,4 @@
-"""What a newcomer reads and runs, run: scripts, scenes, and every block of the two pages."""
+"""What a newcomer reads and runs, run: scripts, scenes, and every block and link of the pages."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from graphkin.construction.core.solution import FAIR
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from tests.examples.document import (
+    CLASSES_PAGE,
     EXAMPLES,
     README,
     ROOT,
@@ -25,8 +26,10 @@ from tests.examples.document import (
     VERSION,
     Block,
     Mistake,
+    anchors,
     blocks,
     commands,
+    links,
     mistakes,
     whole_above,
     with_part,
@@ -201,6 +204,14 @@ def test_every_scene_is_named_on_the_page_once() -> None:
     _, table = page.split("## Scenes that come with it")
     named = re.findall(r"\(scenes/(.+?)\.toml\)", table.split("\n## ")[0])
     assert sorted(named) == sorted(path.stem for path in (EXAMPLES / "scenes").glob("*.toml"))
+
+
+@pytest.mark.parametrize("page", [README, SCENES_PAGE, CLASSES_PAGE], ids=named)
+def test_every_link_leads_to_a_file_and_a_heading(page: Path) -> None:
+    led = list(links(page))
+    assert led
+    assert [to for to, _ in led if not to.exists()] == []
+    assert [(to, heading) for to, heading in led if heading and heading not in anchors(to)] == []
 
 
 def test_without_ask_everything_is_asked() -> None:

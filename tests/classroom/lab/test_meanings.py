@@ -1,4 +1,4 @@
-"""Every field and every slip is named with its meaning, in the README and in a new lab's rubric."""
+"""Every field and every slip has a meaning, on the page of classes and in a new lab's rubric."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from graphkin.mechanism import load
 from graphkin.text import words
 from tests.classroom.lab.singles import LABS, ROOT
 
-README = ROOT / "README.md"
+CLASSES = ROOT / "examples" / "CLASSES.md"
 
 
 def table(heads: tuple[str, str], rows: Mapping[str, str]) -> str:
-    """What the README says, in its form."""
+    """What the page says, in its form."""
     lines = [f"| {heads[0]} | {heads[1]} |", "|---|---|"]
     return "\n".join([*lines, *(f"| `{name}` | {told} |" for name, told in rows.items())]) + "\n"
 
@@ -30,9 +30,9 @@ def table(heads: tuple[str, str], rows: Mapping[str, str]) -> str:
     [(("field", "what it is"), kinds()), (("slip", "what the student did"), slips())],
     ids=["fields", "slips"],
 )
-def test_the_readme_has_all_of_them(heads, rows):
-    text = README.read_text(encoding="utf-8")
-    assert table(heads, rows) in text, f"write this into README.md:\n{table(heads, rows)}"
+def test_the_page_of_classes_has_all_of_them(heads, rows):
+    text = CLASSES.read_text(encoding="utf-8")
+    assert table(heads, rows) in text, f"write this into CLASSES.md:\n{table(heads, rows)}"
 
 
 def test_every_quantity_of_a_form_has_a_meaning():
