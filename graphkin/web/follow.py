@@ -179,9 +179,8 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return self.binder.carried_by(places.pose(name))
         if name in places.spots:
             return self.binder.with_point(places.spots[name])
-        if name.startswith(("omega ", "speed ")):
-            pose = places.pose(name.partition(" ")[2])
-            return self.binder.carried_by(pose)
+        if text.shows and text.shows.what == "rate":
+            return self.binder.carried_by(places.pose(text.shows.link))
         return still if name in self.curves else only_at_start
 
     def text_of(self, k: int) -> Text | None:

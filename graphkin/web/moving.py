@@ -246,7 +246,7 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
             shows = shows / figure.metres
             told = next(k for k, one in enumerate(given) if one.of is figure.driver.position)
         yield {
-            "key": figure.name.removeprefix("figure ").replace("of driver ", "drive"),
+            "key": figure.key,
             "name": marked_up(figure.symbol),
             "place": tracing.inputs[figure.name],
             "start": figure.start,
