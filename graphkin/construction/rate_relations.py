@@ -24,16 +24,16 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
 
     A link that turns as another does comes after that one.
     """
-    found = list(of_links(drawing))
+    found = [replace(relation, turns=True) for relation in of_links(drawing)]
     names = names_of(found)
     waiting: list[Relation] = []
     for relation in found:
         names.discard(relation.left)
-        if relation.symbols in names:
+        if relation.takes in names:
             waiting.append(relation)
             continue
         yield relation
-        yield from (other for other in waiting if other.symbols == relation.left)
+        yield from (other for other in waiting if other.takes == relation.left)
     for relation in of_gears(drawing):
         again = drawing.words("calculation.willis") if relation.left in names_of(found) else ""
         remark = "; ".join(filter(None, (relation.remark, again)))
@@ -60,7 +60,8 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
         name = symbol(f"{letter}_{link}")
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
         if step.action is not None and turning_with(drawing, step.name) != link:
-            yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
+            other = rate_symbol(drawing, number, letter)
+            yield Relation(name, other, "", *tail, takes=other)
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)
         elif kind and (found := kind.rate_relation(drawing, link, tail)):
@@ -147,7 +148,8 @@ def by_radii(
             symbols = f"{arm} {sign} (0 − {arm})·{radii}"
     result = drawing.words.significant(whole, 4)
     remark = sense(drawing.words, whole)
-    return Relation(wheel, symbols, figures, result, drawing.rate.caret_unit, remark)
+    unit = drawing.rate.caret_unit
+    return Relation(wheel, symbols, figures, result, unit, remark, turns=True)
 
 
 def radius_of(disc: Disc) -> str:

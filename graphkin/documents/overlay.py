@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
 
 from msgspec.structs import replace
 
@@ -34,7 +34,8 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     layout = lowered(layout or lay_out(drawing), heading(drawing, "task")[2])
     words = drawing.words
     tasks = boards(drawing, layout, "task")
-    known = {(label.name, label.cls) for task in tasks for label in task.labels}
+    labels = (label for task in tasks for label in task.labels)
+    known = {(label.name, cls) for label in labels for cls in (label.look, label.leader_look)}
     name = f"{title_of(drawing)} – {words('sheet.' + called(drawing))}"
     set_to = "".join(f", {each}" for each in variant(drawing.scene, words))
     rest = f"{set_to}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
@@ -44,18 +45,12 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
         *(
             untinted(mark)
             for mark in with_detail(*boards(drawing, layout, "key"))
-            if not is_letter(mark, known)
+            if (mark.name, mark.cls) not in known
         ),
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )
     return Page(420, 297, marks, name, words.language)
-
-
-def is_letter(mark: Mark, known: Set[tuple[str, str]]) -> bool:
-    """True for a label, or its leader, that the task sheet has by its name and its look."""
-    kind, _, look = mark.cls.partition(" ")
-    return kind in ("label", "leader") and (mark.name, look) in known
 
 
 def untinted(mark: Mark) -> Mark:

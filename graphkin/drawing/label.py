@@ -69,6 +69,16 @@ class Label(Struct, frozen=True):
         """True for a letter of the construction that may still be made smaller."""
         return self.cls == "construction" and self.height > SMALL
 
+    @property
+    def look(self) -> str:
+        """The classes of its text."""
+        return f"label {self.cls}".strip()
+
+    @property
+    def leader_look(self) -> str:
+        """The classes of its leader."""
+        return f"leader {self.cls}".strip()
+
     def wish(self) -> Wish:
         """The box that the label needs, and where."""
         gap = LED if self.led else GAP
@@ -81,9 +91,8 @@ class Label(Struct, frozen=True):
         """The label at its place, with its leader or circle."""
         leader = spot.leader or (self.short_leader(spot) if self.led else None)
         if leader:
-            style = f"leader {self.cls}".strip()
             own = self.name, self.step, self.part, self.shows
-            yield LineMark(*leader[0], *leader[1], style, *own)
+            yield LineMark(*leader[0], *leader[1], self.leader_look, *own)
         if self.ring:
             yield self.balloon(spot)
         yield self.text(spot)
@@ -100,9 +109,8 @@ class Label(Struct, frozen=True):
         """The label's text with the middle of its ink at a place."""
         width, top, bottom = extent(self.markup, self.height)
         x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
-        style = f"label {self.cls}".strip()
         own = self.name, self.step, 0.0, self.part, self.letters, self.shows
-        return Text(x, y, self.markup, style, self.height, "start", *own)
+        return Text(x, y, self.markup, self.look, self.height, "start", *own)
 
     def area(self, spot: Spot) -> Rect:
         """The box that the text's ink takes up at a place."""

@@ -42,7 +42,7 @@ from graphkin.scene.model import (
     lengths_of,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text import MINUS, Words
+from graphkin.text import Words
 
 
 class Datum(Struct, frozen=True):
@@ -250,8 +250,7 @@ def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -
         return after_parameter(scene, words, quantity), ""
     if value > 0:
         return after_parameter(scene, words, quantity), words("page.turning_anticlockwise")
-    size = written(scene, words, quantity).removeprefix(MINUS)
-    return size, words("page.turning_clockwise")
+    return written(scene, words, quantity.negative()), words("page.turning_clockwise")
 
 
 def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
@@ -303,7 +302,7 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 yield Datum(words(key, angle=written(scene, words, placing.angle), **fields))
             elif isinstance(placing, Angled):
                 arms, angle = [symbol(placing.arm), point], placing.angle
-                if angle.text.startswith("-("):  # written from the point that it places
+                if placing.clockwise:  # written from the point that it places
                     arms, angle = arms[::-1], angle.negative()
                 name = f"∠{arms[0]}{symbol(placing.vertex)}{arms[1]}"
                 yield Datum(name=name, value=written(scene, words, angle))

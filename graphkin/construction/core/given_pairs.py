@@ -18,7 +18,7 @@ from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
 from graphkin.scene.wheels import contact_letters
-from graphkin.text import MINUS, Words
+from graphkin.text import Words
 
 WHEELS = {
     (False, False): "page.wheel",
@@ -116,8 +116,9 @@ def counted_from(words: Words, path: Slide | Rolling, way: complex) -> str:
 def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
     """How far a block's point stays from the line it slides along, and on which side."""
     words, line = drawing.words, drawing.guide(slide)
-    amount = written(drawing.scene, words, slide.offset).removeprefix(MINUS)
     sign = 1 if float(slide.offset.si(drawing.scene.values)) > 0 else -1
+    offset = slide.offset if sign > 0 else slide.offset.negative()
+    amount = written(drawing.scene, words, offset)
     if line:
         return {"offset": amount, "side": words(f"page.{heading(1j * line[1] * sign)}")}
     return {"offset": amount, "side": words("page.left" if sign > 0 else "page.right")}

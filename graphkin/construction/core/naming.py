@@ -151,7 +151,7 @@ def driver_index(driver: Driver) -> str:
 
 def speed_symbol(driver: Driver) -> str:
     """Symbol of a driver's speed, as among the data."""
-    turning = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
+    turning = "*n*" if driver.speed.unit == "rev/min" else "*ω*"
     return f"{turning if driver.kind == 'turn' else '*v*'}_{{{driver_index(driver)}}}"
 
 

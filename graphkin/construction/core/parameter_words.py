@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from graphkin.construction.core.naming import angle_symbol, speed_symbol
-from graphkin.construction.core.quantities import written
+from graphkin.construction.core.quantities import unit_words, written
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import CONSTANT, TIME
 from graphkin.scene.model import Scene, lengths_of, quantities_within
@@ -71,7 +71,7 @@ def parameter_symbol(name: str) -> str:
 def as_set(scene: Scene, words: Words, name: str) -> tuple[str, str]:
     """A parameter's symbol and what it is set to; t is the moment of laws of time, in seconds."""
     unit = "s" if name == TIME else unit_of(scene, name)
-    printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    printed = unit_words(words, unit)
     space = " " if printed and printed != "°" else ""
     return parameter_symbol(name), words.decimal(shortest(scene.values[name])) + space + printed
 

@@ -181,8 +181,13 @@ def in_mm(words: Words, length: OnPaper) -> str:
 
 def written(scene: Scene, words: Words, quantity: Quantity) -> str:
     """A quantity as printed: in its written unit, in the language's own way."""
-    unit = words(f"unit.{quantity.unit}") if words.has(f"unit.{quantity.unit}") else quantity.unit
+    unit = unit_words(words, quantity.unit)
     return number_of(scene, words, quantity) + ("" if unit == "°" else " ") + unit
+
+
+def unit_words(words: Words, unit: str) -> str:
+    """A unit of a scene as it is printed."""
+    return words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
 
 
 def number_of(scene: Scene, words: Words, quantity: Quantity) -> str:

@@ -65,7 +65,8 @@ class Relation(Struct, frozen=True):
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
     of the lengths that it takes. ``blank``: what a form has for a result that is no single number,
     and how it is counted. ``equation``: the vector equation that it is. ``given``: it is chosen, so
-    that a form states it.
+    that a form states it. ``takes``: the symbol of what is found in the plan, or of the rate, from
+    which it follows. ``turns``: its result is a rate of turning, for whose sense a form has room.
     """
 
     left: str
@@ -80,6 +81,8 @@ class Relation(Struct, frozen=True):
     blank: tuple[str, ...] = ()
     equation: VectorEquation | None = None
     given: bool = False
+    takes: str = ""
+    turns: bool = False
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""

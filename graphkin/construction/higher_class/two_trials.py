@@ -37,7 +37,7 @@ from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.coincident_points import carried
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.higher_class import coupled_train
-from graphkin.construction.higher_class.divided_point import DividedPoint, crossings
+from graphkin.construction.higher_class.divided_point import SHARE, DividedPoint, crossings
 from graphkin.construction.higher_class.higher import Each, inverse, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
@@ -120,7 +120,7 @@ class TwoTrials(Construction, frozen=True):
     def symbol(self) -> str:
         """Markup of the share, with the tag of the plan to which its trials lead, if of a trial."""
         whole = self.plans[0].whole
-        return "*λ*" if whole is None else symbol(f"λ{whole.tag}")
+        return SHARE if whole is None else symbol(f"λ{whole.tag}")
 
     def divided(self, program: Program) -> Iterator[DividedPoint]:
         """The points of the right plan that it divides."""
