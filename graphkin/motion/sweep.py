@@ -123,6 +123,11 @@ def names(number: int) -> tuple[str, str, str]:
     return (f"drive {number} position", f"drive {number} speed", f"drive {number} acceleration")
 
 
+def inputs(scene: Scene) -> frozenset[str]:
+    """The names of the numbers by which a sweep sets the drivers of a scene."""
+    return frozenset(name for n, _ in enumerate(scene.drivers, 1) for name in names(n))
+
+
 def sweep_of(
     scene: Scene,
     *,
