@@ -15,7 +15,7 @@ from msgspec import Struct
 
 from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import Path, Piece, followed
+from graphkin.motion.pieces import Path, Piece, reachable_ranges
 from graphkin.motion.sweep import Sweep, inputs, sweep_of
 from graphkin.scene.model import Closure, Scene
 from graphkin.text.errors import ClosureError, Problem
@@ -93,7 +93,7 @@ def ground_of(scene: Scene) -> Ground:
     """Where a scene can move; raises ClosureError where it closes nowhere."""
     sweep = sweep_of(scene)
     centre = sweep.stands
-    path = followed(sweep)
+    path = reachable_ranges(sweep)
     low, high = path.ranges[0][0].low.at, path.ranges[0][-1].high.at
     if sweep.what == "turn":
         centre += TURN * round(((low + high) / 2 - centre) / TURN)

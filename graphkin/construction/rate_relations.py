@@ -13,7 +13,7 @@ from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import rate_symbol, sense, turning_with, vector_of
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
-from graphkin.construction.result_tables import slid, slide_sense
+from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import of_wheel, symbol
 from graphkin.scene.model import FRAME, Belt, Driver
@@ -163,7 +163,7 @@ def radius_of(disc: Disc) -> str:
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
     """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
     what, unit = drawing.sliding.target, drawing.sliding.caret_unit
-    for block, name, value in slid(drawing):
+    for block, name, value in slides_asked(drawing):
         size = drawing.settled(abs(value))
         remark = slide_sense(drawing, block, value) if size else ""
         vector = along_guide(drawing, drawing.trace.program.targets[what, block])

@@ -25,7 +25,7 @@ from graphkin.construction.core.relation import (
     as_read,
     figure,
     length_of,
-    rounded,
+    rounded_figure,
     ruler,
 )
 from graphkin.construction.core.segments import segment_of
@@ -188,7 +188,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
         segment_of(drawing, step),
         f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
         f"{figure(drawing, size)}/{figure(drawing, scale)}",
-        ruler(drawing, OnPaper(rounded(size) / rounded(scale))),
+        ruler(drawing, OnPaper(rounded_figure(size) / rounded_figure(scale))),
         "mm",
         drawing.words("calculation.drawn"),
     )

@@ -56,7 +56,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     return found
 
 
-def grown(
+def marks_at_stage(
     timed: Sequence[tuple[int, Mark]], stage: int, telling: Mapping[str, int]
 ) -> Iterator[Mark]:
     """The marks that stand at a sentence; those that it draws are marked as new.

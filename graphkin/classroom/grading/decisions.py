@@ -164,7 +164,7 @@ def by_student(decisions: Iterable[Decision]) -> Mapping[str, Sequence[Decision]
     return found
 
 
-def decided(graded: Graded, decisions: Sequence[Decision]) -> Graded:
+def with_decisions(graded: Graded, decisions: Sequence[Decision]) -> Graded:
     """A student's marks as the lecturer decided: fields first, then the whole form."""
     if not decisions:
         return graded

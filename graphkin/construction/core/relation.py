@@ -153,7 +153,9 @@ def as_read(drawing: Drawing, millimetres: OnPaper, scale: float) -> tuple[str, 
             some
             for some in range(first, first + DIGITS)
             if value
-            == value_of(drawing.words, rounded(scale) * round(millimetres, some), millimetres)
+            == value_of(
+                drawing.words, rounded_figure(scale) * round(millimetres, some), millimetres
+            )
         ),
         first + 2,
     )
@@ -170,7 +172,7 @@ def length_of(drawing: Drawing, p: str, q: str) -> float:
     return abs(drawing.standing.spot(q) - drawing.standing.spot(p))
 
 
-def rounded(value: float) -> float:
+def rounded_figure(value: float) -> float:
     """A number as large as its figure: what a reader who takes the figure computes from."""
     return float(f"{value:.{DIGITS - 1}e}")
 

@@ -15,7 +15,7 @@ from graphkin.construction.core.naming import (
     sense,
     speed_symbol,
 )
-from graphkin.construction.core.parameter_words import expression, is_derived, reckoned
+from graphkin.construction.core.parameter_words import expression, has_own_relation, is_derived
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import RATES, number_of, unit_words
 from graphkin.construction.core.relation import (
@@ -23,7 +23,7 @@ from graphkin.construction.core.relation import (
     answer,
     figure,
     length_of,
-    rounded,
+    rounded_figure,
     squared,
 )
 from graphkin.construction.rate_relations import of_sum
@@ -51,7 +51,7 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
         (speed_symbol(driver), driver.speed),
         (f"{rate}{index}", driver.acceleration),
     ):
-        if reckoned(scene, quantity):
+        if has_own_relation(scene, quantity):
             amount = number_of(scene, words, quantity)
             symbols, law = expression(scene, words, quantity, values=False), quantity
             if is_derived(quantity):  # figures are put in only after it is derived
@@ -171,7 +171,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
             name,
             "",
             f"{figure(drawing, length)}/{number}",
-            figure(drawing, drawing.on_paper(rounded(length))),
+            figure(drawing, drawing.on_paper(rounded_figure(length))),
             "mm",
             words("calculation.drawn"),
         )

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.naming import angle_symbol, driver_index
-from graphkin.construction.core.quantities import in_degrees, written
+from graphkin.construction.core.quantities import in_degrees, quantity_text
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import seat
 from graphkin.construction.guides.slide_symbols import within
@@ -114,7 +114,7 @@ def coordinate(drawing: Drawing, driver: Driver, defined: bool) -> str:
         return letter
     given = drawing.scene, drawing.words, driver.position
     angle = in_degrees(*given) if driver.kind == "turn" else ""
-    return f"{letter} = {angle or written(*given)}"
+    return f"{letter} = {angle or quantity_text(*given)}"
 
 
 def crank_end(drawing: Drawing, driver: Driver) -> Real:

@@ -34,7 +34,7 @@ from graphkin.construction.core.vocabulary import (
     sum_of,
 )
 from graphkin.construction.group_images import GroupImages
-from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.higher_class import coupled_train
 from graphkin.construction.higher_class.divided_point import SHARE, DividedPoint, crossings
@@ -401,7 +401,7 @@ def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
     pair, point = group.tried.pair, pen.bases[group.tried.link].start
     assert not isinstance(pair, Pin)
-    under = carried(pen, partner(pair, group.tried.link), point, VELOCITY)
+    under = image_under(pen, partner(pair, group.tried.link), point, VELOCITY)
     speed = pen.draw(distance, under, pen.the("velocity", point))
     return pen.draw(product, speed, pen.draw(inverse, bar))
 
