@@ -15,11 +15,11 @@ from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import (
     Solution,
     Verdict,
-    decided,
     gathered,
     product_of_sines,
     row_of,
     rows_of,
+    without_touching,
 )
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene import scene_files
@@ -303,7 +303,7 @@ class Mechanism(Struct, frozen=True, dict=True):
 
                 numbers = array_kind(kind)
                 trace = run_blocks(self.program, needed, values, numbers, keep, margins=True)
-        solution = gathered(decided(trace), self.scene.links)
+        solution = gathered(without_touching(trace), self.scene.links)
         if kind != "float64":
             return solution
         return self.sure(solution, values, product_of_sines(trace))

@@ -129,7 +129,9 @@ def nearest(value: Any) -> Any:
     return in_doubles(value)
 
 
-def decided(mechanism: Mechanism, digits: int, targets: Iterable[Target] | None) -> Trace | None:
+def trace_by_balls(
+    mechanism: Mechanism, digits: int, targets: Iterable[Target] | None
+) -> Trace | None:
     """What balls find of some targets, in doubles, where rounding leaves doubles without any.
 
     None where balls do not find every position either, as at a dead point itself.

@@ -15,8 +15,8 @@ from msgspec import Struct
 
 from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import Path, Piece, followed
-from graphkin.motion.sweep import Sweep, sweep_of
+from graphkin.motion.pieces import Path, Piece, reachable_ranges
+from graphkin.motion.sweep import Sweep, inputs, sweep_of
 from graphkin.scene.model import Closure, Scene
 from graphkin.text.errors import ClosureError, Problem
 
@@ -93,7 +93,7 @@ def ground_of(scene: Scene) -> Ground:
     """Where a scene can move; raises ClosureError where it closes nowhere."""
     sweep = sweep_of(scene)
     centre = sweep.stands
-    path = followed(sweep)
+    path = reachable_ranges(sweep)
     low, high = path.ranges[0][0].low.at, path.ranges[0][-1].high.at
     if sweep.what == "turn":
         centre += TURN * round(((low + high) / 2 - centre) / TURN)
@@ -110,8 +110,7 @@ def placed(course: Course, at: Reals, *, single: bool = True) -> ComparedPositio
     rounded = np.float32(at).astype(float) if single else np.asarray(at, dtype=float)
     values = course.values(rounded)
     if single:
-        motion = {name: in_single(v) for name, v in values.items() if name.startswith("drive ")}
-        values |= motion
+        values |= {name: in_single(values[name]) for name in inputs(course.scene)}
     return ComparedPositions(course, rounded, values)
 
 

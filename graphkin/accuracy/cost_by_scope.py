@@ -9,7 +9,7 @@ from graphkin.accuracy.point_names import GREY
 from graphkin.accuracy.scope import ASKED
 from graphkin.accuracy.study import Study
 from graphkin.construction.core.timing import Timing
-from graphkin.writers.plot_style import COLOURS, INK, heading, new_figure, titled
+from graphkin.writers.plot_style import COLOURS, INK, figure_title, new_figure, panel_heading
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,7 +21,7 @@ def bars(study: Study, machine: str) -> Figure:
     figure = new_figure(11.2, 4.6)
     left, right = figure.subplots(1, 2, sharey=True)
     scopes = study.scopes
-    titled(
+    figure_title(
         figure,
         f"What is not asked costs nothing: {study.mechanism.scene.title}",
         fontweight="bold",
@@ -30,9 +30,9 @@ def bars(study: Study, machine: str) -> Figure:
     labels = [f"{scope.name}\n{scope.steps} steps" for scope in scopes]
     colours = [COLOURS[1] if scope.name == ASKED else COLOURS[0] for scope in scopes]
     panel(left, labels, colours, [scope.single for scope in scopes])
-    heading(left, "One position after the other")
+    panel_heading(left, "One position after the other")
     panel(right, labels, colours, [scope.batch for scope in scopes])
-    heading(right, "In a batch")
+    panel_heading(right, "In a batch")
     figure.supxlabel(
         f"Medians with quartiles of everything up to each scope. {machine}",
         fontsize=7,

@@ -13,7 +13,7 @@ from graphkin.accuracy.point_names import GREY, PointName, name_points
 from graphkin.accuracy.study import Study
 from graphkin.construction.core.quantities import KINDS
 from graphkin.motion.course import Reals
-from graphkin.writers.plot_style import COLOURS, INK, PALE, heading, new_figure, titled
+from graphkin.writers.plot_style import COLOURS, INK, PALE, figure_title, new_figure, panel_heading
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,10 +41,10 @@ def slopes(study: Study, machine: str) -> Figure | None:
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     named: list[tuple[Axes, list[PointName], list[tuple[float, float]]]] = []
     to_end = found.approach.end != "range"
-    titled(figure, title_of(study), fontweight="bold", fontsize=12.5)
+    figure_title(figure, title_of(study), fontweight="bold", fontsize=12.5)
     for n, ax in enumerate(panels):
         ends = panel(ax, study, n)
-        heading(ax, TITLES[n] if to_end else KINDS[n].capitalize())
+        panel_heading(ax, TITLES[n] if to_end else KINDS[n].capitalize())
         ax.set_xlabel(along_words(found))
         ax.text(
             0.02, 0.02, told(study, n), transform=ax.transAxes, ha="left", va="bottom",

@@ -13,7 +13,7 @@ from graphkin.accuracy.pencil_rows import PENCILS
 from graphkin.accuracy.point_names import GREY, PointName, name_points
 from graphkin.accuracy.study import Study
 from graphkin.construction.core.quantities import KINDS
-from graphkin.writers.plot_style import COLOURS, INK, heading, new_figure, titled
+from graphkin.writers.plot_style import COLOURS, INK, figure_title, new_figure, panel_heading
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,7 +71,7 @@ def ladder(study: Study, machine: str) -> Figure:
     which = shown_quantity(study.rows)
     spots = [spot for row in study.rows if (spot := spot_of(row, which)) is not None]
     left, right = figure.subplots(1, 2, width_ratios=(1.12, 1))
-    titled(
+    figure_title(
         figure,
         f"What accuracy costs: {study.mechanism.scene.title}",
         fontweight="bold",
@@ -124,7 +124,7 @@ def whole(figure: Figure, ax: Axes, spots: Sequence[MethodSpot]) -> None:
     from matplotlib.ticker import LogLocator
 
     axes_of(ax, spots)
-    heading(ax, digits_words(spots))
+    panel_heading(ax, digits_words(spots))
     ax.axvspan(*BY_HAND, color=FAMILIES["pencil"][0], alpha=0.13, lw=0)
     draw(ax, spots)
     ax.yaxis.set_major_locator(LogLocator(base=1e20))
@@ -161,7 +161,7 @@ def enlarged(figure: Figure, ax: Axes, spots: Sequence[MethodSpot]) -> None:
     pencils = [s.error for s in spots if s.row.family == "pencil"]
     axes_of(ax, near)
     ax.set_ylabel("")
-    heading(ax, batch_words(spots))
+    panel_heading(ax, batch_words(spots))
     ax.set_ylim(LEAST, 10 * max([*(s.error for s in near), *pencils, 1e-2]))
     if pencils:
         ax.axhspan(min(pencils), max(pencils), color=FAMILIES["pencil"][0], alpha=0.13, lw=0)

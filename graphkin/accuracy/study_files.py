@@ -9,7 +9,7 @@ from graphkin.accuracy.error_against_sine import slopes
 from graphkin.accuracy.error_against_time import ladder
 from graphkin.accuracy.machine import machine_words
 from graphkin.accuracy.study import Study
-from graphkin.writers.plot_style import look, written
+from graphkin.writers.plot_style import figure_file, look
 
 PICTURES = {"time": ladder, "dead-point": slopes, "scope": bars}
 """The pictures by the last part of their file names."""
@@ -25,5 +25,5 @@ def picture_files(study: Study, stem: str, formats: Sequence[str]) -> dict[str, 
             if figure is None:
                 continue
             for kind in formats:
-                files[f"{stem}-accuracy-{name}.{kind}"] = written(figure, kind)
+                files[f"{stem}-accuracy-{name}.{kind}"] = figure_file(figure, kind)
     return files

@@ -31,7 +31,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import part
 from graphkin.web.scripts import FORM, together
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -99,7 +99,7 @@ def form_fragment(
             for _, own in alike
         ]
         sheets += [(words(f"sheet.{sheet}"), groups)] if groups else []
-    return filled(
+    return from_template(
         "classroom/templates/form.html",
         settings=json.dumps(settings(items, words, identity), ensure_ascii=False),
         advice=advice(items, words, pivot),

@@ -17,7 +17,7 @@ from graphkin.cli.options import (
     language_option,
     leave,
     mechanism_of,
-    named,
+    option_words,
     pairs_of,
     scales_of,
     scene_argument,
@@ -76,7 +76,7 @@ def sheet(
       graphkin sheet pump --set n=7 -o sheets --format html
       graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
     """
-    kinds = named("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
+    kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "pmks"))
     from graphkin.classroom.sheet_files import sheet_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 
@@ -145,7 +145,7 @@ def cycle(
       graphkin cycle mine.toml -o cycles --steps 720 --format png
       graphkin cycle pump --set n=7 -o cycles --format gif,html
     """
-    kinds = named("--format", formats, ("svg", "png", "gif", "html"))
+    kinds = option_words("--format", formats, ("svg", "png", "gif", "html"))
     from graphkin.cli.report.cycle_report import agrees, cycle_lines
     from graphkin.cli.report.cycle_table import cycle_table
     from graphkin.motion.curves.curve_files import FORMATS as CURVES
@@ -203,7 +203,7 @@ def accuracy(
       graphkin accuracy pump -o accuracy
       graphkin accuracy mine.toml -o accuracy --quick
     """
-    kinds = named("--format", formats, ("svg", "png"))
+    kinds = option_words("--format", formats, ("svg", "png"))
     from graphkin.accuracy.stopwatch import QUICK, Effort
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_files import picture_files

@@ -333,7 +333,7 @@ def tell_books(
     """What came of gradebooks that were written: how many marks, whose are not in them, and whose
     rows are of nobody in the class.
     """
-    from graphkin.classroom.grading.answer_numbers import shown
+    from graphkin.classroom.grading.answer_numbers import shown_cell
     from graphkin.classroom.grading.marks_tables import number
 
     graded = found.result.graded
@@ -355,7 +355,7 @@ def tell_books(
         for key, who in kept:
             tell_some([words(key, file=path.name, who=each) for each in who], words)
         if book.strangers:
-            rows = [f"{row} ({shown(who)})" for row, who in book.strangers.items()]
+            rows = [f"{row} ({shown_cell(who)})" for row, who in book.strangers.items()]
             more = len(rows) - SHOWN
             others = words("class.more", count=more) if more > 0 else ""
             told = ", ".join(rows[:SHOWN]) + others

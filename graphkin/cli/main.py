@@ -231,9 +231,9 @@ def traced(
     except ClosureError:
         if digits is None:
             raise
-        from graphkin.accuracy.certified import decided
+        from graphkin.accuracy.certified import trace_by_balls
 
-        trace = decided(mechanism, digits, targets)
+        trace = trace_by_balls(mechanism, digits, targets)
         if trace is None:
             raise
         return trace, False

@@ -69,7 +69,7 @@ force_option = click.option("--force", is_flag=True, help="Replace files that ex
 """Leave to replace files."""
 
 
-def named(option: str, text: str, known: tuple[str, ...]) -> tuple[str, ...]:
+def option_words(option: str, text: str, known: tuple[str, ...]) -> tuple[str, ...]:
     """The words of an option with commas between them, in the order in which they are known."""
     words = [word.strip().lower() for word in text.split(",") if word.strip()]
     wrong = [word for word in words if word not in known]

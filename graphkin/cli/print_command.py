@@ -17,7 +17,7 @@ from graphkin.cli.options import (
     ink_option,
     jobs_option,
     lang_option,
-    named,
+    option_words,
 )
 
 if TYPE_CHECKING:
@@ -96,8 +96,8 @@ def print_sheets(
     from graphkin.classroom.printing.print_work import VIEWS
     from graphkin.classroom.printing.workers import CLUSTER, cores
 
-    chosen = named("--view", views, VIEWS)
-    kinds = named("--format", formats, ("pdf", "svg", "html"))
+    chosen = option_words("--view", views, VIEWS)
+    kinds = option_words("--format", formats, ("pdf", "svg", "html"))
     if "html" in kinds and "overlay" in chosen:
         raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):

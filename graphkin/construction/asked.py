@@ -8,7 +8,7 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.plan import Plan
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Vector
@@ -54,7 +54,7 @@ def constructed(pen: Pen, name: str, plan: Plan) -> str:
     if not pen.has("position", name):
         pen.want("position", name, pen.the("position", point))
     if not pen.has(plan.quantity, name):
-        number = carried(pen, link, point, plan)
+        number = image_under(pen, link, point, plan)
         if not pen.has(plan.quantity, name):
             pen.want(plan.quantity, name, number)
     return point if owned else name

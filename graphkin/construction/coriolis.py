@@ -134,6 +134,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     tip: int
     pivot_name: str = ""
     pin_name: str = ""
+    corners: str = ""
     pivot: int | None = None
     pin: int | None = None
     velocity: int | None = None
@@ -151,6 +152,10 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     def indexed_by(self) -> tuple[str, ...]:
         """The point of the guide under the one that slides on it."""
         return (lettered(under(self.point, self.guide)),)
+
+    def corner_letter(self, role: str) -> str:
+        """One of two letters that no point bears."""
+        return dict(zip(("foot", "top"), self.corners, strict=False)).get(role, "")
 
     def symbols(self) -> Mapping[str, str]:
         """The guide, and the point that slides on it."""
@@ -485,7 +490,8 @@ def similar_triangles(
     pivot, pin = (pen.the("position", name) for name in (base.start, base.end))
     images = pen.the("velocity", base.start), pen.the("velocity", base.end)
     seconds = pen.seconds()
-    first, second = (f"{corner}_{index}" for corner in corners(pen.scene))
+    both = corners(pen.scene)
+    first, second = (f"{corner}_{index}" for corner in both)
     tip_name = f"{letter(point)}{PRIME}_c{index}"
     with pen.hands_way():
         with pen.on(Part.NORMAL, Plane.MECHANISM):
@@ -499,6 +505,7 @@ def similar_triangles(
     return {
         "pivot_name": letter(base.start),
         "pin_name": letter(base.end),
+        "corners": both,
         "pivot": pivot,
         "pin": pin,
         "velocity": velocity,

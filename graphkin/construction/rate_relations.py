@@ -13,7 +13,7 @@ from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import rate_symbol, sense, turning_with, vector_of
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.drivers.summed_rate import SummedRate
-from graphkin.construction.result_tables import slid, slide_sense
+from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import of_wheel, symbol
 from graphkin.scene.model import FRAME, Belt, Driver
@@ -24,16 +24,16 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
 
     A link that turns as another does comes after that one.
     """
-    found = list(of_links(drawing))
+    found = [replace(relation, turns=True) for relation in of_links(drawing)]
     names = names_of(found)
     waiting: list[Relation] = []
     for relation in found:
         names.discard(relation.left)
-        if relation.symbols in names:
+        if relation.takes in names:
             waiting.append(relation)
             continue
         yield relation
-        yield from (other for other in waiting if other.symbols == relation.left)
+        yield from (other for other in waiting if other.takes == relation.left)
     for relation in of_gears(drawing):
         again = drawing.words("calculation.willis") if relation.left in names_of(found) else ""
         remark = "; ".join(filter(None, (relation.remark, again)))
@@ -60,7 +60,8 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
         name = symbol(f"{letter}_{link}")
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
         if step.action is not None and turning_with(drawing, step.name) != link:
-            yield Relation(name, rate_symbol(drawing, number, letter), "", *tail)
+            other = rate_symbol(drawing, number, letter)
+            yield Relation(name, other, "", *tail, takes=other)
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)
         elif kind and (found := kind.rate_relation(drawing, link, tail)):
@@ -147,7 +148,8 @@ def by_radii(
             symbols = f"{arm} {sign} (0 − {arm})·{radii}"
     result = drawing.words.significant(whole, 4)
     remark = sense(drawing.words, whole)
-    return Relation(wheel, symbols, figures, result, drawing.rate.caret_unit, remark)
+    unit = drawing.rate.caret_unit
+    return Relation(wheel, symbols, figures, result, unit, remark, turns=True)
 
 
 def radius_of(disc: Disc) -> str:
@@ -161,7 +163,7 @@ def radius_of(disc: Disc) -> str:
 def of_slides(drawing: Drawing) -> Iterator[Relation]:
     """The motion of each block that is asked: the vector of the plan along its guide, its sense."""
     what, unit = drawing.sliding.target, drawing.sliding.caret_unit
-    for block, name, value in slid(drawing):
+    for block, name, value in slides_asked(drawing):
         size = drawing.settled(abs(value))
         remark = slide_sense(drawing, block, value) if size else ""
         vector = along_guide(drawing, drawing.trace.program.targets[what, block])

@@ -107,7 +107,7 @@ def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     """One row for the motion of each block that is asked along its guide."""
     words = drawing.words
     rows = []
-    for block, name, value in slid(drawing):
+    for block, name, value in slides_asked(drawing):
         cells = ("", "")
         if not empty:
             size = drawing.settled(abs(value))
@@ -116,7 +116,7 @@ def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     return rows
 
 
-def slid(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
+def slides_asked(drawing: Drawing) -> Iterator[tuple[str, str, float]]:
     """What is asked of blocks on this sheet: block, symbol, and value along the guide."""
     what, letter = drawing.sliding.target, drawing.sliding.letter
     for block in drawing.scene.ask.slides:

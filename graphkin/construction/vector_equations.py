@@ -12,7 +12,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, VectorEquation
-from graphkin.construction.velocity.relative_motion import stated
+from graphkin.construction.velocity.relative_motion import as_relation
 
 
 def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
@@ -44,7 +44,7 @@ def joined(found: list[tuple[str, Relation]]) -> list[tuple[str, Relation]]:
             if before is not None and before.equation is not None:
                 equation = equation.joined_to(before.equation)
         is_known = equation.whole.known == 2 and bool(equation.sums)
-        rest[equation.markup if is_known else equation.whole.symbol] = taken, stated(equation)
+        rest[equation.markup if is_known else equation.whole.symbol] = taken, as_relation(equation)
     return list(rest.values())
 
 

@@ -130,7 +130,8 @@ def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:
     """The problem of a group of higher class that does not close, or not in so many ways."""
-    links = ", ".join(closed_by(failed.step))
+    closed = closed_by(failed.step)
+    links = ", ".join(closed)
     if not error.ways:
         found = f"links {links} do not close{least_miss(scene, failed)}"
         hint = where_it_closes(scene)
@@ -141,7 +142,7 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
         elsewhere = f"; with closure {error.asked} {closes_where(scene, known)}"
     ways = "1 way" if error.ways == 1 else f"{error.ways} ways"
     return Problem(
-        f"branches.{branch_of(scene, links)}",
+        f"branches.{branch_of(scene, closed)}",
         f"links {links} close in {ways} here, closure {error.asked} is asked",
         '"closure 1"' if error.ways == 1 else f'"closure 1" to "closure {error.ways}"',
         "graphkin check lists them" + elsewhere,
@@ -151,20 +152,20 @@ def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Pr
 
 def merging(scene: Scene, step: Step, error: MergingError) -> Problem:
     """The problem of a closure whose number is not decided, as two of its group merge here."""
-    links = ", ".join(closed_by(step))
+    closed = closed_by(step)
+    links = ", ".join(closed)
     merge = f"closures {error.first} and {error.first + 1} of links {links} {MERGE}"
     return Problem(
-        f"branches.{branch_of(scene, links)}",
+        f"branches.{branch_of(scene, closed)}",
         f"{merge}, so that closure {error.asked} is not decided",
         f"closure 1 to {error.first - 1}" if error.first > 1 else "a position where none merge",
         "move the driver",
     )
 
 
-def branch_of(scene: Scene, links: str) -> str:
+def branch_of(scene: Scene, links: Sequence[str]) -> str:
     """The link under which the closure of some links is written."""
-    names = links.split(", ")
-    return next((name for name in names if name in scene.branches), names[0])
+    return next((name for name in links if name in scene.branches), links[0])
 
 
 def least_miss(scene: Scene, failed: StepFailed) -> str:

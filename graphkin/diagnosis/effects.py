@@ -13,7 +13,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.program import Effect, Part, Program, Step, Target
-from graphkin.construction.core.timing import Timing, timed
+from graphkin.construction.core.timing import Timing, time_of_steps
 from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
@@ -81,7 +81,7 @@ def measured(mechanism: Mechanism) -> tuple[EffectRow, ...]:
     for number, effect in parted(mechanism).items():
         numbers.setdefault(effect.value, []).append(number)
     return tuple(
-        replace(row, time=timed(trace, numbers[row.name], mechanism.scene.values))
+        replace(row, time=time_of_steps(trace, numbers[row.name], mechanism.scene.values))
         if row.steps
         else row
         for row in effects(mechanism)

@@ -196,9 +196,9 @@ def touched(margins: Any, closed: Any, whole: bool) -> Any:
 def ranges_followed(course: Course) -> list[Range]:
     """The same of a driver after whose turn wheels stand otherwise: as far as the motion leads."""
     from graphkin.motion.driving import TURN
-    from graphkin.motion.pieces import followed
+    from graphkin.motion.pieces import reachable_ranges
 
-    path = followed(course.sweep)
+    path = reachable_ranges(course.sweep)
     if path.whole:
         return [(0.0, TURN)]
     return sorted((pieces[0].low.at, pieces[-1].high.at) for pieces in path.ranges)
@@ -206,13 +206,13 @@ def ranges_followed(course: Course) -> list[Range]:
 
 def swept(scene: Scene, number: int) -> Sweep:
     """One turn of a driver, or as far to both sides of nought as all lengths together reach."""
-    from graphkin.motion.driving import reach_of, stated
+    from graphkin.motion.driving import reach_of, stated_motion
     from graphkin.motion.sweep import sweep_of
 
     driver = scene.drivers[number - 1]
     if driver.kind == "turn":
         return sweep_of(scene, driver=number)
-    far = 2 * reach_of(scene) + abs(stated(driver, scene)[0])
+    far = 2 * reach_of(scene) + abs(stated_motion(driver, scene)[0])
     return sweep_of(scene, driver=number, low=-far, high=far)
 
 

@@ -118,7 +118,7 @@ def broken(
         parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]
     elif relation.result and not (solved or relation.given):
         parts = [*parts[:-1], f"{parts[-1]} {BLANK} {relation.unit}".rstrip()]
-        if relation.unit.startswith("rad/"):
+        if relation.turns:
             parts.append(f"({drawing.words('table.sense')}: {BLANK})")
     parts += [f"({hint})"] if hint else []
     lines = flowed(parts, "", room, LETTER)

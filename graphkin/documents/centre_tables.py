@@ -48,7 +48,7 @@ def largest(values: Iterable[complex | float | None]) -> float:
     return max((size for size in known if isfinite(size)), default=0.0)
 
 
-def completed(scene: Scene, solution: Solution) -> Solution:
+def with_blocks(scene: Scene, solution: Solution) -> Solution:
     """The solution with every moving link in it: a block turns as its guide does.
 
     A link at rest has neither centre nor pole, for each of its points is one.
@@ -59,7 +59,7 @@ def completed(scene: Scene, solution: Solution) -> Solution:
     rates = largest(point.acceleration for point in solution.points.values())
     links = {}
     for name in scene.links:
-        motion = with_pole(solution.links.get(name), carried(scene, name, solution))
+        motion = with_pole(solution.links.get(name), motion_of_block(scene, name, solution))
         points = [solution.points[p] for p in scene.links[name].points if p in solution.points]
         stops = still([motion.omega], turning)
         if stops and still((p.velocity for p in points), speeds):
@@ -86,7 +86,7 @@ def still(values: Iterable[complex | float | None], biggest: float) -> bool:
     return bool(found) and all(z is not None and abs(z) <= NOISE * biggest for z in found)
 
 
-def carried(scene: Scene, name: str, solution: Solution) -> LinkMotion:
+def motion_of_block(scene: Scene, name: str, solution: Solution) -> LinkMotion:
     """Motion of a block that turns with its guide: on the frame it does not turn."""
     point = next((p for p in scene.links[name].points if p in solution.points), None)
     motion = solution.points[point] if point is not None else PointMotion()

@@ -142,7 +142,7 @@ Best = Generator[Scales, Needs, Attempt]
 """A search with all triangles drawn, or without those that may give way."""
 
 
-def searched(stated: Stated, crank: float, natural: float, *, may_give_way: bool) -> Search:
+def searched_scales(stated: Stated, crank: float, natural: float, *, may_give_way: bool) -> Search:
     """The scale factors of a mechanism that a ``crank`` drives with a speed in rad/s, or nought.
 
     ``natural`` is the time in which its vectors are about as large as itself. Triangles that

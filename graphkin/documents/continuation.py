@@ -16,7 +16,7 @@ from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.members import members
 from graphkin.documents.sheet import (
     Moved,
-    asked,
+    asked_words,
     construction_head,
     page_title,
     right_board,
@@ -142,7 +142,7 @@ def told_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list
         first, *others = given(drawing, solved=view != "task", laws=True)
         lines += flowed([f"{words('page.data')}: {first}", *others], "; ", width, 2.5)
     if Moved.ASKED in moved:
-        first, *others = asked(drawing)
+        first, *others = asked_words(drawing)
         lines += flowed([f"{words('page.asked')}: {first}", *others], "; ", width, 2.5)
     if Moved.MEMBERS in moved:
         lines.append(members(drawing))

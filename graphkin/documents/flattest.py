@@ -16,7 +16,7 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.drawing.areas import BELOW, TABLES
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import symbol, without_index
 
 HEIGHT = 1.8
 """Height of the lettering in mm."""
@@ -43,7 +43,7 @@ def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
         return
     letter = letter_of_crossing(drawing, worst)
     forms = "page.flattest", "page.flattest_angle"
-    for form, name in product(forms, (letter, letter.partition("_")[0])):
+    for form, name in product(forms, (letter, without_index(letter))):
         text = drawing.words(
             form,
             name=symbol(name),

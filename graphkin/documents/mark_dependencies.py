@@ -14,9 +14,6 @@ from graphkin.drawing.marks import Mark, style_class
 from graphkin.scene.model import FRAME, Driver, Link
 
 Target = tuple[str, str]
-DRIVEN = ("x", "axis", "phi", "omega", "s", "speed")
-"""What the names of a driver's marks begin with; its link follows where there are several."""
-
 BODY = ("plate", "outline", "link", "number", "label", "leader")
 """The classes of a link's bar or plate, and of its number."""
 
@@ -39,13 +36,15 @@ def ground_of(drawing: Drawing, field: Field) -> Mapping[Mark, tuple[Target, ...
 
 def rests_on(drawing: Drawing, mark: Mark) -> Iterator[Target]:
     """The targets of the program that a mark cannot stand without; none for what is given."""
-    name, link = mark.name, drawing.scene.links.get(mark.name)
-    if link is not None:
+    link = drawing.scene.links.get(mark.name)
+    if mark.shows is not None:
+        drivers = (d for d in drawing.scene.drivers if d.link == mark.shows.link)
+        if mark.shows.what != "guide":
+            yield from of_driver(drawing, next(drivers))
+    elif link is not None:
         yield from of_link(drawing, link, style_class(mark))
-    elif driver := driver_of(drawing, name):
-        yield from of_driver(drawing, driver)
     else:
-        yield "position", name
+        yield "position", mark.name
 
 
 def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
@@ -83,15 +82,6 @@ def body_of(drawing: Drawing, link: Link) -> list[str]:
         return list(link.points)
     ends = corners_of(drawing, link) or farthest(places)
     return [point for point in link.points if drawing.positions.get(point) in ends]
-
-
-def driver_of(drawing: Drawing, name: str) -> Driver | None:
-    """The driver whose mark has a name."""
-    sign, _, link = name.partition(" ")
-    drivers = drawing.scene.drivers
-    if sign not in DRIVEN or name in drawing.positions:
-        return None
-    return next((d for d in drivers if d.link == link or (not link and len(drivers) == 1)), None)
 
 
 def of_driver(drawing: Drawing, driver: Driver) -> Iterator[Target]:

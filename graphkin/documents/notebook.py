@@ -8,7 +8,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, centre, poles_of, spans, with_poles
 from graphkin.documents.captions import HEADING
 from graphkin.documents.detail import with_detail
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
 from graphkin.drawing.areas import ABOVE, Rect
@@ -50,7 +50,7 @@ def plot(
     from graphkin.writers.axes import put_drawing, size_of
 
     spoken, mechanism = language_of(mechanism, language), mechanism.spoken(language)
-    drawings = drawings_of(mechanism, proved(mechanism, shown(mechanism)), spoken)
+    drawings = drawings_of(mechanism, proved(mechanism, sheet_motion(mechanism)), spoken)
     drawing = chosen(drawings, which)
     marks, field, times = for_axes(drawing, *size_of(ax), mechanism=which == "mechanism")
     put_drawing(ax, marks, field, times, ink)

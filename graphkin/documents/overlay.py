@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Set
+from collections.abc import Iterator
 
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, lowered
-from graphkin.construction.core.naming import called
+from graphkin.construction.core.naming import name_of_sheet
 from graphkin.construction.core.parameter_words import variant
 from graphkin.documents.detail import with_detail
-from graphkin.documents.sheet import boards, heading, title_of
+from graphkin.documents.sheet import boards, sheet_heading, title_of
 from graphkin.drawing.areas import A3_AREA, Rect
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -31,11 +31,12 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
     Crosses stand on the corners of the task sheet's frame, crop marks outside them. The caption
     tells which variant of the mechanism it is.
     """
-    layout = lowered(layout or lay_out(drawing), heading(drawing, "task")[2])
+    layout = lowered(layout or lay_out(drawing), sheet_heading(drawing, "task")[2])
     words = drawing.words
     tasks = boards(drawing, layout, "task")
-    known = {(label.name, label.cls) for task in tasks for label in task.labels}
-    name = f"{title_of(drawing)} – {words('sheet.' + called(drawing))}"
+    labels = (label for task in tasks for label in task.labels)
+    known = {(label.name, cls) for label in labels for cls in (label.look, label.leader_look)}
+    name = f"{title_of(drawing)} – {words('sheet.' + name_of_sheet(drawing))}"
     set_to = "".join(f", {each}" for each in variant(drawing.scene, words))
     rest = f"{set_to}, {words('sheet.overlay')} {number}, {words.decimal(drawing.scales.words)}"
     room = A3_AREA[2] - A3_AREA[0] - 24 - extent(rest, 2.5)[0]
@@ -44,18 +45,12 @@ def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page
         *(
             untinted(mark)
             for mark in with_detail(*boards(drawing, layout, "key"))
-            if not is_letter(mark, known)
+            if (mark.name, mark.cls) not in known
         ),
         *crop_marks(A3_AREA),
         Text(A3_AREA[0] + 12, A3_AREA[3] - FOOT, first + rest, "caption", height, name="title"),
     )
     return Page(420, 297, marks, name, words.language)
-
-
-def is_letter(mark: Mark, known: Set[tuple[str, str]]) -> bool:
-    """True for a label, or its leader, that the task sheet has by its name and its look."""
-    kind, _, look = mark.cls.partition(" ")
-    return kind in ("label", "leader") and (mark.name, look) in known
 
 
 def untinted(mark: Mark) -> Mark:

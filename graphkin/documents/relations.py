@@ -25,12 +25,13 @@ from graphkin.construction.core.relation import (
     as_read,
     figure,
     length_of,
-    rounded,
+    rounded_figure,
     ruler,
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import KA, of_driver, of_scales
+from graphkin.construction.higher_class.divided_point import SHARE
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.rate_relations import of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
@@ -137,11 +138,11 @@ def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
     """How a rate is found by which a vector is computed, and what is read off for it."""
     for relation in of_turning(drawing):
         if relation.left == rate:
-            if "*λ*" in relation.symbols:
+            if relation.takes == SHARE:
                 yield from of_trials(drawing)
-            yield from before_use(drawing, relation.symbols)
+            yield from before_use(drawing, relation.takes)
             read = (*read_off(drawing), *read_besides(drawing))
-            yield from (r for r in read if relation.symbols.startswith(f"{r.left}/"))
+            yield from (r for r in read if r.left == relation.takes)
             yield relation
 
 
@@ -187,7 +188,7 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
         segment_of(drawing, step),
         f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
         f"{figure(drawing, size)}/{figure(drawing, scale)}",
-        ruler(drawing, OnPaper(rounded(size) / rounded(scale))),
+        ruler(drawing, OnPaper(rounded_figure(size) / rounded_figure(scale))),
         "mm",
         drawing.words("calculation.drawn"),
     )

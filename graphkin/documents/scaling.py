@@ -12,7 +12,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, SPEEDS, Target
 from graphkin.construction.core.quantities import OMEGA, SHEETS, is_found_on
 from graphkin.construction.core.solution import Curve, Solution, Verdict, gathered
-from graphkin.documents.composing import Needs, Search, Stated, searched
+from graphkin.documents.composing import Needs, Search, Stated, searched_scales
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
 from graphkin.scene.quantity import Quantity
@@ -44,7 +44,7 @@ def sheet_targets(mechanism: Mechanism) -> dict[str, tuple[Target, ...]]:
     return {kind: found for kind, found in asked.items() if found}
 
 
-def shown(mechanism: Mechanism) -> Solution:
+def sheet_motion(mechanism: Mechanism) -> Solution:
     """The motion that the sheets show: where everything stands, and of the rest what is asked."""
     targets = dict.fromkeys(t for kind in SHEETS for t in targets_of(mechanism, kind))
     return gathered(mechanism.trace(targets or None), mechanism.scene.links)
@@ -60,7 +60,7 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     said = stated(mechanism)
     crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)
     natural = 0.0 if crank else natural_seconds(mechanism)
-    asking = searched(said, crank, natural, may_give_way=gives_way)
+    asking = searched_scales(said, crank, natural, may_give_way=gives_way)
     chosen = found(mechanism, curves, asking)
     if said.keys:
         refuse_dots(chosen, drafts_of(mechanism, curves, chosen), said.keys)
@@ -136,7 +136,7 @@ def the_crank(mechanism: Mechanism) -> float:
 
 def natural_seconds(mechanism: Mechanism) -> float:
     """The time in which vectors are about as large as the mechanism that they are set on."""
-    points = shown(mechanism).points.values()
+    points = sheet_motion(mechanism).points.values()
     places = extent_of([complex(point.position) for point in points if point.position is not None])
     size = max(places.width, places.height)
     fastest = max((abs(point.velocity or 0) for point in points), default=0.0)

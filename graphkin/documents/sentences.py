@@ -18,6 +18,7 @@ from graphkin.construction.registry import TOGETHER
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.text.markup import AND
 
 TURNING = "turning"
 """The name of the last sentence where it says how the turning of links is read off."""
@@ -75,7 +76,8 @@ def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | Non
         if number not in early and (only is None or number in only)
     ]
     if not lengths:
-        return turning.removeprefix("; ")
+        return turning
+    turning = AND + turning if turning else ""
     set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
     if names := dict.fromkeys(set_on):
         key = "step.read-off" if len(names) > 1 else "step.read-off-one"

@@ -14,7 +14,7 @@ from graphkin.construction.core.curve_marks import draw_curves
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
-from graphkin.construction.core.naming import called
+from graphkin.construction.core.naming import name_of_sheet
 from graphkin.construction.core.paper_canvas import PaperCanvas, draw_part
 from graphkin.construction.core.plot import Plot, above_foot
 from graphkin.construction.core.quantities import ASKED
@@ -114,7 +114,7 @@ def sheet(
 
 def page_title(drawing: Drawing) -> str:
     """The title of a page's file."""
-    return f"{title_of(drawing)} – {drawing.words('sheet.' + called(drawing))}"
+    return f"{title_of(drawing)} – {drawing.words('sheet.' + name_of_sheet(drawing))}"
 
 
 def panels(layout: Layout) -> list[Mark]:
@@ -155,7 +155,9 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
         title=title_of(drawing),
         creator=sheet.author,
         approved_by=sheet.approved,
-        document_type=words(f"sheet.document_{called(drawing)}", view=words(f"sheet.{view}")),
+        document_type=words(
+            f"sheet.document_{name_of_sheet(drawing)}", view=words(f"sheet.{view}")
+        ),
         identification=sheet.number,
         date_of_issue=sheet.date,
         sheet=number,
@@ -165,7 +167,7 @@ def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
     )
 
 
-def heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:
+def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[Moved], float]:
     """The sheet's title and the data, in as many lines as they need; what has no room; how much
     more height than others these lines take, in mm."""
     marks, x, y = title_line(drawing)
@@ -196,7 +198,7 @@ def title_line(drawing: Drawing, remark: str = "") -> tuple[list[Mark], float, f
     """
     words = drawing.words
     left, top = AREA[0] + 2, A3_AREA[1]
-    kinds = dict.fromkeys((called(drawing), "velocity", "acceleration"))
+    kinds = dict.fromkeys((name_of_sheet(drawing), "velocity", "acceleration"))
     name, *others = (f"{words('sheet.' + k)} – {title_of(drawing)}{remark}" for k in kinds)
     lines, height, rows = [escape(name)], 5.0, 1
     longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
@@ -230,7 +232,7 @@ def with_room(
 
 def writing(drawing: Drawing, view: str) -> Writing:
     """What is written above and below the drawings of a sheet."""
-    head, moved, lower = heading(drawing, view)
+    head, moved, lower = sheet_heading(drawing, view)
     foot, more, said = below(drawing, view)
     if view == "key" and has_many_auxiliary(drawing):
         moved.add(Moved.AUXILIARY)
@@ -404,7 +406,7 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     """The lines of a task in a width, an empty one between parts; what is moved is only named."""
     elsewhere = drawing.words("page.moved")
-    lines = flowed([elsewhere] if Moved.ASKED in moved else asked(drawing), "; ", width, 2.5)
+    lines = flowed([elsewhere] if Moved.ASKED in moved else asked_words(drawing), "; ", width, 2.5)
     links = members(drawing)
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)
@@ -413,7 +415,7 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     return lines
 
 
-def asked(drawing: Drawing) -> Sequence[str]:
+def asked_words(drawing: Drawing) -> Sequence[str]:
     """What a sheet asks for, in words."""
     words, ask = drawing.words, drawing.scene.ask
     shown = {drawing.kind, "position" if drawing.kind == "velocity" else drawing.kind}

@@ -10,12 +10,12 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import placed
+from graphkin.construction.core.layout import mechanism_field
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.construction.result_tables import unread
 from graphkin.diagnosis.singularity_words import beside_dead_point
-from graphkin.documents.scaling import drawing, scales, shown, targets_of
+from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import curves_of
@@ -55,7 +55,7 @@ def hand_out(
         raise SceneError(
             Problem("sheet.sheets", "one sheet for both plans is not drawn yet", "2, or left out")
         )
-    verdict = proved(mechanism, shown(mechanism))
+    verdict = proved(mechanism, sheet_motion(mechanism))
     drawings = drawings_of(mechanism, verdict, spoken)
     sheets = [
         replace(each, unread=tuple(unread(drawing)))
@@ -98,10 +98,10 @@ def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
     """The pages of one drawing, step by step, or as an overlay."""
     if view == "steps":
         from graphkin.documents.continuation import as_page, rest
-        from graphkin.documents.sheet import heading
+        from graphkin.documents.sheet import sheet_heading
         from graphkin.documents.step_pages import growing
 
-        moved = frozenset(heading(drawing)[1])
+        moved = frozenset(sheet_heading(drawing)[1])
         more = [as_page(drawing, view, number, marks) for marks in rest(drawing, view, moved)]
         return (*growing(drawing, number), *more)
     from graphkin.documents.overlay import overlay
@@ -187,5 +187,5 @@ def drawings_of(
         raise SceneError(
             Problem("ask", "asks for nothing that is drawn", "velocities, accelerations, centres …")
         )
-    stand = None if held else placed(drawings)
+    stand = None if held else mechanism_field(drawings)
     return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]

@@ -17,14 +17,14 @@ from graphkin.documents.inset import insets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import (
     boards,
-    heading,
     page_title,
     panels,
+    sheet_heading,
     title_block,
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.documents.step_numbers import BEFORE, stages
-from graphkin.documents.step_visibility import appearing, grown, when_told
+from graphkin.documents.step_visibility import appearing, marks_at_stage, when_told
 from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -43,7 +43,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     ``number`` is that of the sheet; each page adds which step it is, of how many. Every mark and
     letter has on each page the place that it has on the finished sheet.
     """
-    head, _, more = heading(drawing)
+    head, _, more = sheet_heading(drawing)
     layout = lowered(lay_out(drawing), more)
     said = sentences(drawing)
     staged = stages(drawing, said)
@@ -74,7 +74,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             (
                 *sheet_frame(replace(block, sheet=numbered(drawing, number, stage, len(said)))),
                 *same,
-                *grown(timed, stage, telling),
+                *marks_at_stage(timed, stage, telling),
                 *(last if stage == len(said) - 1 else ()),
                 *told(drawing, said, stage),
                 *crossed(drawing, [line for at, line in lines if at == stage]),

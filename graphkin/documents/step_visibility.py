@@ -34,16 +34,11 @@ def appearing(
 
 
 def accompanied(marks: Sequence[Mark]) -> Iterator[tuple[Mark, Mark]]:
-    """The marks of a field, each with the one with which it appears: itself, if it has a name.
-
-    The frame around a link's name appears with the name after it, the arrow of a driver's sense
-    with its angle before it.
+    """The marks of a field, each with the one with which it appears: the frame around a link's name
+    with the name after it, all others with themselves.
     """
-    named = marks[0] if marks else None
     for mark, after in zip(marks, (*marks[1:], *marks[-1:]), strict=True):
-        named = mark if mark.name or named is None else named
-        framed, sense = (mark.cls.split()[-1] == cls for cls in ("number", "sense"))
-        yield mark, named if sense else after if framed and not mark.name else mark
+        yield mark, after if style_class(mark) == "number" and not mark.name else mark
 
 
 def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
@@ -61,7 +56,7 @@ def when_told(drawing: Drawing, staged: Mapping[int, int]) -> dict[str, int]:
     return found
 
 
-def grown(
+def marks_at_stage(
     timed: Sequence[tuple[int, Mark]], stage: int, telling: Mapping[str, int]
 ) -> Iterator[Mark]:
     """The marks that stand at a sentence; those that it draws are marked as new.

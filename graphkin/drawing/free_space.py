@@ -14,7 +14,7 @@ from graphkin.drawing.areas import Rect
 from graphkin.drawing.candidates import Blots
 from graphkin.drawing.chords import pieces_of
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import Mark, Text, reach
+from graphkin.drawing.marks import Mark, Text, reach, style_class
 from graphkin.drawing.shapes import (
     Array,
     distance,
@@ -38,6 +38,9 @@ BLOT = 2.0
 """Size of the cells in which marks are counted to rule places out at a glance, in mm."""
 CLEAR = 0.5
 """How far the line to a disc stays from lettering, links' numbers and centres, in mm."""
+APART = ("number", "centre", "centre-line")
+"""The classes of circles about a link's number or name, and about a centre or a pole, and of axes
+and lines of guides: what the line to a disc stays clear of."""
 MOST = 240
 """Places, nearest first, among which one is sought to which a line crosses no text or centre."""
 
@@ -129,6 +132,5 @@ class Space:
 
 
 def is_shown(mark: Mark) -> bool:
-    """True for a text, for the circle or the frame around a link's number or name, and for the
-    circle of a centre or a pole."""
-    return isinstance(mark, Text) or mark.cls.startswith(("number", "centre"))
+    """True for a text, and for the circles and lines that are kept as clear as texts are."""
+    return isinstance(mark, Text) or style_class(mark) in APART

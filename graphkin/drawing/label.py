@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, SharedLetter, Text, drawn_out
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, SharedLetter, Shown, Text, drawn_out
 from graphkin.drawing.placement import Spot, Wish
 from graphkin.drawing.richtext import extent
 
@@ -30,7 +30,7 @@ class Label(Struct, frozen=True):
     ``ring`` puts it into a circle (a link's number), ``led`` always gives it a leader; ``spare``
     may be left out in a crowd, for the construction and the tables name it too; ``optional`` is
     drawn only where there is a place for it at once. ``letters`` are those of the points of a plan
-    that it names.
+    that it names, ``shows`` is what of a link no step draws.
     """
 
     markup: str
@@ -48,6 +48,7 @@ class Label(Struct, frozen=True):
     optional: bool = False
     part: int = 0
     letters: tuple[SharedLetter, ...] = ()
+    shows: Shown | None = None
 
     def of_letters(self, letters: tuple[SharedLetter, ...]) -> Label:
         """The same for points that fall together, which share it."""
@@ -68,6 +69,16 @@ class Label(Struct, frozen=True):
         """True for a letter of the construction that may still be made smaller."""
         return self.cls == "construction" and self.height > SMALL
 
+    @property
+    def look(self) -> str:
+        """The classes of its text."""
+        return f"label {self.cls}".strip()
+
+    @property
+    def leader_look(self) -> str:
+        """The classes of its leader."""
+        return f"leader {self.cls}".strip()
+
     def wish(self) -> Wish:
         """The box that the label needs, and where."""
         gap = LED if self.led else GAP
@@ -80,8 +91,8 @@ class Label(Struct, frozen=True):
         """The label at its place, with its leader or circle."""
         leader = spot.leader or (self.short_leader(spot) if self.led else None)
         if leader:
-            style = f"leader {self.cls}".strip()
-            yield LineMark(*leader[0], *leader[1], style, self.name, self.step, self.part)
+            own = self.name, self.step, self.part, self.shows
+            yield LineMark(*leader[0], *leader[1], self.leader_look, *own)
         if self.ring:
             yield self.balloon(spot)
         yield self.text(spot)
@@ -98,11 +109,8 @@ class Label(Struct, frozen=True):
         """The label's text with the middle of its ink at a place."""
         width, top, bottom = extent(self.markup, self.height)
         x, y = spot.x - width / 2, spot.y - (top + bottom) / 2
-        style = f"label {self.cls}".strip()
-        own = self.name, self.step
-        return Text(
-            x, y, self.markup, style, self.height, "start", *own, 0.0, self.part, self.letters
-        )
+        own = self.name, self.step, 0.0, self.part, self.letters, self.shows
+        return Text(x, y, self.markup, self.look, self.height, "start", *own)
 
     def area(self, spot: Spot) -> Rect:
         """The box that the text's ink takes up at a place."""

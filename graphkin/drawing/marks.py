@@ -3,12 +3,13 @@
 Coordinates have their origin at the page's top-left corner, x to the right, y DOWN. Angles are in
 degrees, counter-clockwise as seen on the paper. ``cls`` holds one or more classes separated by
 blanks; the first decides the style (see ``style``). ``name`` and ``step`` go into the SVG as
-``data-name`` and ``data-step``; ``part`` counts the strokes by which a step was drawn.
+``data-name`` and ``data-step``; ``part`` counts the strokes by which a step was drawn. ``shows`` is
+what of a link no step draws.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import cos, isfinite, pi, radians, sin
 from typing import Literal
 
@@ -25,6 +26,15 @@ CHORDS = 12
 """Chords of the half circle at an end of a circle that is drawn out."""
 
 
+class Shown(Struct, frozen=True):
+    """What a mark shows of a link: the guide on which it slides, or of a driven one where it stands
+    (``coordinate``) or how fast it moves (``rate``).
+    """
+
+    what: Literal["guide", "coordinate", "rate"]
+    link: str
+
+
 class LineMark(Struct, frozen=True):
     """A straight line between two points."""
 
@@ -36,6 +46,7 @@ class LineMark(Struct, frozen=True):
     name: str = ""
     step: int | None = None
     part: int = 0
+    shows: Shown | None = None
 
 
 class Polyline(Struct, frozen=True):
@@ -47,6 +58,7 @@ class Polyline(Struct, frozen=True):
     step: int | None = None
     closed: bool = False
     part: int = 0
+    shows: Shown | None = None
 
 
 class CircleMark(Struct, frozen=True):
@@ -59,6 +71,7 @@ class CircleMark(Struct, frozen=True):
     name: str = ""
     step: int | None = None
     part: int = 0
+    shows: Shown | None = None
 
 
 class Arc(Struct, frozen=True):
@@ -73,6 +86,7 @@ class Arc(Struct, frozen=True):
     name: str = ""
     step: int | None = None
     part: int = 0
+    shows: Shown | None = None
 
     def at(self, angle: float) -> Point:
         """Give the point of the arc's circle at an angle in degrees."""
@@ -110,6 +124,7 @@ class Text(Struct, frozen=True):
     rotate: float = 0.0
     part: int = 0
     letters: tuple[SharedLetter, ...] = ()
+    shows: Shown | None = None
 
     def left(self) -> float:
         """Tell how far the text's beginning lies from x along the baseline, in mm."""
@@ -130,6 +145,11 @@ class Text(Struct, frozen=True):
 
 
 Mark = LineMark | Polyline | CircleMark | Arc | Text
+
+
+def showing(shown: Shown, marks: Iterable[Mark]) -> Iterator[Mark]:
+    """The same marks as those of what they show."""
+    return (replace(mark, shows=shown) for mark in marks)
 
 
 def style_class(mark: Mark) -> str:

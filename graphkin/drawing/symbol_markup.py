@@ -57,6 +57,11 @@ def written(name: str) -> str:
     return f"{times}*{letter}*{'' if prime == FOURTH else prime}{low}{high}"
 
 
+def without_index(name: str) -> str:
+    """A name as far as what NAME sets below it: B‴ of B‴_BA."""
+    return name.partition("_")[0]
+
+
 def of_wheel(letter: str, sign: str) -> Markup:
     """Markup of the radius or the number of teeth of a wheel by its sign: r₂′."""
     return Markup(f"*{letter}*_{{{escape(sign)}}}")

@@ -55,7 +55,7 @@ def starting(scene: Scene, loops: Equations) -> Reals:
     return rows
 
 
-def completed(scene: Scene, loops: Equations, start: Start) -> Reals:
+def completed_start(scene: Scene, loops: Equations, start: Start) -> Reals:
     """Start values with what no position told taken from the loops' own assembly.
 
     Left at zero where they cannot be assembled.

@@ -13,7 +13,7 @@ from graphkin.loops.no_slip import CountedApart, OwnTurns, turned_from, waiting
 from graphkin.loops.rigid_bodies import Body, Complexes, Guide, Numbers, Reals, unit
 from graphkin.loops.vector_chains import Turnings
 from graphkin.scene.model import Driver, Scene
-from graphkin.scene.wheels import turned as whole_turned
+from graphkin.scene.wheels import angle_less_cycles as whole_turned
 from graphkin.text.errors import Problem, StructureError
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from graphkin.loops.assemble import anywhere, completed
+from graphkin.loops.assemble import anywhere, completed_start
 from graphkin.loops.equations import Equations, equations
 from graphkin.loops.newton_start import start_values
 from graphkin.loops.rigid_bodies import Reals
@@ -64,4 +64,4 @@ def position_of(scene: Scene, loops: Equations, positions: Mapping[str, Point] |
         order = [(share > FIRM, count, share) for count, share in firm]
         best = max(range(len(found)), key=order.__getitem__)
         return found[best : best + 1]
-    return completed(scene, loops, start_values(loops, positions, {}))
+    return completed_start(scene, loops, start_values(loops, positions, {}))

@@ -17,7 +17,7 @@ from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.motion.closures_followed import FollowedClosures
-from graphkin.motion.sweep import Sweep
+from graphkin.motion.sweep import Sweep, inputs
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio
@@ -96,7 +96,7 @@ class Course(Struct, frozen=True, dict=True):
 
     def _moving(self) -> set[int]:
         """The early steps that hang on a driver."""
-        arrays = {n for n in self.scene.values if n.startswith("drive ")}
+        arrays = inputs(self.scene)
         moving: set[int] = set()
         for n in self.early:
             step = self.program.steps[n]

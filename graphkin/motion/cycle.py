@@ -17,7 +17,7 @@ from graphkin.construction.core.solution import Solution, gathered, row_of, rows
 from graphkin.motion.course import Flags, Reals, spread
 from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars
-from graphkin.motion.pieces import Path, Piece, followed
+from graphkin.motion.pieces import Path, Piece, reachable_ranges
 from graphkin.motion.sweep import Sweep, sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Branch, Scene
@@ -142,7 +142,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
     def along(self, at: Sequence[float] | Reals) -> Cycle:
         """The same cycle at other places u, those that have no motion left out."""
         rows = np.asarray(at, float)
-        return filled(self.mechanism, self.sweep, self.path, rows, self.targets)
+        return cycle_at(self.mechanism, self.sweep, self.path, rows, self.targets)
 
 
 def cycle(
@@ -166,9 +166,9 @@ def cycle(
     """
     sweep = sweep_of(mechanism.scene, driver=driver, low=low, high=high)
     refuse_steps(mechanism, sweep, steps)
-    path = followed(sweep, branches)
+    path = reachable_ranges(sweep, branches)
     wanted = None if targets is None else tuple(targets)
-    found = filled(mechanism, sweep, path, places(sweep, path, steps), targets=wanted)
+    found = cycle_at(mechanism, sweep, path, places(sweep, path, steps), targets=wanted)
     if not len(found.at):
         raise ClosureError(no_rows(sweep, path, steps))
     return found
@@ -241,7 +241,7 @@ def spans(path: Path) -> list[tuple[float, float]]:
     return [(found[0].low.at, found[-1].high.at) for found in path.ranges]
 
 
-def filled(
+def cycle_at(
     mechanism: Mechanism,
     sweep: Sweep,
     path: Path,

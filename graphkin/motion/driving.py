@@ -33,7 +33,7 @@ GRID = 7200
 """Positions of a whole sweep at which its events are looked for: in a turn every 0.05 degrees."""
 
 
-def stated(driver: Driver, scene: Scene) -> tuple[float, float, float]:
+def stated_motion(driver: Driver, scene: Scene) -> tuple[float, float, float]:
     """Position (degrees or m), speed and acceleration (rad or m) of a driver as it stands."""
     number = driver.position.number(scene.values)
     place = float(driver.position.si(scene.values))
@@ -42,7 +42,7 @@ def stated(driver: Driver, scene: Scene) -> tuple[float, float, float]:
     return place, float(driver.speed.si(scene.values)), float(driver.acceleration.si(scene.values))
 
 
-def timed(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any, Any]:
+def motion_at(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any, Any]:
     """Position (degrees or m), speed and acceleration of a driver at given times (N,).
 
     A driver without a law moves from its stated position, at the time nought, with its stated

@@ -124,7 +124,7 @@ def come_back(whole: Cycle) -> Cycle:
     """The turns after which all stands as before; the one turn where that takes too many."""
     import numpy as np
 
-    from graphkin.motion.cycle import filled
+    from graphkin.motion.cycle import cycle_at
     from graphkin.motion.driving import TURN
     from graphkin.motion.period import until_return
     from graphkin.motion.pieces import Path
@@ -136,7 +136,7 @@ def come_back(whole: Cycle) -> Cycle:
     turns = round((high - low) / TURN)
     rows = turns * min(STEPS, MOST_STEPS // turns)
     at = np.linspace(low, high, rows, endpoint=False)
-    return filled(whole.mechanism, whole.sweep, Path((way,), True, True), at, whole.targets)
+    return cycle_at(whole.mechanism, whole.sweep, Path((way,), True, True), at, whole.targets)
 
 
 def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curve]:

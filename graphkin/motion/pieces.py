@@ -78,7 +78,7 @@ class Path(Struct, frozen=True):
     returns: bool
 
 
-def followed(sweep: Sweep, branches: Branches | None = None) -> Path:
+def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
     """The reachable ranges of a sweep, from where the scene stands and with its closures.
 
     ``branches`` overrides them. Ranges that cannot be reached from there come after it, with the

@@ -13,7 +13,15 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.motion.driving import COORDINATES, GRID, TURN, Coordinate, What, stated, timed
+from graphkin.motion.driving import (
+    COORDINATES,
+    GRID,
+    TURN,
+    Coordinate,
+    What,
+    motion_at,
+    stated_motion,
+)
 from graphkin.motion.turns_counted import named_angles
 from graphkin.motion.window import usual, window
 from graphkin.scene.expression import TIME, Name
@@ -106,13 +114,13 @@ class Sweep(Struct, frozen=True, eq=False):
         values: dict[str, Any] = dict(self.scene.values)
         for n, driver in enumerate(self.original.drivers, 1):
             if self.what == "time":
-                motion = timed(driver, dict(self.original.values), at)
+                motion = motion_at(driver, dict(self.original.values), at)
             elif n != self.number:
                 continue
             elif geometric:
                 motion = (at, 1.0, 0.0)
             else:
-                continue_at = stated(driver, self.original)
+                continue_at = stated_motion(driver, self.original)
                 motion = (at, *continue_at[1:])
             values |= dict(zip(names(n), motion, strict=True))
         return values
@@ -121,6 +129,11 @@ class Sweep(Struct, frozen=True, eq=False):
 def names(number: int) -> tuple[str, str, str]:
     """Names of a driver's position, speed and acceleration; no parameter can be called so."""
     return (f"drive {number} position", f"drive {number} speed", f"drive {number} acceleration")
+
+
+def inputs(scene: Scene) -> frozenset[str]:
+    """The names of the numbers by which a sweep sets the drivers of a scene."""
+    return frozenset(name for n, _ in enumerate(scene.drivers, 1) for name in names(n))
 
 
 def sweep_of(
@@ -139,7 +152,7 @@ def sweep_of(
     what: What = "time" if number is None else scene.drivers[number - 1].kind
     start = 0.0
     if number is not None:
-        start = stated(scene.drivers[number - 1], scene)[0]
+        start = stated_motion(scene.drivers[number - 1], scene)[0]
         start = start % TURN if what == "turn" and not wheels(scene) else start
     first, last, whole = window(scene, what, number, start, low, high)
     way = usual(scene, what, number, first, last)
@@ -181,7 +194,7 @@ def named(scene: Scene, number: int | None) -> Scene:
             for name, each in zip(names(n), (unit, f"{base}/s", f"{base}/s²"), strict=True)
         )
         drivers.append(replace(driver, position=position, speed=speed, acceleration=acceleration))
-        place, rate, push = stated(driver, scene)
+        place, rate, push = stated_motion(driver, scene)
         stands = number is not None and n != number
         motion = (place, 0.0, 0.0) if stands else (place, rate, push)
         values |= dict(zip(names(n), motion, strict=True))

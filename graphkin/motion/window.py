@@ -6,7 +6,15 @@ from collections.abc import Iterator
 from math import isfinite, pi, radians, sqrt
 from typing import Any
 
-from graphkin.motion.driving import COORDINATES, GRID, TURN, What, reach_of, stated, timed
+from graphkin.motion.driving import (
+    COORDINATES,
+    GRID,
+    TURN,
+    What,
+    motion_at,
+    reach_of,
+    stated_motion,
+)
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Link, Scene
 from graphkin.text.errors import Problem, SceneError
@@ -84,7 +92,7 @@ def whole_turn(scene: Scene) -> float:
         if TIME in driver.position.uses():
             found = turn_by_law(driver, scene)
         else:
-            _, speed, push = stated(driver, scene)
+            _, speed, push = stated_motion(driver, scene)
             found = turn_evenly(abs(speed), push if speed >= 0 else -push)
         if found is not None:
             return found
@@ -104,7 +112,7 @@ def whole_turn(scene: Scene) -> float:
 
 def until_rest(driver: Driver, scene: Scene) -> float | None:
     """The time in which a driver comes to rest, or slides as far as the mechanism is long."""
-    _, speed, push = stated(driver, scene)
+    _, speed, push = stated_motion(driver, scene)
     if speed * push < 0:
         return -speed / push
     if driver.kind == "turn" or speed == 0:
@@ -132,7 +140,7 @@ def turn_by_law(driver: Driver, scene: Scene) -> float | None:
             low, high = times[past[0] - 1], times[past[0]]
             for _ in range(DOUBLINGS):
                 middle = np.array([(low + high) / 2])
-                far = abs(timed(driver, dict(scene.values), middle)[0][0] - angle[0]) >= TURN
+                far = abs(motion_at(driver, dict(scene.values), middle)[0][0] - angle[0]) >= TURN
                 low, high = (low, middle[0]) if far else (middle[0], high)
             return float(high)
         if not np.isfinite(angle).all():
@@ -165,7 +173,7 @@ def doubled(driver: Driver, scene: Scene) -> Iterator[tuple[Any, tuple[Any, Any,
     span = 1e-3
     for _ in range(DOUBLINGS):
         times = np.linspace(0, span, GRID + 1)
-        yield times, timed(driver, dict(scene.values), times)
+        yield times, motion_at(driver, dict(scene.values), times)
         if span > 1e6:
             return
         span *= 2

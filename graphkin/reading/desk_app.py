@@ -20,7 +20,7 @@ from graphkin.studio.local_pages import JSON, answer, answering, new_application
 from graphkin.studio.page_requests import PageRequestError
 from graphkin.text import Words
 from graphkin.text.markup import as_text
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 HERE = Path(__file__).parent / "web"
 MOST_BYTES = 16 * 1024
@@ -113,7 +113,7 @@ def desk_page(session: DeskSession) -> bytes:
     said = {key: words.open(f"desk.{key}") for key in SAID}
     start = {"said": said, "verdicts": VERDICTS, "density": SHOWN}
     text = msgspec.json.encode(start, enc_hook=as_text).decode()
-    page = filled("reading/web/desk.html", said=said, language=words.language, start=text)
+    page = from_template("reading/web/desk.html", said=said, language=words.language, start=text)
     return f"{page}\n".encode()
 
 

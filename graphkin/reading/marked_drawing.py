@@ -25,7 +25,7 @@ from graphkin.reading.point_reading import PointReading
 from graphkin.reading.settled_points import SettledPoints, latest_of, settled_points
 from graphkin.text import Words
 from graphkin.text import words as words_in
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 GREEN, RED, YELLOW = "#087a2c", "#c21807", "#c77800"
 COLOURS = {"right": GREEN, "follows": GREEN, "wrong": RED, "missing": YELLOW, "unread": YELLOW}
@@ -135,7 +135,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
         }
         for sheet in sheets
     ]
-    page = filled(
+    page = from_template(
         "reading/web/marked.html",
         language=words.language,
         title=words("marked.title"),

@@ -147,7 +147,7 @@ def check_branches(scene: Scene, findings: Findings) -> None:
             expected = '"left of P-Q" or "right of P-Q"'
             blocks = [link for link in scene.links.values() if link.slides and name in link.points]
             hint = "a block's branch is written under the link's name: "
-            hint += " or ".join(f"{block.name} = {written(branch)}" for block in blocks)
+            hint += " or ".join(f"{block.name} = {branch_phrase(branch)}" for block in blocks)
             found = f"forward, backward or a closure for point {name}"
             outer = f"P and Q are the outer pins of the two links that {name} joins"
             findings.add(place, found, expected, hint if blocks else outer)
@@ -167,10 +167,10 @@ def side_of_pin(scene: Scene, name: str, side: Side) -> str:
     shared = Counter(point for link in scene.links.values() for point in link.points)
     points = [p for p in scene.links[name].points if shared[p] > 1]
     pins = [p for p in points if p not in (side.first, side.second)]
-    return f"{pins[0] if pins else 'P'} = {written(side)}"
+    return f"{pins[0] if pins else 'P'} = {branch_phrase(side)}"
 
 
-def written(branch: Branch) -> str:
+def branch_phrase(branch: Branch) -> str:
     """A branch as a scene writes it."""
     if isinstance(branch, Side):
         return f'"{"left" if branch.side > 0 else "right"} of {branch.first}-{branch.second}"'

@@ -90,13 +90,17 @@ class OnLine(Struct, frozen=True):
 
 
 class Angled(Struct, frozen=True):
-    """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP."""
+    """``P-Q-R`` with ``Q-R``: R at that distance from Q, turned counter-clockwise from QP.
+
+    P where ``R-Q-P`` is written and P is placed: ``clockwise``, by the angle's negative.
+    """
 
     point: str
     vertex: str
     arm: str
     length: Quantity
     angle: Quantity
+    clockwise: bool = False
 
 
 Placing = At | Polar | Apart | Triangle | OnLine | Angled

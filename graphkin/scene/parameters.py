@@ -90,14 +90,17 @@ def plain(read: Quantity) -> Fraction:
 
 def out_of_range(parameter: Parameter, value: Fraction, place: str) -> list[Problem]:
     """The problem of a value outside the range of its parameter or off its steps, if any."""
+    wrong, given = misfit(parameter, value), f"{parameter.name} = {shortest(value)}"
+    return [Problem(place, f"{given} is {wrong}", range_words(parameter))] if wrong else []
+
+
+def misfit(parameter: Parameter, value: Fraction) -> str:
+    """What a value is that a parameter may not have; nothing for any other."""
     least, most, step = parameter.minimum, parameter.maximum, parameter.step
-    given = f"{parameter.name} = {shortest(value)}"
     if (least and value < plain(least)) or (most and value > plain(most)):
-        return [Problem(place, f"{given} is out of range", range_words(parameter))]
+        return "out of range"
     start = plain(least) if least else plain(parameter.value)
-    if step and (value - start) % plain(step):
-        return [Problem(place, f"{given} is off the step", range_words(parameter))]
-    return []
+    return "off the step" if step and (value - start) % plain(step) else ""
 
 
 def range_words(parameter: Parameter) -> str:

@@ -186,12 +186,13 @@ class Placer:
     def angled(self, point: str) -> Placing | None:
         """An angle at a placed point, from the direction of another, with one length."""
         for (first, vertex, last), angle in self.turns.get(point, {}).items():
-            arm, turned = (first, angle) if point == last else (last, angle.negative())
+            clockwise = point == first
+            arm, turned = (last, angle.negative()) if clockwise else (first, angle)
             if arm in self.placings and vertex in self.placings:
                 length = self.taken(vertex, point)
                 if length is not None:
                     self.used.add((first, vertex, last))
-                    return Angled(point, vertex, arm, length, turned)
+                    return Angled(point, vertex, arm, length, turned, clockwise)
         return None
 
     def complain(self, waiting: list[str]) -> None:

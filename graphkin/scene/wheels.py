@@ -262,7 +262,7 @@ def free_stem(scene: Scene) -> str:
     return next(s for s in chain(STEMS, ("T" * n for n in count(2))) if s not in taken)
 
 
-def turned(scene: Scene, driver: Driver) -> Quantity:
+def angle_less_cycles(scene: Scene, driver: Driver) -> Quantity:
     """The angle of a driver, less whole cycles of the wheels where it is many turns.
 
     Those are taken off the number as the scene states it, without rounding, so that a wheel stands

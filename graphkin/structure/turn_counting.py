@@ -45,10 +45,10 @@ def counting(scene: Scene) -> Mapping[str, Rolling]:
                 if driver.kind == "turn" and driver.link == link:
                     found.setdefault(driver.against, contact.rolling)
     found.pop(FRAME, None)
-    return found | stated(scene)
+    return found | stated_rolling(scene)
 
 
-def stated(scene: Scene) -> dict[str, Rolling]:
+def stated_rolling(scene: Scene) -> dict[str, Rolling]:
     """What rolls and states the turns of a link, by the link."""
     found: dict[str, Rolling] = {}
     problems = []

@@ -113,7 +113,7 @@ def meant(name: str) -> str:
     return near if WORD.fullmatch(stem) and near not in OTHERS else f"pump{ENDING}"
 
 
-def completed(name: str) -> str:
+def with_ending(name: str) -> str:
     """A name with the ending of a scene, where it has none of its own."""
     last = name.rpartition("/")[2]
     return name if not last or "." in last else f"{name}{ENDING}"

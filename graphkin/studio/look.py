@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import Struct, field, to_builtins
 
 from graphkin.construction.core.solution import FAIR, Verdict
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, language_of, lost
 from graphkin.loops.witness import sure_of
 from graphkin.mechanism import Mechanism
@@ -145,7 +145,7 @@ def drawn(
 ) -> dict[str, Any]:
     """Drawings, results, margins and the verdict; what is doubtful is drawn and said."""
     spoken = language_of(mechanism, sight.language)
-    solution = shown(mechanism)
+    solution = sheet_motion(mechanism)
     verdict = mechanism.witness(solution, numbered=not sight.quick)
     problems += doubts(solution.margin, verdict)
     held = memory.held(sight.text) if sight.quick else None

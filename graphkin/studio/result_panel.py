@@ -12,17 +12,17 @@ from msgspec.structs import replace
 from graphkin.construction.core.crossings import Crossing
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import held
+from graphkin.construction.core.quantities import motion_value
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.result_tables import slide_rows, turning_rows, unread, vector_rows
-from graphkin.documents.centre_tables import breadth_of, completed, place_of
+from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.documents.flattest import crossings_on
 from graphkin.drawing.columns import Row
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.text import Words
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 FLATTEST = 6
 """Crossings that are shown."""
@@ -44,7 +44,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
     slides, centres and poles.
     """
     notes = [note for drawing in drawings for note in unread(drawing, symbol)]
-    parts: list[str] = [filled("studio/web/notes.html", notes=notes)]
+    parts: list[str] = [from_template("studio/web/notes.html", notes=notes)]
     parts += [part for drawing in drawings for part in read_off(drawing, solution)]
     return "".join([*parts, *places(drawings[0].scene, solution, drawings[0].words)])
 
@@ -77,7 +77,7 @@ def losses(drawing: Drawing, solution: Solution) -> Callable[[str], bool]:
         ("slide ", drawing.sliding, solution.slides),
     )
     known = {
-        f"{start}{name}": held(motion, quantity)
+        f"{start}{name}": motion_value(motion, quantity)
         for start, quantity, motions in parts
         for name, motion in motions.items()
     }
@@ -97,7 +97,7 @@ def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[R
 
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
     """Where the centres and poles lie that are asked, in the unit of the scene."""
-    full, breadth, unit = completed(scene, solution), breadth_of(solution), scene.units["length"]
+    full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
     asked: list[tuple[str, Ratio | None]] = []
     asked += [(f"I_{name}", full.links[name].instant_centre) for name in scene.ask.centres]
     asked += [(f"I_{name}", solution.centres.get(name)) for name in scene.ask.pairs]
@@ -166,4 +166,6 @@ def table(caption: str, head: Sequence[str], rows: Sequence[Row], looks: Iterabl
         return ""
     cells = [row.cells for row in rows]
     looks = [*looks, *[""] * len(rows)]
-    return filled("studio/web/table.html", caption=caption, head=head, rows=cells, looks=looks)
+    return from_template(
+        "studio/web/table.html", caption=caption, head=head, rows=cells, looks=looks
+    )

@@ -23,13 +23,13 @@ from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.folder import (
     ENDING,
     Folder,
-    completed,
     example_text,
     examples,
     shipped,
     shipped_rules,
     shipped_text,
     stem_of,
+    with_ending,
 )
 from graphkin.studio.guard import new_token
 from graphkin.studio.lab_panel import lab_advice, lab_report
@@ -264,7 +264,7 @@ class Session:
 
     def student(self, order: PageRequest) -> dict[str, Any]:
         """The sheets of one student, or why they cannot be drawn."""
-        text, name = order.scene(), completed(order.text("name"))
+        text, name = order.scene(), with_ending(order.text("name"))
         language, view = language_in(order), order.choice("view", VIEWS)
         wanted = WantedSheets(text, name, order.settings(), language, view, ("svg",))
 
@@ -351,7 +351,7 @@ class Session:
     def save(self, order: PageRequest) -> dict[str, Any]:
         """Save the text of a scene, whatever is wrong with it."""
         name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
-        text, whole = order.scene(), completed(name)
+        text, whole = order.scene(), with_ending(name)
         written = order.long_text("rules")
         rules = OwnRules(written, order.text("rules_mark")) if written else None
 
@@ -365,7 +365,7 @@ class Session:
         """Draw and save the sheets of a text."""
         wanted = WantedSheets(
             order.scene(),
-            completed(order.text("name")),
+            with_ending(order.text("name")),
             order.settings(),
             language_in(order),
             order.choice("view", VIEWS),

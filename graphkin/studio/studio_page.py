@@ -9,7 +9,7 @@ from graphkin import __version__
 from graphkin.studio.look import spoken_in
 from graphkin.studio.session import Opened
 from graphkin.text import LANGUAGES, Words
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 SPOKEN = "studio."
 """How the keys of the studio's sentences begin: those that stand in the page or are said later."""
@@ -21,7 +21,7 @@ def page(opened: Opened, words: Words) -> str:
     spoken = {language: spoken_in(language) for language in LANGUAGES}
     said = {language: said_in(language) for language in LANGUAGES}
     start = {"language": words.language, "words": said}
-    page = filled(
+    page = from_template(
         "studio/web/page.html",
         said=said[words.language],
         spoken=spoken,

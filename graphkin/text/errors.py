@@ -84,6 +84,19 @@ class InLine(Struct, frozen=True):
         return f"line {self.line}"
 
 
+class InTable(Struct, frozen=True):
+    """A row of a table, by the name of its file, and a column by its head or its number."""
+
+    table: str
+    row: int
+    column: str | int = ""
+
+    def __str__(self) -> str:
+        """Read as words: roster.csv, row 14, column "id"."""
+        column = f'"{self.column}"' if isinstance(self.column, str) else self.column
+        return f"{self.table}, row {self.row}" + (f", column {column}" if self.column else "")
+
+
 class Setting(Struct, frozen=True):
     """A parameter whose value is set from outside the text."""
 
@@ -99,7 +112,7 @@ class Sought(Struct, frozen=True):
     names: tuple[str, ...] = ()
 
 
-About = tuple[str, ...] | InLine | Setting | Sought
+About = tuple[str, ...] | InLine | InTable | Setting | Sought
 """What a problem is about where its place is no key: a key with its tables, or one of these."""
 
 

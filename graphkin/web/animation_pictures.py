@@ -31,9 +31,9 @@ from graphkin.web.panes import (
     WAYS,
     arrangements,
     leaves,
-    placed,
+    mechanism_pane,
+    plan_pane,
     posed,
-    seated,
     worth,
 )
 
@@ -78,7 +78,7 @@ class Stage(Struct, frozen=True, dict=True):
 
     def seated(self, drawing: Drawing) -> Field:
         """The field of a plan at its moment."""
-        return seated(self.plans[drawing.kind], plan_box(drawing))
+        return plan_pane(self.plans[drawing.kind], plan_box(drawing))
 
     def mechanism_marks(self, drawing: Drawing) -> list[Mark]:
         """The mechanism at one moment with its letters."""
@@ -182,7 +182,7 @@ def stage(motion: FrameSequence, words: Words, *, beside: bool = False) -> Stage
     ways = ways[:: len(WAYS)] if beside else ways
     own, *others = max(ways, key=lambda rects: worth(rects, box, [*boxes.values()]))
     plans = {kind: posed(rect, boxes[kind]) for kind, rect in zip(kinds, others, strict=True)}
-    return Stage(motion, words, placed(own, box), plans, paths)
+    return Stage(motion, words, mechanism_pane(own, box), plans, paths)
 
 
 def taken(drawing: Drawing) -> Iterator[complex]:

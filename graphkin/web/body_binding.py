@@ -36,7 +36,7 @@ RACK = "gear-disc"
 """The class of the outline of a rack."""
 
 
-def told(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
+def mechanism_bindings(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
     """The bindings of the marks of the mechanism and its drivers; ``angles`` are those in degrees
     of the links that drivers turn."""
     drawing, field = binder.places.drawing, replace(binder.field, rect=ENDLESS)
@@ -50,13 +50,13 @@ def told(binder: FieldBinder, angles: Mapping[str, Any]) -> Told:
         for mark, follows in zip(drawn.marks, moving.marks, strict=True):
             binding, seen = following(binder, follows, borne), [*within([mark], binder.field.rect)]
             if binding is still and isinstance(mark, LineMark) and seen != [mark]:
-                binding = grown(binder, mark, inside(binder.room))
+                binding = line_to_edge(binder, mark, inside(binder.room))
             found |= dict.fromkeys((mark, *seen), binding)
         found |= gears(binder)
     return found
 
 
-def grown(binder: FieldBinder, mark: LineMark, room: Rect) -> Binding:
+def line_to_edge(binder: FieldBinder, mark: LineMark, room: Rect) -> Binding:
     """A line that stays, cut at the edge of its field: all of it where the field grows, to the
     edge of its ``room``."""
     ends = (mark.x1, mark.y1), (mark.x2, mark.y2)

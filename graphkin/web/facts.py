@@ -11,7 +11,7 @@ from graphkin.construction.core.naming import length_scale
 from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import slide_rows, slide_sense, turning_rows, vector_rows
 from graphkin.documents.members import members
-from graphkin.documents.sheet import asked
+from graphkin.documents.sheet import asked_words
 from graphkin.documents.task_scale import plan_at
 from graphkin.scene.link_points import lettered
 from graphkin.writers.html_markup import marked_up
@@ -27,7 +27,7 @@ class ResultTable(Struct, frozen=True):
     caption: str
     head: Sequence[str]
     rows: Sequence[tuple[str, tuple[str, ...]]]
-    asked: frozenset[str]
+    asked_words: frozenset[str]
 
 
 def results(drawing: Drawing) -> Iterator[ResultTable]:
@@ -88,4 +88,4 @@ def wanted(drawing: Drawing) -> tuple[str, str, list[str]]:
     """At which scales a task is to be drawn, and what it asks for, piece by piece."""
     words, kL = drawing.words, f"{length_scale(drawing)} m/mm"
     scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
-    return scale, plan_at(drawing), [*asked(drawing), members(drawing)]
+    return scale, plan_at(drawing), [*asked_words(drawing), members(drawing)]

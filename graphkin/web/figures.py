@@ -18,14 +18,15 @@ from graphkin.scene.quantity import LENGTHS, Quantity
 
 
 class GivenFigure(Struct, frozen=True):
-    """A number that can be changed: its input, markup of its symbol, where it stands and how far
-    and in which steps it goes, in its unit.
+    """A number that can be changed: its input, its key on the page, markup of its symbol, where it
+    stands and how far and in which steps it goes, in its unit.
 
     ``parameter`` is that of the scene; else ``driver`` is one of several, and the number is how far
     that is led from where it would be at the time, ``metres`` what one unit of it is.
     """
 
     name: str
+    key: str
     symbol: str
     start: float
     low: float
@@ -59,9 +60,8 @@ def of_parameters(scene: Scene) -> Iterator[GivenFigure]:
             step = (high - low) / 100 if each.step is None else float(each.step.number({}))
             symbol = parameter_symbol(name)
             if low <= start <= high and low < high:
-                yield GivenFigure(
-                    f"figure {name}", symbol, start, low, high, step, unit_of(scene, name), name
-                )
+                unit, input_name = unit_of(scene, name), f"figure {name}"
+                yield GivenFigure(input_name, name, symbol, start, low, high, step, unit, name)
 
 
 def lengths_and_rates(scene: Scene) -> Iterator[Quantity]:
@@ -84,6 +84,5 @@ def of_drivers(scene: Scene) -> Iterator[GivenFigure]:
             low, high = ((end - sweep.start) / metres for end in (sweep.low, sweep.high))
             step = (high - low) / TURN
         symbol = angle_symbol(scene, driver)
-        yield GivenFigure(
-            f"figure of driver {number}", symbol, 0.0, low, high, step, unit, "", driver, metres
-        )
+        of, span = (f"figure of driver {number}", f"drive{number}", symbol), (0.0, low, high, step)
+        yield GivenFigure(*of, *span, unit, driver=driver, metres=metres)

@@ -15,7 +15,7 @@ from graphkin.construction.core.solution import Curve
 from graphkin.drawing.marks import LineMark, Mark, Text, style_class
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio
-from graphkin.web.body_binding import StepStrokes, grown, told
+from graphkin.web.body_binding import StepStrokes, line_to_edge, mechanism_bindings
 from graphkin.web.field_binder import Binding, FieldBinder, Record, Told, only_at_start, still
 from graphkin.web.field_extents import must_be_seen
 
@@ -56,7 +56,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         """The marks of bodies and drivers."""
         if not self.on_mechanism:
             return {}
-        return told(self.binder, self.angles)
+        return mechanism_bindings(self.binder, self.angles)
 
     @cached_property
     def curves(self) -> Mapping[str, Curve]:
@@ -163,7 +163,7 @@ class MarkBindings(Struct, frozen=True, dict=True):
         """A line across the field, which stays and goes on where the field grows."""
         (x1, y1), (x2, y2) = stretched((mark.x1, mark.y1), (mark.x2, mark.y2))
         whole = LineMark(x1, y1, x2, y2, mark.cls, mark.name)
-        return grown(self.binder, whole, above_foot(self.binder.room))
+        return line_to_edge(self.binder, whole, above_foot(self.binder.room))
 
     # --- labels --------------------------------------------------------------------------------
 
@@ -179,9 +179,8 @@ class MarkBindings(Struct, frozen=True, dict=True):
             return self.binder.carried_by(places.pose(name))
         if name in places.spots:
             return self.binder.with_point(places.spots[name])
-        if name.startswith(("omega ", "speed ")):
-            pose = places.pose(name.partition(" ")[2])
-            return self.binder.carried_by(pose)
+        if text.shows and text.shows.what == "rate":
+            return self.binder.carried_by(places.pose(text.shows.link))
         return still if name in self.curves else only_at_start
 
     def text_of(self, k: int) -> Text | None:

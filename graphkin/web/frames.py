@@ -20,7 +20,7 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.motion.driving import TURN, stated
+from graphkin.motion.driving import TURN, stated_motion
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError
@@ -132,7 +132,7 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
 def sense_of(cycle: Cycle) -> int:
     """In which sense the driver goes through its positions, by its speed; a time runs on."""
     driver = cycle.sweep.driver
-    return -1 if driver is not None and stated(driver, cycle.sweep.original)[1] < 0 else 1
+    return -1 if driver is not None and stated_motion(driver, cycle.sweep.original)[1] < 0 else 1
 
 
 def place_in(cycle: Cycle, low: float, high: float) -> float:

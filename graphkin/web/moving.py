@@ -17,6 +17,7 @@ from graphkin.construction.core.crossings import is_drawn
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import data
 from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.quantities import unit_words
 from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.traced import UntraceableError
 from graphkin.construction.tape.tracer import traced_kind
@@ -246,7 +247,7 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
             shows = shows / figure.metres
             told = next(k for k, one in enumerate(given) if one.of is figure.driver.position)
         yield {
-            "key": figure.name.removeprefix("figure ").replace("of driver ", "drive"),
+            "key": figure.key,
             "name": marked_up(figure.symbol),
             "place": tracing.inputs[figure.name],
             "start": figure.start,
@@ -286,7 +287,7 @@ def stands_by(scene: Scene) -> frozenset[str]:
 
 def printed_unit(unit: str, words: Words) -> str:
     """A unit after its number."""
-    printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    printed = unit_words(words, unit)
     return f" {printed}" if printed and printed != "°" else printed
 
 

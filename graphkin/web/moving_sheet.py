@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import ENDLESS, NOISE, Drawing
-from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined
+from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined_points
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import Trace
 from graphkin.construction.tape.tape_outputs import TapeOutputs
@@ -63,7 +63,7 @@ class MovingSheet(Struct, frozen=True, dict=True):
         """The steps whose points a line or an arc must reach, as the layout finds them."""
         drawing, drawn = self.drawing, self.drawing.trace.values
         numbers = [drawing.results.get(c, c) for c in drawing.children.get(number, ())]
-        numbers += joined(drawing, number)
+        numbers += joined_points(drawing, number)
         return [each for each in numbers if isinstance(drawn[each], complex | Ratio)]
 
     def reached(self, number: int, point: int, mm: float) -> Any:

@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -37,7 +37,7 @@ def offline_page(
         if ENDS.search(text):
             raise ValueError(f"{ENDS.search(text)} would end a script or a style sheet")
     policy = f"default-src 'none'; style-src {hashes(styles)}; script-src {hashes(scripts)}; {OWN}"
-    page = filled(
+    page = from_template(
         "web/templates/offline.html",
         title=title,
         language=language,

@@ -14,7 +14,7 @@ from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import runner
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
-from graphkin.motion.driving import COORDINATES, TURN, What, stated
+from graphkin.motion.driving import COORDINATES, TURN, What, stated_motion
 from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
@@ -63,7 +63,9 @@ class PageDriver(Struct, frozen=True):
     @property
     def sense(self) -> int:
         """In which sense it goes, by the driver's speed; a time runs on."""
-        return -1 if self.driver is not None and stated(self.driver, self.scene)[1] < 0 else 1
+        return (
+            -1 if self.driver is not None and stated_motion(self.driver, self.scene)[1] < 0 else 1
+        )
 
     @property
     def pins(self) -> tuple[str, ...]:
@@ -94,7 +96,7 @@ class PageDriver(Struct, frozen=True):
             if driver.kind == "turn":
                 moves = self.driver in (None, driver)
                 here = x if self.driver is not None else self.timed(driver, x, known)[0]
-                found[driver.link] = here if moves else stated(driver, self.scene)[0]
+                found[driver.link] = here if moves else stated_motion(driver, self.scene)[0]
         return found
 
     def placed(self, drive: Any, driver: Driver, place: Any) -> dict[int, Any]:
@@ -117,7 +119,10 @@ class PageDriver(Struct, frozen=True):
             place = driver.position.si(values, kind) * in_degrees
         else:
             since = time - self.start
-            place = stated(driver, self.scene)[0] + (speed + push * since / 2) * since * in_degrees
+            place = (
+                stated_motion(driver, self.scene)[0]
+                + (speed + push * since / 2) * since * in_degrees
+            )
             speed = speed + push * since
         led = next((each for each in self.figures if each.driver is driver), None)
         return (place if led is None else place + known[led.name] * led.metres), speed, push
@@ -136,7 +141,7 @@ def driven_by(
     if number is None:
         return PageDriver(scene, None, "time", time_of(scene), "s", figures=figures)
     driver = scene.drivers[number - 1]
-    place = stated(driver, scene)[0]
+    place = stated_motion(driver, scene)[0]
     if driver.kind == "turn":
         return PageDriver(scene, driver, "turn", place, "deg", figures=figures)
     unit = scene.units["length"]

@@ -110,7 +110,7 @@ def scale_in(room: Rect, boxes: Sequence[Extent]) -> float:
     return 1 / size if size > 0 else 1.0
 
 
-def placed(rect: Rect, box: Extent) -> Field:
+def mechanism_pane(rect: Rect, box: Extent) -> Field:
     """The field of a mechanism, in the middle of its room below the caption."""
     room = room_in(rect, ROOM)
     return Field(rect, scale_in(room, [box]), box.middle, middle_of(room))
@@ -136,7 +136,7 @@ def middle_of(room: Rect) -> tuple[float, float]:
     return (room[0] + room[2]) / 2, (room[1] + room[3]) / 2
 
 
-def seated(field: Field, box: Extent) -> Field:
+def plan_pane(field: Field, box: Extent) -> Field:
     """The field of a plan at one moment: its pole moved aside where the plan has no room else."""
     left, top, right, bottom = room_in(field.rect, AIR)
     (x, y), (low, high) = field(0j), field(complex(box.left, box.top))

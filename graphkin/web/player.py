@@ -38,7 +38,7 @@ from graphkin.web.protocol import Timed
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.web.scripts import PLAYER, together
 from graphkin.writers.svg import number
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
     pass
@@ -66,7 +66,7 @@ def player_page(motion: FrameSequence, words: Words) -> str:
     fixed[0] = [*set_up.ground, *fixed[0]]
     title = title_of(sheets[0].drawing)
     named = [list(vector_names(sheet, s)) for s, sheet in enumerate(sheets)]
-    body = filled(
+    body = from_template(
         "web/templates/player.html",
         title=title,
         words=words,

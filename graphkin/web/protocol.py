@@ -41,8 +41,6 @@ STOPS = (
     Part.RESULT,
 )
 """The parts of the work to whose beginnings one may go."""
-GUIDE = "guide "
-"""The beginning of the name of a mark that shows where a guide lies; its block follows."""
 SAME = 1e-6
 """Millimetres between places that are one."""
 
@@ -410,10 +408,9 @@ def step_of(drawing: Drawing, mark: Mark) -> int | None:
     """The step that a mark shows; that of its point or guide where the mark is not of a step."""
     if mark.step is not None:
         return mark.step
-    targets = drawing.trace.program.targets
-    if mark.name.startswith(GUIDE):
-        return targets.get(("guide", mark.name.removeprefix(GUIDE)))
-    return targets.get(("position", mark.name))
+    shown = mark.shows
+    target = ("position", mark.name) if shown is None else (shown.what, shown.link)
+    return drawing.trace.program.targets.get(target)
 
 
 def sources(

@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.documents.detail import parted
 from graphkin.documents.inset import insets
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of, language_of, proved
 from graphkin.drawing.marks import Mark
@@ -47,7 +47,7 @@ def screen_sheets(
     where a drawing does not fit.
     """
     spoken = language_of(mechanism, language)
-    verdict = proved(mechanism, shown(mechanism))
+    verdict = proved(mechanism, sheet_motion(mechanism))
     return screened(drawings_of(mechanism, verdict, spoken), view)
 
 

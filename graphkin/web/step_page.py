@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from graphkin.construction.core.given_data import Datum, data, given
-from graphkin.construction.core.naming import called, scale_of
+from graphkin.construction.core.naming import name_of_sheet, scale_of
 from graphkin.construction.core.program import Part
 from graphkin.construction.result_tables import unread
 from graphkin.documents.captions import HEADING, apart
-from graphkin.documents.sheet import asked, title_of
+from graphkin.documents.sheet import asked_words, title_of
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import Ink
@@ -35,7 +35,7 @@ from graphkin.web.your_turn import NOBODY, TurnOwner, palette
 from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.html_markup import marked_up
 from graphkin.writers.svg import number
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -114,7 +114,7 @@ def step_page(
     drawing = sheets[0].drawing
     given_data = data(drawing)
     found = rows_found(sheets, told)
-    body = filled(
+    body = from_template(
         "web/templates/step.html",
         **common(sheets),
         sheets=[
@@ -128,7 +128,7 @@ def step_page(
             for sheet in sheets
         ],
         found=found,
-        sought=[piece for sheet in sheets for piece in asked(sheet.drawing)],
+        sought=[piece for sheet in sheets for piece in asked_words(sheet.drawing)],
         data=[datum.said for datum in given_data],
         datum=place_of(moves.datum, given_data),
         meanings=list(meanings(drawing.words, sheets)),
@@ -167,7 +167,7 @@ def task_page(
     mechanism = mechanism if form else mechanism.spoken(language)  # answers go by the scene's names
     sheets = screen_sheets(mechanism, language, "task")
     tell_unread(sheets, tell)
-    body = filled(
+    body = from_template(
         "web/templates/task.html",
         **common(sheets),
         sheets=[
@@ -250,7 +250,7 @@ def common(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
 
 def sheet_name(sheet: ScreenSheet) -> str:
     """What a sheet is called in the words of its page."""
-    return sheet.drawing.words(f"sheet.{called(sheet.drawing)}")
+    return sheet.drawing.words(f"sheet.{name_of_sheet(sheet.drawing)}")
 
 
 def grown(

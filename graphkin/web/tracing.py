@@ -19,7 +19,7 @@ from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
 from graphkin.mechanism import Mechanism
-from graphkin.motion.pieces import followed, through
+from graphkin.motion.pieces import reachable_ranges, through
 from graphkin.motion.sweep import sweep_of
 from graphkin.motion.turns_counted import Turned, name_of
 from graphkin.scene.model import quantities_within
@@ -123,7 +123,7 @@ class Tracing(Struct, frozen=True, dict=True):
     def turned(self) -> Turned | None:
         """How far such links turn as the driver moves, which is in its unit."""
         sweep = sweep_of(self.mechanism.scene)
-        turned = through(followed(sweep).ranges[0])
+        turned = through(reachable_ranges(sweep).ranges[0])
         return None if turned is None else Turned(turned.at / self.driven.metres, turned.near)
 
     def trace_counted(self, drawn: Trace) -> dict[int, Any]:

@@ -77,7 +77,7 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def written(figure: Figure, kind: str) -> bytes:
+def figure_file(figure: Figure, kind: str) -> bytes:
     """The file of a figure, svg or png, without a date."""
     out = io.BytesIO()
     metadata: dict[str, Any] = {"Date": None, "Creator": None} if kind == "svg" else {}
@@ -93,7 +93,7 @@ def without_trailing_blanks(data: bytes) -> bytes:
     return b"\n".join(line.rstrip() for line in data.split(b"\n"))
 
 
-def titled(figure: Figure, text: str, **how: Any) -> None:
+def figure_title(figure: Figure, text: str, **how: Any) -> None:
     """The title of a figure as it is written: a scene's title is text and no formula."""
     figure.suptitle(text, parse_math=False, **how)
 
@@ -121,7 +121,7 @@ def legend(ax: Axes) -> None:
         )
 
 
-def heading(ax: Axes, text: str, *, raised: bool = False) -> None:
+def panel_heading(ax: Axes, text: str, *, raised: bool = False) -> None:
     """The heading of a panel, at the left above it; raised, above a long legend."""
     ax.set_title(text, loc="left", fontweight="bold", pad=20 if raised else None)
 

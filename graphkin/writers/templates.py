@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 HOUSE = Path(__file__).resolve().parents[1]
 
 
-def filled(name: str, /, **values: object) -> Markup:
+def from_template(name: str, /, **values: object) -> Markup:
     """A template by its path in the package, filled; what is no markup is escaped."""
     from markupsafe import Markup
 

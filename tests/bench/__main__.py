@@ -19,7 +19,7 @@ from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import gathered
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Page
@@ -156,7 +156,7 @@ def laid_out(drawing: Drawing) -> str:
 
 def drawings_for(mechanism: Mechanism) -> list[Drawing]:
     """What the sheets of a mechanism are drawn from."""
-    return drawings_of(mechanism, proved(mechanism, shown(mechanism)), words("ro"))
+    return drawings_of(mechanism, proved(mechanism, sheet_motion(mechanism)), words("ro"))
 
 
 def in_turn(works: list[Callable[[], object]], enough: int = 2, most: int = 24) -> list[float]:

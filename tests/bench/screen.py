@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, language_of, proved
 from graphkin.mechanism import Mechanism, load
 from graphkin.web.moving import moving
@@ -45,7 +45,7 @@ def thrice(name: str) -> list[Mechanism]:
 
 def both_svg(mechanism: Mechanism) -> None:
     """Both sheets with their key, as SVG."""
-    verdict = proved(mechanism, shown(mechanism))
+    verdict = proved(mechanism, sheet_motion(mechanism))
     drawings = drawings_of(mechanism, verdict, language_of(mechanism, None))
     for sheet in drawn_sheets(drawings, "key"):
         for page in sheet.pages:

@@ -54,7 +54,7 @@ def test_only_the_steps_of_an_effect_are_timed(monkeypatch: pytest.MonkeyPatch) 
         handed.append(list(numbers))
         return Timing(1.0, 1.0, 1.0, 1)
 
-    monkeypatch.setattr(room, "timed", noted)
+    monkeypatch.setattr(room, "time_of_steps", noted)
     rows = room.measured(mechanism)
     assert [len(numbers) for numbers in handed] == [row.steps for row in rows if row.steps]
     program, asked = mechanism.program, mechanism.asked()

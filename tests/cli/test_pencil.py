@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from graphkin.accuracy.pencil import Pencil, drawn
+from graphkin.accuracy.pencil import Pencil, pencil_drawings
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
 from tests.running import Run
@@ -30,7 +30,7 @@ def text(run: Run, *args: object) -> str:
 def test_what_is_foretold_is_what_drawings_are_off(run: Run) -> None:
     found = by_pencil(run, "pump", "--set", "n=20", "--pencil", 0.5)["answers"]
     pump = load("pump", n=20)
-    many = drawn(pump, scales(pump), Pencil(0.5), 4000)
+    many = pencil_drawings(pump, scales(pump), Pencil(0.5), 4000)
     for quantity, of in many.index:
         assert found[quantity][of]["predicted"] == pytest.approx(
             many.error((quantity, of)), rel=0.1

@@ -28,7 +28,7 @@ from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.solution import Verdict
 from graphkin.documents.relations import relations
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import left_board, right_board, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -115,7 +115,7 @@ def materials(name: str, language: str = "en") -> list[Drawing]:
 @cache
 def verdict(name: str) -> Verdict:
     """What the loops say of a scene."""
-    return proved(mechanism(name), shown(mechanism(name)))
+    return proved(mechanism(name), sheet_motion(mechanism(name)))
 
 
 @cache

@@ -7,7 +7,7 @@ import re
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.result_tables import turning_rows, vector_rows
 from graphkin.documents.relations import relations as relations_of
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.richtext import plain
@@ -28,7 +28,7 @@ SHIFTED = scene_text("construction/shifting-bar")
 def scene_of(title, text):
     """The material of the sheets of a scene written here."""
     mechanism = Mechanism(read_text(HEAD.format(title=title) + text, title, None, {}))
-    return drawings_of(mechanism, proved(mechanism, shown(mechanism)), words("en"))
+    return drawings_of(mechanism, proved(mechanism, sheet_motion(mechanism)), words("en"))
 
 
 def cells_of(drawing):

@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.documents import listing
 from graphkin.documents.listing import listed
-from graphkin.documents.sheet import heading
+from graphkin.documents.sheet import sheet_heading
 from graphkin.drawing.areas import BELOW, TABLES
 from graphkin.drawing.richtext import are_clear, extent
 from tests.documents.sheet_tools import drawings
@@ -35,7 +35,7 @@ def test_lines_that_would_touch_are_not_clear_of_each_other():
 def test_lines_of_long_data_stand_apart():
     """An index of one line is no stroke over a capital of the next."""
     (drawing, *_) = drawings("rod-and-wheel")
-    data = [mark for mark in heading(drawing)[0] if mark.name == "data"]
+    data = [mark for mark in sheet_heading(drawing)[0] if mark.name == "data"]
     assert len(data) > 2
     for above, below in pairwise(data):
         foot = above.y + extent("*O*_{1}", above.height)[2]

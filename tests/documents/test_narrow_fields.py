@@ -8,7 +8,7 @@ from graphkin.construction.core.layout import lay_out, refuse_wide
 from graphkin.documents.captions import HEADING, headlines
 from graphkin.documents.data_heading import NAME as DATA
 from graphkin.documents.overlay import overlay
-from graphkin.documents.sheet import heading, sheet, title_line
+from graphkin.documents.sheet import sheet, sheet_heading, title_line
 from graphkin.drawing.areas import WIDTH
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import are_clear
@@ -88,7 +88,7 @@ def test_titles_of_both_sheets_have_one_height_and_stand_level():
 def test_data_of_three_lines_keep_the_height_of_letters_where_signs_would_touch():
     """The square in ω²·kL stands below an index: lines of the acceleration sheet end earlier."""
     for drawing in drawings("plates-ring"):
-        said = [mark for mark in heading(drawing)[0] if mark.name == DATA]
+        said = [mark for mark in sheet_heading(drawing)[0] if mark.name == DATA]
         assert [mark.height for mark in said] == [2.5] * 3
         assert are_clear([mark.markup for mark in said], 2.5, said[1].y - said[0].y)
 

@@ -9,7 +9,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.textpath import TextPath
 
 from graphkin import load
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, language_of, proved
 from graphkin.drawing.glyphs import size_for
 from graphkin.drawing.style import BLUE, STYLES
@@ -42,7 +42,7 @@ def test_the_velocities_of_the_plan_stand_in_millimetres(n):
     mechanism = load("pump", n=n)
     drawn = lines(mechanism.plot(axes(), "velocity"), BLUE, STYLES["velocity"].width)
     spoken = language_of(mechanism, None)
-    (first, _) = drawings_of(mechanism, proved(mechanism, shown(mechanism)), spoken)
+    (first, _) = drawings_of(mechanism, proved(mechanism, sheet_motion(mechanism)), spoken)
     solution = mechanism.solve()
     for name in ("A", "B", "C", "D"):
         wanted = 1000 * solution.points[name].velocity / first.scales.kv

@@ -12,7 +12,7 @@ from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.relation import divided, inverse
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
-from graphkin.documents.sheet import asked, sheet
+from graphkin.documents.sheet import asked_words, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.areas import SCHEME, TABLES
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
@@ -166,7 +166,7 @@ def test_a_link_is_called_on_a_task_as_everywhere_else(language):
     """Upright, its number in line, as in the list of links; points are lettered."""
     text = NAMED.format(crank="A1", rocker="B").replace("rocker", "r1").replace("coupler", "plank")
     for drawing in drawings_from(text, language):
-        points, links = asked(drawing)
+        points, links = asked_words(drawing)
         assert f"{symbol('A1')}, {symbol('B')}" in points
         assert "plank, r1" in links
 

@@ -16,7 +16,7 @@ from graphkin.classroom.grading.feedback_rows import SLIPS
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.calculation import calculation
-from graphkin.documents.sheet import Moved, asked
+from graphkin.documents.sheet import Moved, asked_words
 from graphkin.documents.sheet_documents import (
     CALCULATED,
     by_itself,
@@ -80,7 +80,7 @@ def every_page(mechanism: Mechanism, spoken: Words, views: Sequence[str] = ("key
     drawings = drawings_of(mechanism, verdict, spoken)
     pages: list[Page] = []
     for drawing in drawings:
-        asked(drawing)
+        asked_words(drawing)
     for view in views:
         made = [partial(calculation, drawings, view)]
         made += [partial(one_page, drawing, view) for drawing in drawings]

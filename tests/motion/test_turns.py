@@ -13,7 +13,7 @@ from graphkin.construction.tape.tape_outputs import runner
 from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle
-from graphkin.motion.driving import stated
+from graphkin.motion.driving import stated_motion
 from graphkin.motion.motion_curves import curves_of
 from graphkin.motion.period import strangers, turns_to_return
 from graphkin.scene.read_scene import read_scene, read_text
@@ -57,7 +57,9 @@ def steps_of(found: Cycle):
     """
     way, driver = np.diff(found.at), found.sweep.driver
     time = (
-        way * found.sweep.per_unit / (1 if driver is None else abs(stated(driver, found.scene)[1]))
+        way
+        * found.sweep.per_unit
+        / (1 if driver is None else abs(stated_motion(driver, found.scene)[1]))
     )
     beside = (way < 1.5 * np.median(way)) & (np.diff(found.piece) == 0)
     if not found.path.whole:

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.detail import with_detail
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import left_board, right_board
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.labels import FieldContent
@@ -21,7 +21,7 @@ FIELDS = [(kind, draw) for kind in (0, 1) for draw in (left_board, right_board)]
 
 def board_of(mechanism: Mechanism, kind: int, draw) -> FieldContent:
     """A field with its labels still to be placed."""
-    verdict = mechanism.witness(shown(mechanism))
+    verdict = mechanism.witness(sheet_motion(mechanism))
     drawing = drawings_of(mechanism, verdict, words("en"))[kind]
     return draw(drawing, lay_out(drawing), "key")
 

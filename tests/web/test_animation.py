@@ -43,9 +43,9 @@ from graphkin.web.panes import (
     WAYS,
     aside,
     leaves,
+    plan_pane,
     room_in,
     scale_in,
-    seated,
     worth,
 )
 from graphkin.web.player import player_page, vector_names
@@ -231,7 +231,7 @@ def test_plans_fill_a_third_of_their_panes_at_the_median(name, beside):
             for box in boxes
         ]
         assert np.median(filled) > 1 / 3, (kind, np.median(filled))
-        gone = [leaves(seated(field, box), box) for box in boxes]
+        gone = [leaves(plan_pane(field, box), box) for box in boxes]
         assert np.mean(gone) <= 1 - HELD[-1] + 1 / len(boxes)
 
 

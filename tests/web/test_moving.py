@@ -23,7 +23,7 @@ from graphkin.drawing.field import clipped
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
-from graphkin.motion.pieces import followed
+from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
@@ -312,7 +312,7 @@ def test_a_rocker_that_swings_about_nought_stands_within_its_range(angle, place)
 )
 def test_a_group_of_class_iii_goes_as_far_as_its_cycle(name):
     """The motion's own search for dead points, which counts closures anew at every place."""
-    path = followed(sweep_of(named(name).scene))
+    path = reachable_ranges(sweep_of(named(name).scene))
     reach = page_of(name)[1].reach
     assert isclose(reach.low, path.ranges[0][0].low.at, abs_tol=1e-4)
     assert isclose(reach.high, path.ranges[0][-1].high.at, abs_tol=1e-4)

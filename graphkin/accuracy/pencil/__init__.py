@@ -3,6 +3,15 @@
 from graphkin.accuracy.pencil.forecast import Forecast, forecast
 from graphkin.accuracy.pencil.original import Original, original
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.simulation import Drawn, drawn, simulated
+from graphkin.accuracy.pencil.simulation import Drawn, pencil_drawings, simulated
 
-__all__ = ["Drawn", "Forecast", "Original", "Pencil", "drawn", "forecast", "original", "simulated"]
+__all__ = [
+    "Drawn",
+    "Forecast",
+    "Original",
+    "Pencil",
+    "forecast",
+    "original",
+    "pencil_drawings",
+    "simulated",
+]

@@ -50,7 +50,7 @@ class Drawn(Struct, frozen=True, dict=True):
         return float(np.percentile(np.where(np.isnan(off), np.inf, off), percent, method="lower"))
 
 
-def drawn(
+def pencil_drawings(
     mechanism: Mechanism,
     scales: Scales,
     pencil: Pencil,

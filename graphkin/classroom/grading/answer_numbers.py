@@ -227,7 +227,7 @@ def plain_unit(text: str) -> str:
     )
 
 
-def shown(text: str) -> str:
+def shown_cell(text: str) -> str:
     """A cell in a message: short, and without signs that steer a terminal."""
     clean = "".join(sign if sign.isprintable() else "?" for sign in text)
     return clean if len(clean) <= 30 else clean[:29] + "…"

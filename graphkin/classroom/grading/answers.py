@@ -224,7 +224,7 @@ class AnswerReading(Struct, dict=True):
             found = f'"{visible(sign)}" has answers already, in {self.answers.places[who]}'
             self.told.add(place, found, "one")
         else:
-            self.answers.places[who] = sheet.place(row)
+            self.answers.places[who] = str(sheet.place(row))
             return who
         return None
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import wrong_variants
-from graphkin.classroom.grading.decisions import by_student, decided, settled
+from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
 from graphkin.classroom.grading.graded import (
     Answer,
     Decision,
@@ -145,7 +145,7 @@ def graded_class(
         for each in graded
     ]
     own = by_student(decisions)
-    graded = [decided(each, own.get(each.taker.student.id, ())) for each in graded]
+    graded = [with_decisions(each, own.get(each.taker.student.id, ())) for each in graded]
     result = Result(tuple(graded), others, twice, unsure(graded, expected))
     return Class(result, tuple(expected))
 

@@ -12,7 +12,7 @@ from graphkin.classroom.grading.graded import EarnedMark, Graded, Status
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.drawing.richtext import pieces, plain
 from graphkin.text import Words
-from graphkin.writers.plot_style import INK, look, written
+from graphkin.writers.plot_style import INK, figure_file, look
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -48,11 +48,11 @@ def pictures(
     found: dict[str, bytes] = {}
     with look():
         if present:
-            found["difficulty"] = written(difficulty(present, words), kind)
-            found["distribution"] = written(distribution(present, words), kind)
+            found["difficulty"] = figure_file(difficulty(present, words), kind)
+            found["distribution"] = figure_file(distribution(present, words), kind)
         slipped = present if own is None else own
         if slip_counts(slipped):
-            found["slips"] = written(frequent(slipped, words), kind)
+            found["slips"] = figure_file(frequent(slipped, words), kind)
     return found
 
 

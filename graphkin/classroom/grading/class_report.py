@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from statistics import mean, median
 
-from graphkin.classroom.grading.answer_numbers import beyond_number, shown
+from graphkin.classroom.grading.answer_numbers import beyond_number, shown_cell
 from graphkin.classroom.grading.answers import Answers, Unread
 from graphkin.classroom.grading.class_pictures import pictures, slip_counts
 from graphkin.classroom.grading.feedback_rows import SLIPS, points_words
@@ -16,7 +16,7 @@ from graphkin.classroom.grading.graded import SURE, Decision, Graded, Result, Su
 from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.student import Student
 from graphkin.text import Words
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 NAMED = 5
 """Students that are named of many with the same data."""
@@ -28,7 +28,7 @@ def class_report(result: Result, title: str, unread: Sequence[Unread], words: Wo
     pngs = pictures(result.graded, words, "png", own)
     names = {each.taker.student.id: name_of(each) for each in result.graded}
     students = [each.taker.student for each in result.graded]
-    page = filled(
+    page = from_template(
         "classroom/templates/class.html",
         words=words,
         title=title,
@@ -175,8 +175,8 @@ def unread_lines(
             row=cell.row,
             who=names.get(cell.who, cell.who),
             field=cell.field,
-            text=shown(cell.text.strip()),
-            why=unread_words(cell.problem, cell.unit, words, shown(beyond_number(cell.text))),
+            text=shown_cell(cell.text.strip()),
+            why=unread_words(cell.problem, cell.unit, words, shown_cell(beyond_number(cell.text))),
         )
 
 
@@ -204,7 +204,9 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
     """Students for whom the class list names a language that is none of the pages'."""
     for taker in takers:
         if taker.language and language_in(taker.language) is None:
-            yield words("class.no_language", who=named(taker.student), text=shown(taker.language))
+            yield words(
+                "class.no_language", who=named(taker.student), text=shown_cell(taker.language)
+            )
 
 
 def absent_lines(result: Result) -> Iterator[str]:

@@ -17,7 +17,7 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.graded import Graded, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
-from graphkin.classroom.grading.likelihood import FAR, drawn, fit, told_odds
+from graphkin.classroom.grading.likelihood import FAR, fit, likelihood_if_drawn, told_odds
 from graphkin.classroom.grading.own_ways import by_own_scales, by_slips, rightly
 from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Expectation
@@ -101,7 +101,7 @@ def best_other(
             continue
         given, rounded = answers[read], digits[read]
         theirs = fit(given, rounded, keys.key(other, read))
-        plain = drawn(given, rounded, keys.key(mine, read), theirs.fits)
+        plain = likelihood_if_drawn(given, rounded, keys.key(mine, read), theirs.fits)
         if theirs.likelihood - plain < enough:
             continue
         ways = (

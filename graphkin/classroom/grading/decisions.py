@@ -25,6 +25,7 @@ from graphkin.classroom.roster.spreadsheets import (
 )
 from graphkin.classroom.roster.student_signs import Signs
 from graphkin.scene.findings import nearest, shown
+from graphkin.text.errors import InTable
 
 DECISIONS = "decisions.csv"
 """The file of a report folder that holds them."""
@@ -118,7 +119,7 @@ def decision(
 
 def field_in(
     cells: Mapping[str, str],
-    place: str,
+    place: InTable,
     worths: Mapping[str, Fraction],
     told: TableProblems,
     known: bool,
@@ -136,7 +137,9 @@ def field_in(
     return field, worths.get(field)
 
 
-def points_in(text: str, place: str, most: Fraction | None, told: TableProblems) -> Fraction | None:
+def points_in(
+    text: str, place: InTable, most: Fraction | None, told: TableProblems
+) -> Fraction | None:
     """The points of a row; None where they stay as they are."""
     if text in ("", "-", ASKED):
         return None
@@ -161,7 +164,7 @@ def by_student(decisions: Iterable[Decision]) -> Mapping[str, Sequence[Decision]
     return found
 
 
-def decided(graded: Graded, decisions: Sequence[Decision]) -> Graded:
+def with_decisions(graded: Graded, decisions: Sequence[Decision]) -> Graded:
     """A student's marks as the lecturer decided: fields first, then the whole form."""
     if not decisions:
         return graded

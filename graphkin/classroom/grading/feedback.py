@@ -19,7 +19,7 @@ from graphkin.classroom.grading.feedback_rows import (
 )
 from graphkin.classroom.grading.graded import Graded
 from graphkin.classroom.lab.lab_model import Rubric
-from graphkin.classroom.printing.personal import called
+from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
@@ -28,7 +28,7 @@ from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.model import Scene
 from graphkin.text import Words
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
@@ -47,7 +47,7 @@ def feedback_html(
 
     ``scene`` tells what the parameters are of; without it they stand by their names.
     """
-    page = filled(
+    page = from_template(
         "classroom/templates/feedback.html",
         words=words,
         title=title,
@@ -158,7 +158,7 @@ def feedback_pages(
 def name_of(graded: Graded) -> str:
     """A student's name and group, or the id, as on the sheets, as markup."""
     student = graded.taker.student
-    return escape(called(student.name, student.id, student.group))
+    return escape(printable_name(student.name, student.id, student.group))
 
 
 def fitting(markup: str) -> str:

@@ -7,7 +7,7 @@ from math import isnan
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.answer_numbers import beyond_number, shown
+from graphkin.classroom.grading.answer_numbers import beyond_number, shown_cell
 from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Status
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import TURNING
@@ -114,7 +114,7 @@ def answer_words(mark: EarnedMark, words: Words) -> str:
 
 def safe(text: str) -> str:
     """An answer as it was written, as far as a page can show it."""
-    return printable(shown(text.strip()))
+    return printable(shown_cell(text.strip()))
 
 
 def printable(text: str) -> str:

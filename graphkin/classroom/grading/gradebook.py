@@ -118,7 +118,7 @@ class Filled(Struct, frozen=True):
         return cls(data, found.head, count, found.absent, worth, replaced, rows)
 
 
-def filled(
+def with_marks(
     book: Gradebook,
     marks: Mapping[str, Fraction],
     column: str | None = None,

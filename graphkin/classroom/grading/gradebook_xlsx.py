@@ -25,9 +25,9 @@ from graphkin.classroom.grading.gradebook import (
     Gradebook,
     GradebookError,
     MarkPlaces,
-    filled,
     mark_text,
     places,
+    with_marks,
 )
 from graphkin.classroom.roster.sheet_rows import MOST_CELLS, too_large
 from graphkin.classroom.roster.spreadsheets import bytes_of, separator_of
@@ -113,7 +113,7 @@ def filled_gradebook(
     data = bytes_of(path)
     if data.startswith(START):
         return filled_workbook(read_workbook(data, path.name), marks, column, signs, match)
-    return filled(read_gradebook(path), marks, column, signs, match)
+    return with_marks(read_gradebook(path), marks, column, signs, match)
 
 
 class Workbook(Struct, frozen=True):

@@ -84,7 +84,7 @@ def noise_of(rounding: Any, key: Key) -> Any:
     return np.diag(key.computed**2 + rounding**2 / 3) + LAID_OFF**2 * key.cranks.T @ key.cranks
 
 
-def drawn(answers: Any, rounding: Any, key: Key, fits: Any) -> float:
+def likelihood_if_drawn(answers: Any, rounding: Any, key: Key, fits: Any) -> float:
     """How likely answers are where just some of them are no mistakes, as a logarithm."""
     astray = log(MISTAKES) + scattered(answers, key)
     noise = noise_of(rounding, key)

@@ -29,7 +29,7 @@ def number(value: Fraction | float) -> str:
     return "0" if text in ("-0", "") else text
 
 
-def written(lines: Iterable[Sequence[object]]) -> bytes:
+def csv_bytes(lines: Iterable[Sequence[object]]) -> bytes:
     """Rows as CSV in UTF-8, with a mark at the beginning by which spreadsheets know that."""
     return ("\ufeff" + csv_text(lines)).encode("utf-8")
 
@@ -51,7 +51,7 @@ def marks_table(result: Result) -> bytes:
             fits[who] += [f"same as {other}" for other in each.students if other != who]
     fields = [mark.item.field for mark in graded[0].marks if mark.points] if graded else []
     head = [*BEFORE, *fields, *(f"{name}{WHY}" for name in fields)]
-    return written([head, *(marks_row(each, fields, fits) for each in graded)])
+    return csv_bytes([head, *(marks_row(each, fields, fits) for each in graded)])
 
 
 def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str]]) -> list[str]:
@@ -132,7 +132,7 @@ def tolerances_table(graded: Sequence[Graded], expected: Sequence[Expectation]) 
                     "unsure" if allowed.unsure else "",
                 )
             )
-    return written(lines)
+    return csv_bytes(lines)
 
 
 def read_marks(data: bytes) -> dict[str, dict[str, str]]:
@@ -180,4 +180,4 @@ def change_lines(table: bytes, words: Words) -> Iterable[str]:
 def differences_table(found: Iterable[tuple[str, str, str, str]]) -> bytes:
     """The difference list as CSV."""
     lines: list[Any] = [("id", "column", "before", "after"), *found]
-    return written(lines)
+    return csv_bytes(lines)

@@ -17,7 +17,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-from graphkin.classroom.grading.marks_tables import written
+from graphkin.classroom.grading.marks_tables import csv_bytes
 from graphkin.scene.findings import visible
 from graphkin.text.errors import Problem, RosterError
 
@@ -123,4 +123,4 @@ def state_of(code: str, told: TurnFile) -> Seal:
 
 def turns_table(turns: Sequence[TurnScore]) -> bytes:
     """The table of the score sheets."""
-    return written([(*HEAD, "file"), *(turn.row() for turn in turns)])
+    return csv_bytes([(*HEAD, "file"), *(turn.row() for turn in turns)])

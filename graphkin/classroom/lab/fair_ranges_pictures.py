@@ -7,7 +7,14 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, Tried
-from graphkin.writers.plot_style import COLOURS, FORMATS, look, new_figure, titled, written
+from graphkin.writers.plot_style import (
+    COLOURS,
+    FORMATS,
+    figure_file,
+    figure_title,
+    look,
+    new_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,13 +36,13 @@ def pictures(found: FairRanges, name: str, title: str) -> Iterator[tuple[str, by
             figures["fair-by-pairs"] = by_pairs(tried, worst[:MAPPED], title)
         for what, figure in figures.items():
             for kind in FORMATS:
-                yield f"{name}-{what}.{kind}", written(figure, kind)
+                yield f"{name}-{what}.{kind}", figure_file(figure, kind)
 
 
 def by_parameter(tried: Tried, title: str) -> Figure:
     """The fair share by the values of each parameter, one panel below the other."""
     figure = new_figure(7.2, 0.6 + 1.7 * len(tried.space))
-    titled(figure, title)
+    figure_title(figure, title)
     panels = figure.subplots(len(tried.space), 1, squeeze=False)[:, 0]
     for axes, name in zip(panels, tried.space, strict=True):
         step = float(tried.space[name].step)
@@ -54,7 +61,7 @@ def by_pairs(tried: Tried, names: list[str], title: str) -> Figure:
     across = min(3, len(pairs))
     down = -(-len(pairs) // across)
     figure = new_figure(3.4 * across + 0.6, 3.0 * down + 0.5)
-    titled(figure, title)
+    figure_title(figure, title)
     panels = figure.subplots(down, across, squeeze=False).ravel()
     for axes, pair in zip(panels, pairs, strict=False):
         fair_map(axes, tried, *pair)

@@ -15,7 +15,7 @@ from msgspec import Struct, field
 from graphkin.classroom.lab.drawing_extents import needs_of, sketches
 from graphkin.construction.core.component import may_give_way
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.documents.composing import Search, Stated, searched
+from graphkin.documents.composing import Search, Stated, searched_scales
 from graphkin.documents.scaling import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
@@ -155,7 +155,7 @@ def side_by_side(
     found: list[Scales | None] = [None] * len(said)
     gives_way = may_give_way(mechanism.program)
     asking: list[Search] = [
-        searched(each, float(w), 0.0, may_give_way=gives_way)
+        searched_scales(each, float(w), 0.0, may_give_way=gives_way)
         for each, w in zip(said, speed, strict=True)
     ]
     waiting = {i: next(search) for i, search in enumerate(asking)}

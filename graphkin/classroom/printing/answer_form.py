@@ -8,6 +8,7 @@ from fractions import Fraction
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.qr_code import SIDE, square
+from graphkin.construction.core.quantities import BY_TARGET, Whose
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
@@ -57,11 +58,11 @@ def form(
 def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
     """How numbers, senses and places are to be written, as far as the form has them, as markup."""
     kinds = {item.what for item in items}
-    slides = {item.quantity.startswith("slide") for item in items if item.what == "sense"}
+    senses = {BY_TARGET[item.quantity].whose for item in items if item.what == "sense"}
     said = [words("form.numbers")]
-    if False in slides:
+    if senses - {Whose.SLIDE}:
         said.append(words("form.senses"))
-    if True in slides:
+    if Whose.SLIDE in senses:
         said.append(words("form.slides"))
     if "place" in kinds:
         said.append(words("form.places", pivot=symbol(pivot)))

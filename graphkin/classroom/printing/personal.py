@@ -39,10 +39,10 @@ class Owner(Struct, frozen=True):
 
 def owner(variant: Variant) -> Owner:
     """Whose the sheets of a variant are."""
-    return Owner(shortened(called(variant.name, variant.id, variant.group)), variant.code)
+    return Owner(shortened(printable_name(variant.name, variant.id, variant.group)), variant.code)
 
 
-def called(name: str, ident: str, group: str) -> str:
+def printable_name(name: str, ident: str, group: str) -> str:
     """A student's name and group in signs of the sheet's font; one without a name, or of whose
     name it has no letter, is called by the id."""
     known = writable(name) if is_readable(name) else writable(ident) or UNKNOWN

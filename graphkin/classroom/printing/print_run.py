@@ -19,7 +19,7 @@ from graphkin.classroom.printing.journal import Entry, Journal, hash_of, key_of
 from graphkin.classroom.printing.personal import lost
 from graphkin.classroom.printing.print_work import Made, PrintOrder, StudentSheets, make
 from graphkin.classroom.printing.workers import chunks, engine, results
-from graphkin.classroom.roster.language_names import called, unknown_lines
+from graphkin.classroom.roster.language_names import name_and_id, unknown_lines
 from graphkin.documents.sheet_documents import language_of
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
@@ -128,7 +128,7 @@ class PrintRun:
         self.note_parts()
         self.outcome = Outcome(journal.folder, len(variants))
         self.outcome.lost = [one for one in variants if lost(one.name) or lost(one.group)]
-        named = ((called(one.id, one.name), one.language) for one in variants)
+        named = ((name_and_id(one.id, one.name), one.language) for one in variants)
         self.outcome.strange = list(unknown_lines(named))
 
     def note_parts(self) -> None:

@@ -20,7 +20,7 @@ from graphkin.classroom.printing.register_crosses import crossed
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
 from graphkin.documents.calculation import calculation
-from graphkin.documents.scaling import shown
+from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import title_of
 from graphkin.documents.sheet_documents import (
     SheetDocument,
@@ -102,7 +102,7 @@ class Sheets:
         self.mechanism = Mechanism(scene)
         self.whose: Owner = owner(variant)
         self.words: Words = language_of(self.mechanism, variant.spoken or order.language)
-        verdict = proved(self.mechanism, shown(self.mechanism))
+        verdict = proved(self.mechanism, sheet_motion(self.mechanism))
         self.drawings = drawings_of(self.mechanism, verdict, self.words)
         self.made: dict[str, list[SheetDocument]] = {}
 

@@ -35,7 +35,7 @@ from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 from graphkin.text import Words
-from graphkin.writers.templates import filled
+from graphkin.writers.templates import from_template
 
 MOST = 1000
 """Numbers of students that are looked at."""
@@ -105,7 +105,7 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
         (gap.item.symbol, said(gap.item.what, words), Markup(cloze(gap, weight)), gap.item.unit)
         for gap, weight in zip(found, heavy, strict=True)
     ]
-    text = filled(
+    text = from_template(
         "classroom/templates/quiz.html",
         title=harmless(scene.titles.get(words.language, scene.title)),
         variant=harmless(told),

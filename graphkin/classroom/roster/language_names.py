@@ -32,10 +32,10 @@ def named_languages(roster: str, students: Iterable[Student]) -> Iterator[tuple[
         for head, text in each.extra.items():
             if folded(head) in heads:
                 cell = f'{roster}, row {each.row}, column "{head}"'
-                yield f"{cell}, {called(each.id, each.name)}", text
+                yield f"{cell}, {name_and_id(each.id, each.name)}", text
 
 
-def called(student: str, name: str) -> str:
+def name_and_id(student: str, name: str) -> str:
     """A student as notes name one: by name and id."""
     return f"{name} ({student})" if name else student
 

@@ -22,7 +22,7 @@ from graphkin.classroom.roster.spreadsheets import (
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.student_signs import EMAIL
 from graphkin.scene.findings import nearest, shown, visible
-from graphkin.text.errors import Problem
+from graphkin.text.errors import InTable, Problem
 
 NAMES = {
     "number": (
@@ -314,7 +314,7 @@ def refuse_twin(
     if one.id and other is not one:
         same = "" if other.id == one.id else f", written {shown(other.id)},"
         told.add(
-            f'{sheet.name}, row {one.row}, column "{place}"',
+            InTable(sheet.name, one.row, place),
             f"{shown(one.id)}{same} stands in row {other.row} already",
             "an id of its own for each student",
         )

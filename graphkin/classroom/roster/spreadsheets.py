@@ -14,6 +14,7 @@ from itertools import chain, islice
 from pathlib import Path
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.roster.sheet_rows import (
     LAST_ROW,
@@ -26,13 +27,11 @@ from graphkin.classroom.roster.sheet_rows import (
 )
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import Findings, nearest, visible
-from graphkin.text.errors import MOST, Hint, Problem, RosterError
+from graphkin.text.errors import MOST, About, Change, Hint, InTable, Problem, RosterError
 
 LARGEST = 16 * 1024 * 1024
 """Bytes of a table."""
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
-ROW = re.compile(r", row (\d+)")
-"""How a problem names its row."""
 VALUES = re.compile(r'"[^"]*"|\d+')
 """What differs from row to row in problems that have one cause."""
 FEW, TOLD = 3, 4
@@ -54,10 +53,9 @@ class Spreadsheet(Struct, frozen=True):
     rows: tuple[SheetRow, ...]
     separator: str = ","
 
-    def place(self, row: SheetRow, column: str = "") -> str:
-        """Where something is, as errors say it: roster.csv, row 14, column "id"."""
-        words = f"{self.name}, row {row.line}"
-        return f'{words}, column "{visible(column)}"' if column else words
+    def place(self, row: SheetRow, column: str = "") -> InTable:
+        """Where something is."""
+        return InTable(self.name, row.line, visible(column))
 
 
 class TableProblems(Findings):
@@ -66,7 +64,20 @@ class TableProblems(Findings):
     def __init__(self, name: str) -> None:
         super().__init__()
         self.name = name
-        self.causes: dict[tuple[str, ...], dict[tuple[str, str], Problem]] = {}
+        self.causes: dict[tuple[str | int, ...], dict[tuple[str, str], Problem]] = {}
+
+    def add(
+        self,
+        place: str | InTable,
+        found: str,
+        expected: str = "",
+        hint: Hint = "",
+        changes: tuple[Change, ...] = (),
+        about: tuple[About, ...] = (),
+    ) -> None:
+        """Note one problem, of the whole table or of a row."""
+        own = (place,) if isinstance(place, InTable) else ()
+        super().add(str(place), found, expected, hint, changes, (*own, *about))
 
     def extend(self, problems: Iterable[Problem]) -> None:
         """Note problems that are new; with more causes than an error carries, stop."""
@@ -85,12 +96,13 @@ class TableProblems(Findings):
             raise RosterError(sorted(told, key=row_of))
 
 
-def cause_of(problem: Problem) -> tuple[str, ...]:
+def cause_of(problem: Problem) -> tuple[str | int, ...]:
     """What problems share that differ in their rows and values alone."""
-    if not ROW.search(problem.place):
-        return (problem.place, problem.found, problem.expected, str(problem.hint))
     texts = (problem.found, problem.expected, str(problem.hint))
-    return (ROW.sub("", problem.place), *(VALUES.sub("", text) for text in texts))
+    place = place_of(problem)
+    if place is None:
+        return (problem.place, *texts)
+    return (place.table, place.column, *(VALUES.sub("", text) for text in texts))
 
 
 def together(alike: Iterable[Problem]) -> list[Problem]:
@@ -103,13 +115,18 @@ def together(alike: Iterable[Problem]) -> list[Problem]:
     more = f" and {len(rows) - TOLD} more" if len(rows) > TOLD else ""
     hint = f"the same in rows {named}{more}"
     hint = f"{every[0].hint}; {hint}" if every[0].hint else hint
-    return [Problem(every[0].place, every[0].found, every[0].expected, hint)]
+    return [replace(every[0], hint=hint)]
+
+
+def place_of(problem: Problem) -> InTable | None:
+    """Where in a table a problem is; None for one of the whole table."""
+    return next((each for each in problem.about if isinstance(each, InTable)), None)
 
 
 def row_of(problem: Problem) -> int:
-    """The row that a problem names; nought for one of the whole table."""
-    found = ROW.search(problem.place)
-    return int(found[1]) if found else 0
+    """The row of a problem; zero for one of the whole table."""
+    place = place_of(problem)
+    return place.row if place else 0
 
 
 def read_sheet(
@@ -179,13 +196,14 @@ def text_of(data: bytes, name: str) -> str:
         row = data.count(b"\n", 0, error.start) + 1
         found = f"the byte 0x{data[error.start]:02x} is not UTF-8"
         hint = "in the spreadsheet, save as CSV UTF-8"
-        raise RosterError(
-            Problem(f"{name}, row {row}", found, "a text saved as UTF-8", hint)
-        ) from None
+        at = InTable(name, row)
+        problem = Problem(str(at), found, "a text saved as UTF-8", hint, about=(at,))
+        raise RosterError(problem) from None
     if "\0" in text:
         row = text.count("\n", 0, text.index("\0")) + 1
         hint = "save the table again as CSV UTF-8"
-        raise RosterError(Problem(f"{name}, row {row}", "a NUL character", "a text", hint))
+        at = InTable(name, row)
+        raise RosterError(Problem(str(at), "a NUL character", "a text", hint, about=(at,)))
     return text
 
 
@@ -219,7 +237,7 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
         try:
             cells = next(reader, None)
         except csv.Error as error:
-            told.add(f"{told.name}, row {begins}", *broken(str(error)))
+            told.add(InTable(told.name, begins), *broken(str(error)))
             return
         if cells is None:
             return
@@ -228,7 +246,7 @@ def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRo
         if reader.line_num > begins and any("\n" in c or "\r" in c for c in cells):
             found = f"a cell goes on to row {reader.line_num}"
             hint = "is a closing quote missing?"
-            told.add(f"{told.name}, row {begins}", found, "a cell on one row", hint)
+            told.add(InTable(told.name, begins), found, "a cell on one row", hint)
         yield SheetRow(begins, tuple(cells))
         begins = reader.line_num + 1
 
@@ -264,9 +282,10 @@ def sheet_of(
         raise too_large(name, f"{width} columns")
     twice = repeated([folded(cell) for cell in head.cells if cell])
     for i, cell in enumerate(head.cells):
-        refuse_hidden(told, f"{name}, row {head.line}, column {i + 1}", cell)
+        refuse_hidden(told, InTable(name, head.line, i + 1), cell)
         if folded(cell) in twice:
-            told.add(f"{name}, row {head.line}", f'two columns are called "{visible(cell)}"', "one")
+            found = f'two columns are called "{visible(cell)}"'
+            told.add(InTable(name, head.line), found, "one")
             twice.discard(folded(cell))
     rows_found = []
     for count, row in enumerate(body, 1):
@@ -276,10 +295,10 @@ def sheet_of(
         if len(cells) > width:
             words = f"{len(cells)} cells, and the head has {width}"
             hint = f"a cell that holds {SEPARATORS[separator]} is written in quotes"
-            told.add(f"{name}, row {row.line}", words, f"at most {width}", hint)
+            told.add(InTable(name, row.line), words, f"at most {width}", hint)
             continue
         for i, cell in enumerate(cells):
-            refuse_hidden(told, f'{name}, row {row.line}, column "{visible(head.cells[i])}"', cell)
+            refuse_hidden(told, InTable(name, row.line, visible(head.cells[i])), cell)
         whole = cells + ("",) * (width - len(cells))
         rows_found.append(SheetRow(row.line, whole, row.numbers))
     return Spreadsheet(name, head.cells, tuple(rows_found), separator)
@@ -319,7 +338,7 @@ def repeated(names: Sequence[str]) -> set[str]:
     return {name for name in names if names.count(name) > 1}
 
 
-def refuse_hidden(told: TableProblems, place: str, cell: str) -> None:
+def refuse_hidden(told: TableProblems, place: InTable, cell: str) -> None:
     """Note a cell with control or bidirectional characters, or one too long."""
     if len(cell) > LONGEST:
         told.add(place, f"{len(cell)} characters", f"at most {LONGEST}")

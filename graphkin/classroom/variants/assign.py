@@ -16,10 +16,12 @@ from graphkin.classroom.grading.neighbours import (
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
-from graphkin.classroom.lab.rules import Settings, outside, settings
+from graphkin.classroom.lab.rules import Settings, settings
 from graphkin.classroom.roster.read_roster import Check
 from graphkin.classroom.roster.student import Student
 from graphkin.mechanism import Mechanism
+from graphkin.scene.parameters import misfit, range_words
+from graphkin.scene.quantity import shortest
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, RosterError, SceneError
 
@@ -169,15 +171,12 @@ def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
         given = settings(lab, student)
     except SceneError as error:
         return list(error.problems)
+    parameters, gives = mechanism.scene.parameters, f"number {student.number} gives"
     return [
-        Problem("", f"number {student.number} gives {which(problem.found)}", problem.expected)
-        for problem in outside(mechanism.scene.parameters, given)
+        Problem("", f"{gives} {name} = {shortest(value)}, which is {wrong}", range_words(each))
+        for name, value in given.items()
+        if (wrong := misfit(each := parameters[name], value))
     ]
-
-
-def which(found: str) -> str:
-    """What is found of a value, as the end of a sentence: n = 31, which is out of range."""
-    return found.replace(" is ", ", which is ", 1)
 
 
 def by_ranges(

@@ -13,7 +13,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
-from graphkin.cli.report.motion_report import heading, scale_lines, verdict_words
+from graphkin.cli.report.motion_report import scale_lines, scene_heading, verdict_words
 from graphkin.cli.report.solution_record import Record, as_given, motion_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import (
@@ -23,7 +23,7 @@ from graphkin.construction.core.quantities import (
     QUANTITIES,
     RATES,
     Sort,
-    held,
+    motion_value,
 )
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.core.solution import (
@@ -36,7 +36,7 @@ from graphkin.construction.core.solution import (
 )
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.diagnosis.assembly_failure import not_found, why
-from graphkin.documents.centre_tables import carried, with_pole
+from graphkin.documents.centre_tables import motion_of_block, with_pole
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import Kind
 from graphkin.numbers.kinds import ball_kind, sound_ball
@@ -182,7 +182,7 @@ def certified_record(found: Record, printer: Printer, kind: Kind) -> Record:
 def completed(scene: Scene, solution: Solution) -> Solution:
     """The solution with every moving link in it: a block turns as its guide does."""
     links = {
-        name: with_pole(solution.links.get(name), carried(scene, name, solution))
+        name: with_pole(solution.links.get(name), motion_of_block(scene, name, solution))
         for name in scene.links
     }
     return replace(solution, links=links)
@@ -208,14 +208,16 @@ def link(name: str, entry: Record, solution: Solution, printer: Printer) -> Reco
             continue
         quantity = targets[key]
         printed = printer.real if quantity in RATES else printer.centre
-        record[key] = printed(f"{path}.{key}", held(motion, quantity), (quantity.target, name))
+        record[key] = printed(
+            f"{path}.{key}", motion_value(motion, quantity), (quantity.target, name)
+        )
     return record
 
 
 def circle(path: str, target: Target, motion: LinkMotion, printer: Printer) -> Record | None:
     """The circle of a target; None without doubt only where the link surely does not turn."""
     quantity = CIRCLES[target[0]]
-    ratios = getattr(motion, quantity.circle_from), held(motion, quantity)
+    ratios = getattr(motion, quantity.circle_from), motion_value(motion, quantity)
     if ratios[0] is None or ratios[1] is None:
         printer.lost(path, target)
         return None
@@ -237,7 +239,7 @@ def slide(name: str, solution: Solution, printer: Printer) -> Record:
     motion, record = solution.slides.get(name, SlideMotion()), {}
     for each in OF_SLIDES:
         path, target = f"slides.{name}.{each.attribute}", (each.target, name)
-        value, is_vector = held(motion, each), each.sort is Sort.VECTOR
+        value, is_vector = motion_value(motion, each), each.sort is Sort.VECTOR
         if is_vector and value is None and target not in printer.targets:
             value = 0j
         record[each.attribute] = (printer.pair if is_vector else printer.real)(path, value, target)
@@ -250,7 +252,7 @@ def slide(name: str, solution: Solution, printer: Printer) -> Record:
 def certified_text(scene: Scene, record: Record, verdict: Verdict | None) -> str:
     """Everything that a certified record holds, a number on each line."""
     parts = [
-        [heading(scene, record)],
+        [scene_heading(scene, record)],
         *(numbers_table(record, section) for section in SECTIONS),
         scale_lines(record["scales"]) if "scales" in record else [],
         [certified_words(record), f"witness  {verdict_words(verdict, scene)}"],

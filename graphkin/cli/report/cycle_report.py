@@ -212,7 +212,8 @@ def verdict(loop: Loop) -> list[str]:
 
     if loop.kind == "four-bar":
         found = class_of(loop)
-        return [f"Grashof: {SUMS[found.partition(' ')[0]]}, so it is a {found}: {WORDS[found]}"]
+        total, turns = FOUR_BARS[found]
+        return [f"Grashof: {total}, so it is a {found}: {turns}"]
     if loop.kind == "slider-crank":
         sign = "≤" if loop.turns else ">"
         says = "the crank turns fully" if loop.turns else "the crank cannot turn fully"
@@ -222,23 +223,26 @@ def verdict(loop: Loop) -> list[str]:
     return [f"the block drives between its dead points; the crank {says}"]
 
 
-SUMS = {
-    "change-point": "shortest + longest = sum of the other two",
-    "triple": "shortest + longest > sum of the other two",
-    "double": "shortest + longest < sum of the other two",
-    "crank-rocker": "shortest + longest < sum of the other two",
-    "rocker-crank": "shortest + longest < sum of the other two",
+SMALLER, EQUAL, LARGER = (
+    f"shortest + longest {sign} sum of the other two" for sign in ("<", "=", ">")
+)
+FOUR_BARS = {
+    "change-point parallelogram": (EQUAL, "crank and follower turn alike or against one another"),
+    "change-point kite": (EQUAL, "all its links can lie in one line"),
+    "change-point four-bar": (EQUAL, "all its links can lie in one line"),
+    "triple rocker": (LARGER, "no link turns fully against another"),
+    "double crank": (SMALLER, "the frame is the shortest, both links on it turn fully"),
+    "crank-rocker": (SMALLER, "the driver is the shortest and turns fully, the other rocks"),
+    "rocker-crank": (
+        SMALLER,
+        "the follower is the shortest and could turn fully, the driver rocks",
+    ),
+    "double rocker": (
+        SMALLER,
+        "the coupler is the shortest and turns fully, both links on the frame rock",
+    ),
 }
-WORDS = {
-    "change-point parallelogram": "crank and follower turn alike or against one another",
-    "change-point kite": "all its links can lie in one line",
-    "change-point four-bar": "all its links can lie in one line",
-    "triple rocker": "no link turns fully against another",
-    "double crank": "the frame is the shortest, both links on it turn fully",
-    "crank-rocker": "the driver is the shortest and turns fully, the other rocks",
-    "rocker-crank": "the follower is the shortest and could turn fully, the driver rocks",
-    "double rocker": "the coupler is the shortest and turns fully, both links on the frame rock",
-}
+"""What Grashof's rule finds of the lengths of a four-bar, and what turns."""
 
 
 def reach_words(sweep: Sweep, loop: Loop) -> str:

@@ -13,7 +13,7 @@ from graphkin.construction.core.quantities import (
     RATES,
     MotionQuantity,
     Sort,
-    held,
+    motion_value,
 )
 from graphkin.numbers.plane import Ratio
 
@@ -77,7 +77,7 @@ def of_points(cycle: Cycle) -> Iterator[Column]:
 def own(motion: Any, quantities: Iterable[MotionQuantity], name: str) -> Iterator[Column]:
     """Some quantities of a motion, those that are not numbers by components."""
     for quantity in quantities:
-        value, tail = held(motion, quantity), f"_{name} [{quantity.caret_unit}]"
+        value, tail = motion_value(motion, quantity), f"_{name} [{quantity.caret_unit}]"
         if value is None:
             continue
         if quantity.sort is Sort.NUMBER:
@@ -91,7 +91,7 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
     """Angular velocity and acceleration and the instantaneous centre of every link."""
     for name, motion in cycle.sure.links.items():
         for rate in RATES:
-            value = held(motion, rate)
+            value = motion_value(motion, rate)
             if value is not None:
                 yield f"{rate.target}_{name} [{rate.caret_unit}]", value
         centre = motion.instant_centre

@@ -14,7 +14,7 @@ from graphkin.construction.core.quantities import (
     OF_SLIDES,
     RATES,
     Sort,
-    held,
+    motion_value,
 )
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, LinkMotion, Solution, Verdict
@@ -22,10 +22,10 @@ from graphkin.documents.centre_tables import (
     breadth_of,
     centre_words,
     circles_table,
-    completed,
     largest,
     pole_words,
     relative_table,
+    with_blocks,
 )
 from graphkin.scene.model import Scene
 from graphkin.text.plain_table import Cell, cleaned, listed, number, table
@@ -41,7 +41,7 @@ POINT_HEADS = {
 def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
     """Everything that a record holds, in aligned tables."""
     parts = [
-        [heading(scene, found)],
+        [scene_heading(scene, found)],
         points_table(found["points"], solution),
         turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
@@ -54,7 +54,7 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
     return "\n\n".join("\n".join(lines) for lines in parts if lines)
 
 
-def heading(scene: Scene, found: Record) -> str:
+def scene_heading(scene: Scene, found: Record) -> str:
     """Title and name of the scene, and its parameters as set."""
     settings = settings_words(found["parameters"])
     return f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
@@ -91,7 +91,9 @@ def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
     columns: list[list[Cell]] = [list(links)]
     for rate in RATES:
         values = [link.get(rate.attribute) for link in links.values()]
-        biggest = max(biggest**2, largest(held(link, rate) for link in solution.links.values()))
+        biggest = max(
+            biggest**2, largest(motion_value(link, rate) for link in solution.links.values())
+        )
         if any(value is not None for value in values):
             clean = [None if value is None else cleaned(value, biggest) for value in values]
             heads += [f"{rate.letter}, {rate.unit}", f"sense of {rate.letter}"]
@@ -111,7 +113,7 @@ def sense(value: float | None) -> str | None:
 
 def centres_table(scene: Scene, solution: Solution, links: Mapping[str, Record]) -> list[str]:
     """Instantaneous centre and acceleration pole of each link that has them reported."""
-    full, breadth = completed(scene, solution), breadth_of(solution)
+    full, breadth = with_blocks(scene, solution), breadth_of(solution)
     kinds = {each.attribute: f"{each.words}, {each.unit}" for each in CENTRES}
     known = [key for key in kinds if any(key in link for link in links.values())]
     rows: list[list[Cell]] = []

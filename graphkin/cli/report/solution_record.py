@@ -17,7 +17,7 @@ from graphkin.construction.core.quantities import (
     SLIDING,
     MotionQuantity,
     Sort,
-    held,
+    motion_value,
     names_asked,
 )
 from graphkin.construction.core.solution import (
@@ -27,7 +27,7 @@ from graphkin.construction.core.solution import (
     Solution,
     Verdict,
 )
-from graphkin.documents.centre_tables import breadth_of, completed, place_of
+from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import Scene
@@ -52,7 +52,7 @@ def record(
 
     Without ``scales`` there are none in it: they belong to a drawing, which nobody may have asked.
     """
-    full, wanted = completed(scene, solution), wanted_of(scene, asked)
+    full, wanted = with_blocks(scene, solution), wanted_of(scene, asked)
     slides = as_given(scene, full.slides)
     return {
         "name": scene.name,
@@ -110,19 +110,19 @@ def named(names: Any, entry: Callable[[str], Record]) -> Record:
 
 def point(name: str, motion: PointMotion | None, wanted: Wanted) -> Record:
     """Position, velocity and acceleration of a point, those that are wanted and known."""
-    found = {q.attribute: held(motion, q) for q in OF_POINTS if wanted(q, name)}
+    found = {q.attribute: motion_value(motion, q) for q in OF_POINTS if wanted(q, name)}
     return {key: pair(value) for key, value in found.items() if value is not None}
 
 
 def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Record:
     """Turning of a link, and its centres or null where they are at infinity."""
-    found: Record = {q.attribute: real(held(motion, q)) for q in RATES if wanted(q, name)}
+    found: Record = {q.attribute: real(motion_value(motion, q)) for q in RATES if wanted(q, name)}
     for q in CENTRES:
         if not wanted(q, name):
             continue
         if not q.circle:
-            found[q.attribute] = pair(place_of(held(motion, q), breadth))
-        elif held(motion, q) is not None:
+            found[q.attribute] = pair(place_of(motion_value(motion, q), breadth))
+        elif motion_value(motion, q) is not None:
             found[q.target] = circle(motion, q, breadth)
     return found
 
@@ -130,7 +130,7 @@ def link(name: str, motion: LinkMotion, wanted: Wanted, breadth: float) -> Recor
 def circle(motion: LinkMotion, quantity: MotionQuantity, breadth: float) -> Record | None:
     """The circle of a quantity: its pole, centre and radius; null where the link does not turn."""
     first = place_of(getattr(motion, quantity.circle_from), breadth)
-    pole = place_of(held(motion, quantity), breadth)
+    pole = place_of(motion_value(motion, quantity), breadth)
     if first is None or pole is None:
         return None
     return {"pole": pair(pole), "centre": pair((first + pole) / 2), "radius": abs(pole - first) / 2}
@@ -171,7 +171,7 @@ def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
     """Motion of a block along its guide; the vector that a guide that does not turn gives is 0."""
     if not wanted(SLIDING["position"], name):
         return {}
-    found = ((q, held(motion, q)) for q in OF_SLIDES)
+    found = ((q, motion_value(motion, q)) for q in OF_SLIDES)
     return {
         q.attribute: real(value) if q.sort is Sort.NUMBER else pair(value or 0j)
         for q, value in found

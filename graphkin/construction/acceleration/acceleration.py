@@ -14,7 +14,7 @@ from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import part_along
-from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -60,7 +60,7 @@ class GuideAcceleration(Struct, frozen=True):
         if is_under(self.name):
             link, tail = self.link, pen.the("velocity", self.name)
         else:
-            link, tail = self.known, carried(pen, self.known, self.point, VELOCITY)
+            link, tail = self.known, image_under(pen, self.known, self.point, VELOCITY)
         tip = pen.the("velocity", self.point)
         return coriolis_of(pen, link, tail, tip, self.point, self.pair.links[0])
 
@@ -70,12 +70,12 @@ class GuideAcceleration(Struct, frozen=True):
         Where that is the one that is sought, it is laid off backwards from the sliding one.
         """
         if vector is None:
-            return carried(pen, self.known, self.point, ACCELERATION)
+            return image_under(pen, self.known, self.point, ACCELERATION)
         from graphkin.construction.coriolis import end_of
 
         if is_under(self.name):
             return end_of(pen, pen.the("acceleration", self.point), vector, back=True)
-        return end_of(pen, carried(pen, self.known, self.point, ACCELERATION), vector)
+        return end_of(pen, image_under(pen, self.known, self.point, ACCELERATION), vector)
 
     def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
         """That, and the line of the rest, parallel to the guide."""
@@ -125,7 +125,7 @@ def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
     """Acceleration of a block along its guide, and the component that comes of its turning."""
     pair = pen.first_slide(block)
     first = pen.scene.link(block).points[0]
-    start = carried(pen, pair.links[1], first, ACCELERATION)
+    start = image_under(pen, pair.links[1], first, ACCELERATION)
     guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
     led = GuideAcceleration(pair, block, first, first)
     if (vector := led.component(pen, shapes)) is not None:

@@ -27,7 +27,7 @@ from graphkin.construction.centres.relative_centre import (
     pin_centre,
     relative_centre,
 )
-from graphkin.construction.core.pen import Pen, named
+from graphkin.construction.core.pen import Pen, step_name
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.run import StepFailed, Trace, run
@@ -385,7 +385,7 @@ class Finder:
         m, n = (self.centre(end) for end in ends)
         with self.pen.hands_way():
             line = self.pen.draw(kennedy_line, m, n)
-        letters = named(self.pen, m), named(self.pen, n)
+        letters = step_name(self.pen, m), step_name(self.pen, n)
         return self.pen.make(LineOfCentres(letters=letters, ends=(m, n), line=line))
 
     def is_endless(self, pair: Pair) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.pen import PRIME, Pen, about, letter, named, second_image
+from graphkin.construction.core.pen import PRIME, Pen, about, letter, second_image, step_name
 from graphkin.construction.core.plan_vector import PlanVector, foot_of
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join
@@ -30,7 +30,7 @@ def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
 
 def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
     """The arrow of the velocity of a point, against another if that is named; drawn once."""
-    name = named(pen, tail) + named(pen, tip)
+    name = step_name(pen, tail) + step_name(pen, tip)
     if name not in pen.arrows:
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             vector = PlanVector("v", letter(pin) + about, letter(pin), about)

@@ -257,16 +257,22 @@ class TriangleComponent(Component, frozen=True, kw_only=True):
         names = {role: steps[getattr(self, role)].name for role in roles}
         return {role: symbol(names[role], self.letter(drawing, role)) for role in roles}
 
+    @abstractmethod
+    def corner_letter(self, role: str) -> str:
+        """The letter of a corner without its index; nothing for what is no corner."""
+
     def letter(self, drawing: Drawing, role: str) -> str:
         """The letter of a corner: with its index only where another triangle has the same."""
-        steps = drawing.trace.program.steps
-        own: str = steps[getattr(self, role)].name
-        base, count = own.partition("_")[0], 0
-        for _, other in drawing.normals:
-            kind = construction(other)
-            if other.name.partition("_")[0] == base and kind and not kind.is_hidden(drawing):
-                count += 1
-        return base if count == 1 else own
+        own, name = self.corner_letter(role), drawing.trace.program.steps[getattr(self, role)].name
+        others = ((construction(step), step.role) for _, step in drawing.normals)
+        alike = [
+            kind
+            for kind, other in others
+            if isinstance(kind, TriangleComponent)
+            and kind.corner_letter(other) == own
+            and not kind.is_hidden(drawing)
+        ]
+        return own if len(alike) == 1 else name
 
 
 class Measured(Struct, frozen=True):

@@ -17,14 +17,14 @@ from graphkin.construction.core.naming import (
 )
 from graphkin.construction.core.parameter_words import (
     after_parameter,
+    has_own_relation,
     is_derived,
     law,
     lone,
     other_parameters,
     parameter,
-    reckoned,
 )
-from graphkin.construction.core.quantities import in_degrees, number_of, written
+from graphkin.construction.core.quantities import in_degrees, number_of, quantity_text
 from graphkin.construction.core.relation import figure
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import (
@@ -42,7 +42,7 @@ from graphkin.scene.model import (
     lengths_of,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text import MINUS, Words
+from graphkin.text import Words
 
 
 class Datum(Struct, frozen=True):
@@ -140,10 +140,10 @@ def cams(drawing: Drawing) -> Iterator[str]:
     for follower, cam in scene.cams.items():
         fields = {"g": escape(cam.on), "k": escape(follower)}
         fields["tip"] = cam_tip(scene, words, cam)
-        base = written(scene, words, cam.base)
+        base = quantity_text(scene, words, cam.base)
         senses = ("cam_forward", "cam_backward") if cam.slides else ("cam_counter", "cam_clockwise")
         sense = words(f"page.{senses[cam.sense < 0]}")
-        start = words("page.cam_start", angle=written(scene, words, cam.start))
+        start = words("page.cam_start", angle=quantity_text(scene, words, cam.start))
         turned = sense + ("" if cam.start.is_zero() else start)
         key = "page.cam_plate" if cam.slides else "page.cam"
         if cam.slides:
@@ -157,7 +157,7 @@ def cams(drawing: Drawing) -> Iterator[str]:
         if cam.carrier != FRAME and not cam.slides:
             yield words("page.cam_seen", g=fields["g"], c=escape(cam.carrier))
         if cam.conjugate:
-            radius, at = written(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
+            radius, at = quantity_text(scene, words, cam.conjugate.roller), symbol(cam.conjugate.at)
             yield words("page.cam_conjugate", radius=radius, p=at, **fields)
         if cam.slopes:
             points = cam_points(scene, words, cam)
@@ -172,10 +172,10 @@ def cams(drawing: Drawing) -> Iterator[str]:
 def cam_tip(scene: Scene, words: Words, cam: Cam) -> str:
     """What touches the cam; a lever's face runs along its bar, or beside it towards the cam."""
     if cam.lever and cam.is_flat:
-        line, gap = bar(cam.lever.pin, cam.point), written(scene, words, cam.lever.face)
+        line, gap = bar(cam.lever.pin, cam.point), quantity_text(scene, words, cam.lever.face)
         beside = "" if cam.lever.face.is_zero() else words("page.cam_beside", gap=gap)
         return words("page.cam_face", bar=line) + beside
-    return words(f"page.cam_{cam.tip}", radius=written(scene, words, cam.roller))
+    return words(f"page.cam_{cam.tip}", radius=quantity_text(scene, words, cam.roller))
 
 
 def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
@@ -184,19 +184,19 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
     points = []
     for piece in cam.law:
         height = number_of(scene, words, exact(lift))
-        points.append(f"{written(scene, words, at)}: {height}")
+        points.append(f"{quantity_text(scene, words, at)}: {height}")
         at, lift = piece.to, lift + piece.rise.number(scene.values)
     return ", ".join(points) + f" ({unit})"
 
 
 def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:
     """A piece of a law: how far it goes, and by which motion it lifts or lowers."""
-    to, rise = written(scene, words, piece.to), piece.rise
+    to, rise = quantity_text(scene, words, piece.to), piece.rise
     size = rise.number(scene.values)
     if size == 0:
         return words("page.cam_dwell", to=to)
     motion = words(f"page.motion_{piece.motion.replace(' ', '_')}")
-    size = written(scene, words, rise if size > 0 else rise.negative())
+    size = quantity_text(scene, words, rise if size > 0 else rise.negative())
     key = "page.cam_rise" if rise.number(scene.values) > 0 else "page.cam_return"
     return words(key, to=to, size=size, motion=motion)
 
@@ -213,9 +213,9 @@ def of_driver(
     scene: Scene, words: Words, driver: Driver, *, solved: bool = True, laws: bool = False
 ) -> Iterator[Datum]:
     """Position, speed and acceleration of a driver."""
-    if laws and not solved and reckoned(scene, driver.position):
+    if laws and not solved and has_own_relation(scene, driver.position):
         yield Datum(name=angle_symbol(scene, driver), value=law(scene, words, driver.position))
-    elif solved or not reckoned(scene, driver.position):
+    elif solved or not has_own_relation(scene, driver.position):
         angle = in_degrees(scene, words, driver.position)
         place = after_parameter(scene, words, driver.position) + (f" = {angle}" if angle else "")
         yield Datum(name=angle_symbol(scene, driver), value=place, of=driver.position)
@@ -228,7 +228,7 @@ def of_driver(
         if not solved and is_derived(quantity):
             continue  # its law tells its sense, too
         size, sense = with_sense(scene, words, driver, quantity)
-        told = size if solved or not reckoned(scene, quantity) else ""
+        told = size if solved or not has_own_relation(scene, quantity) else ""
         if laws and not told:
             told = law(scene, words, quantity)
         if told or constant or sense:
@@ -250,8 +250,7 @@ def with_sense(scene: Scene, words: Words, driver: Driver, quantity: Quantity) -
         return after_parameter(scene, words, quantity), ""
     if value > 0:
         return after_parameter(scene, words, quantity), words("page.turning_anticlockwise")
-    size = written(scene, words, quantity).removeprefix(MINUS)
-    return size, words("page.turning_clockwise")
+    return quantity_text(scene, words, quantity.negative()), words("page.turning_clockwise")
 
 
 def lengths(scene: Scene, words: Words) -> Iterator[Datum]:
@@ -300,13 +299,13 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
             if isinstance(placing, Polar):
                 key = "page.polar_frame" if fixed else "page.polar"
                 fields = {"bar": bar(placing.start, placing.point), "axis": axis_of(drawing, link)}
-                yield Datum(words(key, angle=written(scene, words, placing.angle), **fields))
+                yield Datum(words(key, angle=quantity_text(scene, words, placing.angle), **fields))
             elif isinstance(placing, Angled):
                 arms, angle = [symbol(placing.arm), point], placing.angle
-                if angle.text.startswith("-("):  # written from the point that it places
+                if placing.clockwise:  # written from the point that it places
                     arms, angle = arms[::-1], angle.negative()
                 name = f"∠{arms[0]}{symbol(placing.vertex)}{arms[1]}"
-                yield Datum(name=name, value=written(scene, words, angle))
+                yield Datum(name=name, value=quantity_text(scene, words, angle))
 
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:

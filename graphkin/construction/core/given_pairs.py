@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, constructions
-from graphkin.construction.core.naming import axis_of, heading, straight
+from graphkin.construction.core.naming import axis_of, nearest_side, straight
 from graphkin.construction.core.parameter_words import after_parameter
 from graphkin.construction.core.pen import letter
-from graphkin.construction.core.quantities import written
+from graphkin.construction.core.quantities import quantity_text
 from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
@@ -18,7 +18,7 @@ from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
 from graphkin.scene.wheels import contact_letters
-from graphkin.text import MINUS, Words
+from graphkin.text import Words
 
 WHEELS = {
     (False, False): "page.wheel",
@@ -75,7 +75,7 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
         return ""
     centres = tuple(centres_about(drawing, link.points))
     if line and centres:
-        side = words(f"page.{heading(line[1] * branch.way)}")
+        side = words(f"page.{nearest_side(line[1] * branch.way)}")
         return words("page.way", side=side, pivot=symbol(centres[-1]))
     if is_led(drawing, link, slide):
         p, q = (symbol(point) for point in slide.along or ())
@@ -110,16 +110,17 @@ def counted_from(words: Words, path: Slide | Rolling, way: complex) -> str:
     """Words for where a line is counted from, and in which direction, as it stands."""
     start = path.through
     where = symbol(start) if isinstance(start, str) else words("page.that_point")
-    return words("page.positive", through=where, way=words(f"page.to_{heading(way)}"))
+    return words("page.positive", through=where, way=words(f"page.to_{nearest_side(way)}"))
 
 
 def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
     """How far a block's point stays from the line it slides along, and on which side."""
     words, line = drawing.words, drawing.guide(slide)
-    amount = written(drawing.scene, words, slide.offset).removeprefix(MINUS)
     sign = 1 if float(slide.offset.si(drawing.scene.values)) > 0 else -1
+    offset = slide.offset if sign > 0 else slide.offset.negative()
+    amount = quantity_text(drawing.scene, words, offset)
     if line:
-        return {"offset": amount, "side": words(f"page.{heading(1j * line[1] * sign)}")}
+        return {"offset": amount, "side": words(f"page.{nearest_side(1j * line[1] * sign)}")}
     return {"offset": amount, "side": words("page.left" if sign > 0 else "page.right")}
 
 
@@ -250,7 +251,7 @@ def start_on_wheel(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 def stands(drawing: Drawing, link: Link, rolling: Rolling) -> str:
     """Words for the angle of a link where a rolling starts; nought where none is written."""
     angle = rolling.start.get(link.name)
-    turn = written(drawing.scene, drawing.words, angle) if angle else "0°"
+    turn = quantity_text(drawing.scene, drawing.words, angle) if angle else "0°"
     return drawing.words("page.stands", axis=axis_of(drawing, link), angle=turn)
 
 

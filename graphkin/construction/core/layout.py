@@ -51,7 +51,7 @@ class Layout(Struct, frozen=True):
 
 def lay_out(drawing: Drawing) -> Layout:
     """Mechanism and plan side by side, the mechanism at the place that it has on all sheets."""
-    mechanism = drawing.stand or placed([drawing])
+    mechanism = drawing.stand or mechanism_field([drawing])
     rect = (mechanism.rect[2], AREA[1], AREA[2], AREA[3])
     metres, plan = drawing.scales.metres(drawing.kind), drawing.plan_extent()
     mm = mechanism.mm * metres
@@ -59,7 +59,7 @@ def lay_out(drawing: Drawing) -> Layout:
     return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
 
 
-def placed(drawings: Sequence[Drawing]) -> Field:
+def mechanism_field(drawings: Sequence[Drawing]) -> Field:
     """Where the mechanism stands on all its sheets, with poles and centres where there is room.
 
     Its field is as wide as it needs; the plans have the rest, as long as that is not much wider
@@ -187,13 +187,13 @@ def points_on(drawing: Drawing, number: int) -> list[complex]:
     for child in drawing.children.get(number, ()):
         value: Any = drawing.trace.values[drawing.results.get(child, child)]
         points.append(drawing.place(value) if isinstance(value, Ratio) else value)
-    for arg in joined(drawing, number):
+    for arg in joined_points(drawing, number):
         value = drawing.trace.values[arg]
         points.append(drawing.place(value) if isinstance(value, Ratio) else value)
     return [point for point in points if isinstance(point, complex)]
 
 
-def joined(drawing: Drawing, number: int) -> list[int]:
+def joined_points(drawing: Drawing, number: int) -> list[int]:
     """The steps of the centres, or of other points, that a line joins."""
     step, values = drawing.trace.program.steps[number], drawing.trace.values
     if not isinstance(values[number], Line):

@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
-from graphkin.construction.core.quantities import OnPaper, in_mm, number_of, written
+from graphkin.construction.core.quantities import OnPaper, in_mm, number_of, quantity_text
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, At, Driver, GuideOrTrack, Link, Scene
@@ -26,7 +26,7 @@ def has_plan(drawing: Drawing) -> bool:
     return any(True for _ in drawing.steps(drawing.plane))
 
 
-def called(drawing: Drawing) -> str:
+def name_of_sheet(drawing: Drawing) -> str:
     """What a sheet is called by: its plan, or the mechanism alone where it has none."""
     return drawing.kind if has_plan(drawing) else "mechanism"
 
@@ -151,7 +151,7 @@ def driver_index(driver: Driver) -> str:
 
 def speed_symbol(driver: Driver) -> str:
     """Symbol of a driver's speed, as among the data."""
-    turning = "*n*" if driver.speed.unit.startswith("rev") else "*ω*"
+    turning = "*n*" if driver.speed.unit == "rev/min" else "*ω*"
     return f"{turning if driver.kind == 'turn' else '*v*'}_{{{driver_index(driver)}}}"
 
 
@@ -176,14 +176,14 @@ def straight(drawing: Drawing, path: GuideOrTrack, *, on_paper: bool = False) ->
     through = place(drawing, path.on, path.through, on_paper=on_paper)
     fields = {"k": escape(path.on), "through": through}
     if path.on == FRAME:
-        return words("page.line", angle=written(drawing.scene, words, path.angle), **fields)
+        return words("page.line", angle=quantity_text(drawing.scene, words, path.angle), **fields)
     lean = leaning(drawing, link)
     if lean is not None:
         turn = lean * complex(path.angle.direction(drawing.scene.values))
         return words("page.line_moved", angle=f"{number(drawing, degrees(phase(turn)))}°", **fields)
     if path.angle.is_zero() and not (len(link.points) > 1 or bool(link.slides)):
         return words("page.line_free", **fields)
-    turn_to = written(drawing.scene, words, path.angle)
+    turn_to = quantity_text(drawing.scene, words, path.angle)
     return words("page.line_of", angle=turn_to, axis=axis_of(drawing, link), **fields)
 
 
@@ -262,7 +262,7 @@ def number(drawing: Drawing, value: float) -> str:
     return drawing.words.decimal(shortest(round(value, FINE) + 0.0))
 
 
-def heading(way: complex) -> str:
+def nearest_side(way: complex) -> str:
     """Which side of a point a direction leads to: the nearest of right, above, left, below."""
     sides = ("right", "above", "left", "below")
     return sides[round(degrees(phase(way)) / 90) % 4]

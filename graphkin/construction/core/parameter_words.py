@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from graphkin.construction.core.naming import angle_symbol, speed_symbol
-from graphkin.construction.core.quantities import written
+from graphkin.construction.core.quantities import quantity_text, unit_words
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.expression import CONSTANT, TIME
 from graphkin.scene.model import Scene, lengths_of, quantities_within
@@ -71,7 +71,7 @@ def parameter_symbol(name: str) -> str:
 def as_set(scene: Scene, words: Words, name: str) -> tuple[str, str]:
     """A parameter's symbol and what it is set to; t is the moment of laws of time, in seconds."""
     unit = "s" if name == TIME else unit_of(scene, name)
-    printed = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    printed = unit_words(words, unit)
     space = " " if printed and printed != "°" else ""
     return parameter_symbol(name), words.decimal(shortest(scene.values[name])) + space + printed
 
@@ -81,7 +81,7 @@ def after_parameter(scene: Scene, words: Words, quantity: Quantity, letter: str 
 
     ``letter`` is the symbol that stands before it already.
     """
-    name, text = lone(scene, quantity), written(scene, words, quantity).rstrip()
+    name, text = lone(scene, quantity), quantity_text(scene, words, quantity).rstrip()
     told = name in put_in(scene) and name != letter
     return f"{parameter_symbol(name)} = {text}" if told else text
 
@@ -91,7 +91,7 @@ def lone(scene: Scene, quantity: Quantity) -> str:
     return quantity.text if quantity.text in scene.values and quantity.text != TIME else ""
 
 
-def reckoned(scene: Scene, quantity: Quantity) -> bool:
+def has_own_relation(scene: Scene, quantity: Quantity) -> bool:
     """Whether a relation of its own tells how a driver's quantity follows from the parameters."""
     derived = is_derived(quantity) and not quantity.is_zero()
     return derived or (bool(quantity.uses()) and not lone(scene, quantity))

@@ -31,7 +31,7 @@ from graphkin.construction.core.vocabulary import Action, pole
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.link_points import ends_of, lettered
 from graphkin.scene.model import FRAME, Driver, Scene
-from graphkin.scene.wheels import turned
+from graphkin.scene.wheels import angle_less_cycles
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Sliding, SlippingName, is_in_scene, turns
 from graphkin.structure.turn_counting import counted_near
@@ -244,7 +244,9 @@ class Pen:
         drive, number = self.drive(driver), self.scene.drivers.index(driver)
         if drive.angle is None:
             with self.on(Part.SHAPE, Plane.NUMBERS):
-                angle = self.given("number", turned(self.scene, driver), name="angle", of=number)
+                angle = self.given(
+                    "number", angle_less_cycles(self.scene, driver), name="angle", of=number
+                )
             self.drives[number] = self.make(replace(drive, angle=angle))
             return angle
         return drive.angle
@@ -365,6 +367,6 @@ def against(pen: Pen, pin: str, pivot: str) -> str:
     return letter(pin) if fixed else letter(pin) + letter(pivot)
 
 
-def named(pen: Pen, number: int) -> str:
+def step_name(pen: Pen, number: int) -> str:
     """Name of the point of a plan that a step carries."""
     return pen.steps[number].name

@@ -13,7 +13,7 @@ from graphkin.construction.core.quantities import OnPaper, in_mm
 from graphkin.drawing.areas import Rect
 from graphkin.drawing.field import XY, Field, clipped
 from graphkin.drawing.labels import FieldContent, FootNote
-from graphkin.drawing.marks import LineMark
+from graphkin.drawing.marks import LineMark, Shown
 
 EDGE = 3.0
 """How far from a field's edge lines end that would go on, in mm."""
@@ -67,13 +67,19 @@ def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
         plot.board.notes.append(note)
 
 
-def draw_line(board: FieldContent, field: Field, line: tuple[complex, complex], name: str) -> None:
+def draw_line(
+    board: FieldContent,
+    field: Field,
+    line: tuple[complex, complex],
+    name: str,
+    shows: Shown | None = None,
+) -> None:
     """A line across the field, chain-dotted."""
     start, along = line
     seen = start + along * (100 / (abs(along) * field.mm))  # of any size, 100 mm on paper
     part = clipped(*stretched(field(start), field(seen)), above_foot(field.rect))
     if part:
-        board.marks.append(LineMark(*part[0], *part[1], "centre-line", name))
+        board.marks.append(LineMark(*part[0], *part[1], "centre-line", name, shows=shows))
 
 
 def stretched(start: XY, end: XY) -> tuple[XY, XY]:

@@ -143,7 +143,7 @@ SLIDING = {each.kind: each for each in OF_SLIDES if each.sort is Sort.NUMBER}
 """The quantity of points, of links and of blocks that each sheet is about."""
 
 
-def held(motion: Any, quantity: MotionQuantity) -> Any:
+def motion_value(motion: Any, quantity: MotionQuantity) -> Any:
     """The value that a motion has of a quantity; None where it is not known."""
     return getattr(motion, quantity.attribute)
 
@@ -179,10 +179,15 @@ def in_mm(words: Words, length: OnPaper) -> str:
     return under if 0 < abs(length) < 0.005 else words.fixed(length, 2)
 
 
-def written(scene: Scene, words: Words, quantity: Quantity) -> str:
+def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:
     """A quantity as printed: in its written unit, in the language's own way."""
-    unit = words(f"unit.{quantity.unit}") if words.has(f"unit.{quantity.unit}") else quantity.unit
+    unit = unit_words(words, quantity.unit)
     return number_of(scene, words, quantity) + ("" if unit == "°" else " ") + unit
+
+
+def unit_words(words: Words, unit: str) -> str:
+    """A unit of a scene as it is printed."""
+    return words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
 
 
 def number_of(scene: Scene, words: Words, quantity: Quantity) -> str:

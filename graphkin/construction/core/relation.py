@@ -65,7 +65,8 @@ class Relation(Struct, frozen=True):
     ``equals``: what stands before a result, nothing where it is said in words. ``over``: the ends
     of the lengths that it takes. ``blank``: what a form has for a result that is no single number,
     and how it is counted. ``equation``: the vector equation that it is. ``given``: it is chosen, so
-    that a form states it.
+    that a form states it. ``takes``: the symbol of what is found in the plan, or of the rate, from
+    which it follows. ``turns``: its result is a rate of turning, for whose sense a form has room.
     """
 
     left: str
@@ -80,6 +81,8 @@ class Relation(Struct, frozen=True):
     blank: tuple[str, ...] = ()
     equation: VectorEquation | None = None
     given: bool = False
+    takes: str = ""
+    turns: bool = False
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""
@@ -150,7 +153,9 @@ def as_read(drawing: Drawing, millimetres: OnPaper, scale: float) -> tuple[str, 
             some
             for some in range(first, first + DIGITS)
             if value
-            == value_of(drawing.words, rounded(scale) * round(millimetres, some), millimetres)
+            == value_of(
+                drawing.words, rounded_figure(scale) * round(millimetres, some), millimetres
+            )
         ),
         first + 2,
     )
@@ -167,7 +172,7 @@ def length_of(drawing: Drawing, p: str, q: str) -> float:
     return abs(drawing.standing.spot(q) - drawing.standing.spot(p))
 
 
-def rounded(value: float) -> float:
+def rounded_figure(value: float) -> float:
     """A number as large as its figure: what a reader who takes the figure computes from."""
     return float(f"{value:.{DIGITS - 1}e}")
 

@@ -157,7 +157,7 @@ def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
     return {name: own for name, own in found.items() if own}
 
 
-def merged(trace: Trace) -> Trace:
+def with_least_margin(trace: Trace) -> Trace:
     """The same trace with the smallest of its margins alone, and with the product of its sines."""
     crossings = counted(trace)
     if not crossings:
@@ -166,7 +166,7 @@ def merged(trace: Trace) -> Trace:
     return replace(trace, margins=margins)
 
 
-def decided(trace: Trace) -> Trace:
+def without_touching(trace: Trace) -> Trace:
     """A batch without the variants in which two loci touch: there no digit of a rate is right.
 
     At a sine below 8·sqrt(eps), 1.2e-7 for doubles, they become NaN: a sine that ought to be

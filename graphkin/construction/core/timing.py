@@ -29,7 +29,7 @@ class Timing(Struct, frozen=True):
     rounds: int
 
 
-def timed(trace: Trace, numbers: Sequence[int], values: Values) -> Timing:
+def time_of_steps(trace: Trace, numbers: Sequence[int], values: Values) -> Timing:
     """The time that some steps alone take, on what a trace found before them.
 
     Steps that the trace had to leave out are left out here too.

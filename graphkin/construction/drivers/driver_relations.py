@@ -15,15 +15,15 @@ from graphkin.construction.core.naming import (
     sense,
     speed_symbol,
 )
-from graphkin.construction.core.parameter_words import expression, is_derived, reckoned
+from graphkin.construction.core.parameter_words import expression, has_own_relation, is_derived
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.quantities import written
+from graphkin.construction.core.quantities import RATES, number_of, unit_words
 from graphkin.construction.core.relation import (
     Relation,
     answer,
     figure,
     length_of,
-    rounded,
+    rounded_figure,
     squared,
 )
 from graphkin.construction.rate_relations import of_sum
@@ -35,6 +35,8 @@ from graphkin.scene.simplify import simplified, text_of
 
 OMEGA = 6
 """Significant digits of the driver's angular velocity, from which all else follows."""
+IN_RADIANS = tuple(rate.unit for rate in RATES)
+"""The units of rates of turning that follow from no other rate."""
 KV, KA = "(m/s)/mm", "(m/s^2)/mm"
 """Units of the scale factors of plans."""
 
@@ -49,9 +51,8 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
         (speed_symbol(driver), driver.speed),
         (f"{rate}{index}", driver.acceleration),
     ):
-        if reckoned(scene, quantity):
-            value = written(scene, words, quantity)
-            amount, _, unit = value.removesuffix("°").partition(" ")
+        if has_own_relation(scene, quantity):
+            amount = number_of(scene, words, quantity)
             symbols, law = expression(scene, words, quantity, values=False), quantity
             if is_derived(quantity):  # figures are put in only after it is derived
                 law = short(quantity)
@@ -63,7 +64,8 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
                 symbols,
                 figures if figures != amount else "",
                 amount,
-                "°" if value.endswith("°") else unit,
+                unit_words(words, quantity.unit),
+                turns=quantity.unit in IN_RADIANS,
             )
     if driver.kind != "turn":
         return
@@ -77,6 +79,7 @@ def of_driver(drawing: Drawing, driver: Driver, *, accelerated: bool) -> Iterato
             figure(drawing, abs(omega), OMEGA),
             "rad/s",
             sense(words, omega),
+            turns=True,
         )
     elif driver.speed.unit == "deg/s":
         yield in_radians(drawing, f"*ω*{index}", driver.speed, "rad/s")
@@ -100,7 +103,8 @@ def in_radians(drawing: Drawing, name: str, quantity: Quantity, unit: str) -> Re
     degrees = drawing.words.decimal(quantity.written(drawing.scene.values).lstrip("-"))
     rate = float(quantity.si(drawing.scene.values))
     size = figure(drawing, abs(rate), OMEGA)
-    return Relation(name, "", f"π·{degrees}/180", size, unit, sense(drawing.words, rate))
+    how = sense(drawing.words, rate)
+    return Relation(name, "", f"π·{degrees}/180", size, unit, how, turns=True)
 
 
 def driven_bars(drawing: Drawing, driver: Driver) -> Iterator[tuple[str, str]]:
@@ -167,7 +171,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
             name,
             "",
             f"{figure(drawing, length)}/{number}",
-            figure(drawing, drawing.on_paper(rounded(length))),
+            figure(drawing, drawing.on_paper(rounded_figure(length))),
             "mm",
             words("calculation.drawn"),
         )

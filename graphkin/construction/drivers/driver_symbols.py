@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.naming import angle_symbol, driver_index
-from graphkin.construction.core.quantities import in_degrees, written
+from graphkin.construction.core.quantities import in_degrees, quantity_text
 from graphkin.construction.guides.pivot_grounds import ground_ways
 from graphkin.construction.guides.rails import seat
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import Arc, LineMark, Mark
+from graphkin.drawing.marks import Arc, LineMark, Mark, Shown, showing
 from graphkin.drawing.symbols import BLOCK, SHORT, across, arrow, distance, head, turned_arrow
 from graphkin.numbers.arithmetic import Real, phase, pick, turn_by
 from graphkin.numbers.plane import cross, dot
@@ -89,18 +89,20 @@ def draw_crank(
         return
     swept = drawn_angle(drawing, driver)
     zero, end = phase(base) * DEGREE, crank_end(drawing, driver)
-    ray = across(centre, field.way(base), radius + 6, 0)
-    board.marks += within([LineMark(*centre, *ray, "centre-line", f"x {driver.link}")], field.rect)
+    ray, shows = across(centre, field.way(base), radius + 6, 0), Shown("coordinate", driver.link)
+    axis = LineMark(*centre, *ray, "centre-line", f"x {driver.link}", shows=shows)
+    board.marks += within([axis], field.rect)
     if driver.of is None and not lies_along(drawing, driver.link, end):
         tip = across(centre, field.way(base * turn_by(swept / DEGREE)), radius + 6, 0)
-        board.marks.append(LineMark(*centre, *tip, "centre-line", f"axis {driver.link}"))
+        line = LineMark(*centre, *tip, "centre-line", f"axis {driver.link}", shows=shows)
+        board.marks.append(line)
     name = "phi" if len(drawing.scene.drivers) == 1 else f"phi {driver.link}"
     if abs(swept) > 0.5:
-        board.marks.append(Arc(*centre, radius, zero, end, "angle", name))
+        board.marks.append(Arc(*centre, radius, zero, end, "angle", name, shows=shows))
     half = field.way(base * turn_by(swept / 2 / DEGREE))
     middle = across(centre, half, radius, 0)
     text = coordinate(drawing, driver, defined)
-    board.labels.append(Label(text, "", middle, 2.5, name, away=half))
+    board.labels.append(Label(text, "", middle, 2.5, name, away=half, shows=shows))
     if not defined:
         draw_sense(board, drawing, field, end, driver, radius - 3)
 
@@ -112,7 +114,7 @@ def coordinate(drawing: Drawing, driver: Driver, defined: bool) -> str:
         return letter
     given = drawing.scene, drawing.words, driver.position
     angle = in_degrees(*given) if driver.kind == "turn" else ""
-    return f"{letter} = {angle or written(*given)}"
+    return f"{letter} = {angle or quantity_text(*given)}"
 
 
 def crank_end(drawing: Drawing, driver: Driver) -> Real:
@@ -161,10 +163,11 @@ def draw_sense(
     start, long = turns[stands] + near if stands else near, far - near
     tip = end + sign * (start + long)
     way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
-    board.marks += turned_arrow(centre, radius, way, (tip, -sign * long), "sense")
+    shows, end_of_arc = Shown("rate", driver.link), (tip, -sign * long)
+    board.marks += showing(shows, turned_arrow(centre, radius, way, end_of_arc, "sense"))
     at = across(centre, half, radius, 0)
-    index = driver_index(driver)
-    board.labels.append(Label(f"*ω*_{{{index}}}", "", at, 2.5, f"omega {driver.link}"))
+    text = f"*ω*_{{{driver_index(driver)}}}"
+    board.labels.append(Label(text, "", at, 2.5, f"omega {driver.link}", shows=shows))
 
 
 def speed_of(drawing: Drawing, driver: Driver) -> Real:
@@ -270,25 +273,26 @@ def draw_way(
     way, (aside, is_dimensioned) = field.way(driven.along), chosen
     side = 1 if aside > 0 else -1
     start, end = field(driven.zero), field(driven.here)
-    name = f"s {driver.link}"
+    name, shows = f"s {driver.link}", Shown("coordinate", driver.link)
     text = coordinate(drawing, driver, defined)
     if is_dimensioned:
         low, high = across(start, way, 0, aside), across(end, way, 0, aside)
         thin = across(start, way, 0, aside + side * 1.5), across(end, way, 0, aside + side * 1.5)
         lines = ((start, thin[0]), (end, thin[1]), (low, high))
-        board.marks += within(dimension(lines, name), field.rect)
-        board.labels.append(Label(text, "", (low, high), 2.5, name))
+        board.marks += within(showing(shows, dimension(lines, name)), field.rect)
+        board.labels.append(Label(text, "", (low, high), 2.5, name, shows=shows))
     else:
         at = across(field(driven.drawn), way, 0, side * BLOCK[1] / 2)
-        board.labels.append(Label(text, "", at, 2.5, name, away=across((0.0, 0.0), way, 0, side)))
+        away = across((0.0, 0.0), way, 0, side)
+        board.labels.append(Label(text, "", at, 2.5, name, away=away, shows=shows))
     speed = speed_of(drawing, driver)
     if speed != 0 and not defined:
         ahead = pick(speed > 0, HALF, -HALF)
         tail, tip = (across(field(driven.moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
-        board.marks += arrow(tail, tip, "sense", f"speed {driver.link}")
-        index = driver_index(driver)
-        label = Label(f"*v*_{{{index}}}", "", (tail, tip), 2.5, f"speed {driver.link}")
-        board.labels.append(label)
+        name, shows = f"speed {driver.link}", Shown("rate", driver.link)
+        board.marks += showing(shows, arrow(tail, tip, "sense", name))
+        text = f"*v*_{{{driver_index(driver)}}}"
+        board.labels.append(Label(text, "", (tail, tip), 2.5, name, shows=shows))
 
 
 def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way: complex) -> float:

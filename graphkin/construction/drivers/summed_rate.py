@@ -58,6 +58,7 @@ class SummedRate(Construction, frozen=True, kw_only=True):
             figure(drawing, value, FINE),
             drawing.rate.caret_unit,
             sense(drawing.words, value),
+            turns=True,
         )
 
 

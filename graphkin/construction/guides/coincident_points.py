@@ -12,7 +12,7 @@ from graphkin.scene.model import FRAME
 from graphkin.structure.pairs import is_in_scene
 
 
-def carried(pen: Pen, link: str, point: str, plan: Plan) -> int:
+def image_under(pen: Pen, link: str, point: str, plan: Plan) -> int:
     """The image of the point of a known link that lies under a point, in either plan.
 
     What does not turn has one image for all its points; else the link's figure is similar to it.

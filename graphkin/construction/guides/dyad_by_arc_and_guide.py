@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import lies_along
-from graphkin.construction.core.naming import heading
+from graphkin.construction.core.naming import nearest_side
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action
@@ -66,7 +66,7 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     def place(self, drawing: Drawing) -> Mapping[str, str]:
         """Its letter, and on which side of the centre it lies."""
         along = drawing.trace.values[self.path].along * which_side(drawing, self.pin)
-        side = drawing.words(f"page.{heading(along)}")
+        side = drawing.words(f"page.{nearest_side(along)}")
         return {"name": symbol(self.name), "p": symbol(self.centre), "side": side}
 
     @property

@@ -10,7 +10,7 @@ from typing import ClassVar
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.naming import drawn_amount, heading, way_of
+from graphkin.construction.core.naming import drawn_amount, nearest_side, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
@@ -29,7 +29,7 @@ def axis_of(p: Point, q: Point, here: Point, there: Point) -> Point:
 
 
 @action("axis")
-def turned(axis: Point, direction: Point) -> Point:
+def direction_on_link(axis: Point, direction: Point) -> Point:
     """A direction of a link's own axes, in the plane."""
     return axis * direction
 
@@ -67,7 +67,7 @@ def way_between(here: Point, there: Point) -> Point:
 
 
 @action("beside")
-def placed(start: Point, axis: Point, here: Point, there: Point) -> Point:
+def point_on_link(start: Point, axis: Point, here: Point, there: Point) -> Point:
     """A point of a link that stands at one of its points and is turned to its axis."""
     return start + axis * (there - here)
 
@@ -212,7 +212,7 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
         guide, line = (drawing.trace.values[number] for number in (self.guide, self.line))
         across = 1j * guide.along / abs(guide.along)
         offset = float(dot(across, line.point - guide.point))
-        way = drawing.words(f"page.to_{heading(across * (-1 if offset < 0 else 1))}")
+        way = drawing.words(f"page.to_{nearest_side(across * (-1 if offset < 0 else 1))}")
         drawn = drawn_amount(drawing, abs(offset))
         return drawing.words("step.shifted", drawn=drawn, way=way)
 

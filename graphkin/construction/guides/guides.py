@@ -14,13 +14,13 @@ from graphkin.construction.guides.guide_line import (
     axis_of,
     axis_with_guide,
     beside_guide,
+    direction_on_link,
     gap,
     guide_along,
     guide_at,
     guide_through,
-    placed,
+    point_on_link,
     shift_guide,
-    turned,
     way_between,
 )
 from graphkin.construction.links.link_shapes import LinkShapes, polar
@@ -65,7 +65,7 @@ def direction_on(pen: Pen, shapes: LinkShapes, link: str, direction: int) -> int
     """A direction of a link's own axes, in the plane."""
     if link == FRAME:
         return direction
-    turn = pen.draw(turned, axis(pen, shapes, link), direction)
+    turn = pen.draw(direction_on_link, axis(pen, shapes, link), direction)
     return pen.make(CarriedDirection(link=link, turn=turn)).turn
 
 
@@ -105,7 +105,7 @@ def point_on(pen: Pen, shapes: LinkShapes, link: str, local: int) -> int:
         return local
     start = pen.bases[link].start
     where = pen.the("position", start), axis(pen, shapes, link), shapes.local(link, start)
-    place = pen.draw(placed, *where, local)
+    place = pen.draw(point_on_link, *where, local)
     return pen.make(CarriedPlace(link=link, place=place)).place
 
 

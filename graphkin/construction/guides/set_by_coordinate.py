@@ -8,7 +8,7 @@ from typing import ClassVar
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.naming import angle_symbol, drawn_amount, heading, place
+from graphkin.construction.core.naming import angle_symbol, drawn_amount, nearest_side, place
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive
 from graphkin.construction.core.vocabulary import action
@@ -54,7 +54,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
         path = next(path for path in paths if path.on == self.on)
         zero = path.along[0] if isinstance(path, Slide) and path.along else path.through
         assert zero is not None
-        side = heading(drawing.trace.values[self.path].along * (-1 if size < 0 else 1))
+        side = nearest_side(drawing.trace.values[self.path].along * (-1 if size < 0 else 1))
         return drawing.words(
             "step.set-at-found",
             name=name,

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
 
+from msgspec.structs import replace
+
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.plot import inside
 from graphkin.construction.guides.pivot_grounds import ground_ways
@@ -201,7 +203,8 @@ def within(marks: Iterable[Mark], rect: Rect) -> Iterator[Mark]:
         ends = (mark.x1, mark.y1), (mark.x2, mark.y2)
         part = clipped(*ends, inner)
         if part and (part == ends or mark.cls != "ground"):
-            yield LineMark(*part[0], *part[1], mark.cls, mark.name)
+            (x1, y1), (x2, y2) = part
+            yield replace(mark, x1=x1, y1=y1, x2=x2, y2=y2)
 
 
 def number_side(drawing: Drawing, field: Field, link: str) -> tuple[XY, XY] | None:

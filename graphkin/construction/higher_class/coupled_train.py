@@ -14,7 +14,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
-from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
@@ -148,7 +148,7 @@ def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
     """
     for contact in (*(wheel.contact for wheel in group.chain), group.last):
         for link in {*contact.links} - {*group.links}:
-            rim = carried(pen, link, contact_name(contact), plan)
+            rim = image_under(pen, link, contact_name(contact), plan)
     return {under(contact_name(group.last), group.closing): rim}
 
 
@@ -166,7 +166,7 @@ def missed(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> ContactMisclos
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radius = (pen.the("position", point) for point in (wheel.centre, name))
         normal = pen.draw(line_through, *radius)
-    start, tip = (carried(pen, x, name, plan) for x in (partner(contact, own), own))
+    start, tip = (image_under(pen, x, name, plan) for x in (partner(contact, own), own))
     with pen.on(plan.part, Plane.NUMBERS):
         size = pen.draw(lacks_across, normal, start, tip)
     ends = letter(wheel.centre), letter(name)

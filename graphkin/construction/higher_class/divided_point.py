@@ -29,6 +29,8 @@ from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text import MINUS
 
+SHARE = "*λ*"
+"""Markup of the share of the way between two trials at which nothing is missed."""
 ROUNDING = 1e-12
 """A share of the way between two trials that is no more than this is zero but for rounding."""
 
@@ -72,11 +74,12 @@ class DividedRate(Divided, frozen=True, kw_only=True):
         figures += f"({figure(drawing, second, FINE)} − {within(drawing, first)})"
         letter = drawing.rate.letter
         one, two = (symbol(f"{letter}_{link}{tag}") for tag in TAGS)
-        whole = f"{one} + *λ*·({two} − {one})"
+        whole = f"{one} + {SHARE}·({two} − {one})"
         result, unit, turning = tail
         if first + share * (second - first) < 0:
             result = f"{MINUS}{result}"
-        return Relation(symbol(f"{letter}_{link}"), whole, figures, result, unit, turning)
+        name = symbol(f"{letter}_{link}")
+        return Relation(name, whole, figures, result, unit, turning, takes=SHARE)
 
 
 class CrossedLine(Construction, frozen=True):

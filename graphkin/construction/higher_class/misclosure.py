@@ -197,7 +197,8 @@ class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
     def relation(self, drawing: Drawing, name: str) -> Relation:
         """What the plan has, less what is given."""
         found, size = self.has(drawing), self.amount(drawing)
-        if self.driver.kind == "turn":
+        turns = self.driver.kind == "turn"
+        if turns:
             figures, unit, remark = figure(drawing, found, FINE), drawing.rate.caret_unit, ""
         else:
             scale = scale_of(drawing, drawing.plane) / 1000
@@ -205,4 +206,4 @@ class DrivenMisclosure(Misclosure, frozen=True, kw_only=True):
             unit, point = drawing.vector.caret_unit, self.point(drawing)
             remark = drawing.words("calculation.gap-given", one=point)
         figures += f" − {within(drawing, found - size)}"
-        return Relation(name, "", figures, answer(drawing, size), unit, remark)
+        return Relation(name, "", figures, answer(drawing, size), unit, remark, turns=turns)

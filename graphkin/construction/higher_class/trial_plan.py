@@ -20,7 +20,7 @@ from graphkin.construction.core.naming import (
     drawn_between,
     drawn_in,
     has_no_length,
-    heading,
+    nearest_side,
     sense,
     turning_with,
 )
@@ -239,7 +239,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 if isinstance(kind, DrivenSlide):
                     sliding = amount(drawing, abs(size), drawing.sliding.caret_unit)
                     if size:
-                        way = heading(values[number] - values[step.args[0]])
+                        way = nearest_side(values[number] - values[step.args[0]])
                         sliding += f" {drawing.words(f'page.to_{way}')}"
                     return symbol(f"{drawing.sliding.letter}_{kind.point}"), sliding
                 turning = amount(drawing, abs(size), drawing.rate.caret_unit)

@@ -34,10 +34,10 @@ from graphkin.construction.core.vocabulary import (
     sum_of,
 )
 from graphkin.construction.group_images import GroupImages
-from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.higher_class import coupled_train
-from graphkin.construction.higher_class.divided_point import DividedPoint, crossings
+from graphkin.construction.higher_class.divided_point import SHARE, DividedPoint, crossings
 from graphkin.construction.higher_class.higher import Each, inverse, slide_of
 from graphkin.construction.higher_class.misclosure import (
     BarMisclosure,
@@ -120,7 +120,7 @@ class TwoTrials(Construction, frozen=True):
     def symbol(self) -> str:
         """Markup of the share, with the tag of the plan to which its trials lead, if of a trial."""
         whole = self.plans[0].whole
-        return "*λ*" if whole is None else symbol(f"λ{whole.tag}")
+        return SHARE if whole is None else symbol(f"λ{whole.tag}")
 
     def divided(self, program: Program) -> Iterator[DividedPoint]:
         """The points of the right plan that it divides."""
@@ -401,7 +401,7 @@ def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
     pair, point = group.tried.pair, pen.bases[group.tried.link].start
     assert not isinstance(pair, Pin)
-    under = carried(pen, partner(pair, group.tried.link), point, VELOCITY)
+    under = image_under(pen, partner(pair, group.tried.link), point, VELOCITY)
     speed = pen.draw(distance, under, pen.the("velocity", point))
     return pen.draw(product, speed, pen.draw(inverse, bar))
 

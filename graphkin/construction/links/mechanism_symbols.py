@@ -25,7 +25,7 @@ from graphkin.construction.links.wheel_symbols import (
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.label import Label
 from graphkin.drawing.labels import FieldContent
-from graphkin.drawing.marks import CircleMark, LineMark, polygon, reach
+from graphkin.drawing.marks import CircleMark, LineMark, Shown, polygon, reach
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, TALL, across, legs, pin, pivot_ground
 from graphkin.numbers.arithmetic import smaller
@@ -91,7 +91,7 @@ def draw_guide_line(board: FieldContent, drawing: Drawing, field: Field, block: 
     for slide in block.slides:
         line = drawing.guide(slide)
         if line is not None:
-            draw_line(board, field, line, f"guide {block.name}")
+            draw_line(board, field, line, f"guide {block.name}", Shown("guide", block.name))
 
 
 def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:

@@ -15,7 +15,7 @@ from graphkin.construction.core.kind import Construction, Sentence, construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import similar_point
-from graphkin.construction.guides.guide_line import placed
+from graphkin.construction.guides.guide_line import point_on_link
 from graphkin.construction.guides.guides import axis
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
@@ -93,7 +93,7 @@ def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
 def place_point(pen: Pen, link: str, ends: tuple[str, str], *values: int) -> int:
     """A point of a link laid off from another: ``ends`` are both, ``values`` those of the step."""
     start, name = ends
-    point = pen.draw(placed, *values, name=name)
+    point = pen.draw(point_on_link, *values, name=name)
     pen.make(PlacedPoint(link=link, start=start, name=name, point=point))
     return point
 

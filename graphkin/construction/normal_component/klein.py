@@ -29,6 +29,7 @@ from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     PICKED,
+    PRIMES,
     SCRIPT,
     NormalComponent,
     bar_line,
@@ -244,7 +245,7 @@ def klein_component(
     guide, point = known_guide(pen, shapes, slide), bare(letter(pin))
 
     def drawn(index: str) -> dict[str, int]:
-        names = [f"{point}{primes}_{index}" for primes in ("″", "‴", "⁗")]
+        names = [f"{point}{primes}_{index}" for primes in PRIMES]
         with pen.hands_way():
             across = pen.draw(square_to_guide, centre, guide)
             line = pen.draw(bar_line, *places)

@@ -86,6 +86,8 @@ def normal_by_hand(pin: Point, end: Point, seconds: Point) -> Point:
 
 PICKED = (("at", ("point",)), ("on", ("bar",)), ("velocity", ("arrow",)))
 """What a page draws it from: the pin, the bar, and the velocity about its other end."""
+PRIMES = ("″", "‴", "⁗")
+"""What the letter of the pin bears at each corner of its triangle."""
 SCRIPT = "normal"
 """The function of the page's script that gives v²/l."""
 
@@ -147,6 +149,11 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     def cause(cls, scene: Scene) -> str:
         """That points move about others."""
         return "points that move about others need a normal component"
+
+    def corner_letter(self, role: str) -> str:
+        """The letter of the pin with the corner's primes."""
+        primes = dict(zip(self.lettered, PRIMES, strict=True))
+        return bare(self.q) + primes[role] if role in primes else ""
 
     # --- drawing it ------------------------------------------------------------------------------
 
@@ -333,13 +340,13 @@ def right_triangle(
     """Velocity at the pin, perpendicular at its tip, cut with the bar, turned over (figure 4)."""
     seconds = pen.seconds()
     pivot, pin = places
-    own = bare(point)
+    names = [f"{bare(point)}{prime}_{index}" for prime in PRIMES]
     with pen.hands_way():
-        tip = pen.draw(set_way, pin, *images, seconds, name=f"{own}″_{index}")
+        tip = pen.draw(set_way, pin, *images, seconds, name=names[0])
         edge = pen.draw(perpendicular_at, tip, pivot)
         line = pen.draw(bar_line, pivot, pin)
-        cut = pen.draw(meet, edge, line, name=f"{own}‴_{index}")
-        end = pen.draw(turn_over, cut, pin, name=f"{own}⁗_{index}")
+        cut = pen.draw(meet, edge, line, name=names[1])
+        end = pen.draw(turn_over, cut, pin, name=names[2])
         with pen.on(Part.NORMAL, Plane.NUMBERS):
             read = pen.draw(normal_by_hand, pin, end, seconds)
     return {"tip": tip, "edge": edge, "line": line, "cut": cut, "end": end, "read": read}

@@ -10,7 +10,7 @@ from graphkin.construction.core.pen import Pen, image
 from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import meet
-from graphkin.construction.guides.coincident_points import carried
+from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.plan import VELOCITY
 from graphkin.construction.rolling.kutzbach import (
     PLAN,
@@ -206,7 +206,7 @@ class Ladder:
         for link in links:
             if self.pen.has("velocity", under(point, link)):
                 return self.pen.the("velocity", under(point, link))
-        return carried(self.pen, links[1], point, VELOCITY)
+        return image_under(self.pen, links[1], point, VELOCITY)
 
     def wheels_about(self, centre: str) -> list[str]:
         """The links whose wheels turn about a moving centre."""

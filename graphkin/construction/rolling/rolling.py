@@ -51,7 +51,7 @@ from graphkin.scene.quantity import exact
 from graphkin.structure.groups import Geared, Train
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
-from graphkin.structure.turn_counting import stated
+from graphkin.structure.turn_counting import stated_rolling
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -442,7 +442,7 @@ def refuse_idle_turns(pen: Pen) -> None:
     """Raise StructureError for stated turns of links that no wheel counts by their pins."""
     counted = {counted_link(step) for step in pen.steps}
     problems = []
-    for link, rolling in stated(pen.scene).items():
+    for link, rolling in stated_rolling(pen.scene).items():
         if link in counted:
             continue
         found = f"no wheel depends on how often link {link} went round"

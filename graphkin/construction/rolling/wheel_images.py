@@ -18,7 +18,7 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
-from graphkin.construction.guides.coincident_points import carried, found_by_turning
+from graphkin.construction.guides.coincident_points import found_by_turning, image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
@@ -110,7 +110,7 @@ def given_speed(pen: Pen, driver: Driver, contact: Contact, which: str) -> int:
 def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     """The image of one link's point of contact, from the other link."""
     name = contact_name(contact)
-    return pen.want("velocity", under(name, link), carried(pen, known, name, VELOCITY))
+    return pen.want("velocity", under(name, link), image_under(pen, known, name, VELOCITY))
 
 
 @by_contact
@@ -175,7 +175,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
     name = contact_name(contact)
     own = under(name, link)
     centre = pen.bases[link].start
-    other = carried(pen, known, name, ACCELERATION)
+    other = image_under(pen, known, name, ACCELERATION)
     corner, line = known_and_free(pen, centre, own)
     with ACCELERATION.drawn(pen):
         along = common_normal(pen, other, (centre, own), belted=contact.rolling.belt is not None)
@@ -204,7 +204,7 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
     link, centre, pivot = group.wheel, group.centre.point, group.pivot.point
     names = [contact_name(contact) for contact in group.contacts]
     others = [
-        carried(pen, partner(each, link), contact_name(each), ACCELERATION)
+        image_under(pen, partner(each, link), contact_name(each), ACCELERATION)
         for each in group.contacts
     ]
     corner, line = known_and_free(pen, pivot, centre)
@@ -260,8 +260,8 @@ def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> 
         return
     point, wheel = pen.bases[link].start, contact.links[0]
     name = contact_name(contact)
-    start = carried(pen, partner(slide, link), point, ACCELERATION)
-    other = carried(pen, wheel, name, ACCELERATION)
+    start = image_under(pen, partner(slide, link), point, ACCELERATION)
+    other = image_under(pen, wheel, name, ACCELERATION)
     guide = known_guide(pen, shapes, slide)
     with ACCELERATION.drawn(pen):
         line = parallel_through(pen, start, guide, link)
@@ -306,7 +306,7 @@ def second_roller(pen: Pen, group: Geared, own: Contact) -> None:
         found = image_between(pen, rims, (first, second), centre, ACCELERATION)
         if not any(map(pen.turns, known)):
             pairs = zip(known, names, strict=True)
-            tail, tip = (carried(pen, on, name, ACCELERATION) for on, name in pairs)
+            tail, tip = (image_under(pen, on, name, ACCELERATION) for on, name in pairs)
             component_arrow(pen, tail, tip, "τ", rims[1], rims[0])
     ACCELERATION.settle(pen, centre, found)
     turning_of_contacts(pen, link, rims, (first, second), ACCELERATION)
@@ -337,7 +337,7 @@ def second_image_of_rim(pen: Pen, contact: Contact, own: str, known: str) -> int
     radius; a bar's away from the centre of the wheel on which the bar rolls.
     """
     name = contact_name(contact)
-    start = carried(pen, known, name, ACCELERATION)
+    start = image_under(pen, known, name, ACCELERATION)
     rates, rim = (omega_of(pen, own), omega_of(pen, known)), under(name, own)
     if contact.track is not None:
         hubs = contact.wheel_of(own).centre, contact.wheel_of(known).centre

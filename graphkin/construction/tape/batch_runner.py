@@ -16,7 +16,7 @@ from msgspec import Struct, field
 from graphkin.construction.core.batch import is_array, run_batch, run_blocks
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace, Values
-from graphkin.construction.core.solution import merged
+from graphkin.construction.core.solution import with_least_margin
 from graphkin.construction.tape.emitted import Emitted
 from graphkin.construction.tape.traced import UntraceableError
 from graphkin.construction.tape.tracer import parts_named, traced
@@ -103,7 +103,7 @@ class BatchRunner(Struct):
             trace = run_batch(*args, margins=asked, overrides=order.overrides)
         else:
             trace = run_blocks(*args, margins=asked)
-        return merged(trace) if order.margins == LEAST else trace
+        return with_least_margin(trace) if order.margins == LEAST else trace
 
     def emitted(self, order: BatchRequest) -> Emitted | None:
         """The program emitted for an order, once; None where source cannot follow it."""
@@ -131,7 +131,7 @@ def emitted_for(program: Program, order: BatchRequest) -> Emitted | None:
     try:
         graph, trace = traced(program, *asked, margins=bool(order.margins))
         if order.margins == LEAST:
-            trace = merged(trace)
+            trace = with_least_margin(trace)
     except UntraceableError:
         return None
     return Emitted(program, graph, trace.values, trace.margins)

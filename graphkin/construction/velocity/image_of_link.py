@@ -12,7 +12,7 @@ from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.construction.core.vocabulary import action, meet, similar_point
-from graphkin.construction.velocity.relative_motion import known, stated
+from graphkin.construction.velocity.relative_motion import as_relation, known_term
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, pick
 
@@ -49,7 +49,7 @@ class TranslatedImage(Construction, frozen=True, kw_only=True):
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Its vector is that of the other point."""
         whole = Term(symbol(f"{drawing.vector.letter}_{self.q}"))
-        yield stated(VectorEquation(whole, ((known(drawing, self.p),),)))
+        yield as_relation(VectorEquation(whole, ((known_term(drawing, self.p),),)))
 
 
 def translated_image(pen: Pen, start: int, ends: tuple[str, str], name: str) -> int:

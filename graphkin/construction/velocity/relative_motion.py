@@ -16,7 +16,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.scene.link_points import ends_of, is_under, lettered, under
 
 
-def known(drawing: Drawing, point: str) -> Term:
+def known_term(drawing: Drawing, point: str) -> Term:
     """The vector of a point that is known: with direction and size where a driver gives them."""
     program = drawing.trace.program
     number = program.targets.get((drawing.kind, point))
@@ -30,7 +30,7 @@ def joined(*notes: str) -> str:
     return ", ".join(filter(None, notes))
 
 
-def stated(equation: VectorEquation) -> Relation:
+def as_relation(equation: VectorEquation) -> Relation:
     """A relation that is a vector equation."""
     alone = equation.whole if not equation.sums else None
     left = f"{alone.symbol} {alone.note}" if alone else equation.markup
@@ -68,14 +68,14 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
         """
         letter, fixed = drawing.vector.letter, self.index == self.whole
         whole = Term(symbol(f"{letter}_{self.whole}"))
-        base = known(drawing, self.base)
+        base = known_term(drawing, self.base)
         before = () if fixed else (base,)
         across, speed = f"⊥ {self.bar}", symbol(f"v_{self.index}")
         if drawing.kind == "velocity":
             relative = Term(speed, 1 + bool(omega), joined(across, omega and f"{omega}·{self.bar}"))
             if fixed:
-                return stated(VectorEquation(relative))
-            return stated(VectorEquation(whole, ((*before, relative),)))
+                return as_relation(VectorEquation(relative))
+            return as_relation(VectorEquation(whole, ((*before, relative),)))
         square = f"{omega}^2·{self.bar}" if omega else f"{speed}^2/{self.bar}"
         inward = f"{symbol(self.q)}→{symbol(self.p)}"
         terms = [Term(symbol(f"a_{self.index}^ν"), 2, joined(inward, square))]
@@ -83,7 +83,7 @@ class AboutPivot(Construction, frozen=True, kw_only=True):
             size = epsilon and f"{epsilon}·{self.bar}"
             name = symbol(f"a_{self.index}^τ")
             terms.append(Term(name, 1 + bool(epsilon), joined(across, size)))
-        return stated(VectorEquation(whole, ((*before, *terms),)))
+        return as_relation(VectorEquation(whole, ((*before, *terms),)))
 
 
 class AlongGuide(Construction, frozen=True, kw_only=True):
@@ -120,14 +120,14 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
         if drawing.trace.program.steps[self.start].name == drawing.pole:
             name = symbol(f"{letter}_{beneath if is_under(sought) else point}")
             rests = self.rests(drawing, point) if is_under(sought) else ""
-            return stated(VectorEquation(Term(name, 1 + bool(size), joined(along, rests))))
+            return as_relation(VectorEquation(Term(name, 1 + bool(size), joined(along, rests))))
         unknown = Term(symbol(f"{letter}_{beneath if is_under(sought) else point}"))
         rests = self.rests(drawing, point)
         if is_under(sought):
-            known_one = known(drawing, point)
+            known_one = known_term(drawing, point)
             whole, first = Term(known_one.symbol, 2, rests or known_one.note), unknown
         else:
-            whole, first = unknown, known(drawing, beneath)
+            whole, first = unknown, known_term(drawing, beneath)
         at_rest = first is not unknown and beneath in drawing.scene.frame.points
         terms = [] if at_rest else [first]
         laid = laid_off(drawing.trace.program, self.start)
@@ -137,7 +137,7 @@ class AlongGuide(Construction, frozen=True, kw_only=True):
             terms.append(Term(name, 2, component.formula(drawing)))
         relative = symbol(f"{letter}_{point}{beneath}" + ("" if velocity else "^r"))
         terms.append(Term(relative, 1 + bool(size), along))
-        return stated(VectorEquation(whole, (tuple(terms),)))
+        return as_relation(VectorEquation(whole, (tuple(terms),)))
 
     def rests(self, drawing: Drawing, point: str) -> str:
         """That a fixed point does not move; nothing of one that does."""

@@ -81,7 +81,7 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
         figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
         name = symbol(f"{drawing.rate.letter}_{turning_with(drawing, self.link)}")
         whole = f"{relative}/{bar(self.p, self.q)}"
-        return Relation(name, whole, figures, *tail, over=((self.p, self.q),))
+        return Relation(name, whole, figures, *tail, over=((self.p, self.q),), takes=relative)
 
 
 def turning_of_link(

@@ -8,7 +8,7 @@ from graphkin.construction.core.arrows import arrow_between, velocity_arrows
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join, part_along
-from graphkin.construction.guides.coincident_points import carried, source_of
+from graphkin.construction.guides.coincident_points import image_under, source_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import LinkShapes
@@ -65,7 +65,7 @@ class GuideVelocity(BoundVelocity, frozen=True):
         """The image of the point beneath; where that is the one sought, of the point above."""
         known, point = partner(self.pair, self.link), self.point
         own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
-        return pen.the("velocity", point) if own else carried(pen, known, point, VELOCITY)
+        return pen.the("velocity", point) if own else image_under(pen, known, point, VELOCITY)
 
     def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
         """That, and the parallel to the guide through it."""
@@ -85,7 +85,7 @@ def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
     """Speed of a block along its guide."""
     pair = pen.first_slide(block)
     first = pen.scene.link(block).points[0]
-    start = carried(pen, pair.links[1], first, VELOCITY)
+    start = image_under(pen, pair.links[1], first, VELOCITY)
     with pen.on(Part.RESULT, Plane.NUMBERS):
         guide = known_guide(pen, shapes, pair)
         found = pen.draw(part_along, guide, start, pen.the("velocity", first))
@@ -100,7 +100,7 @@ def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     along the block suffices.
     """
     known, o = partner(pair, link), pen.pole(Plane.VELOCITIES)
-    start, tip = carried(pen, known, point, VELOCITY), pen.the("velocity", point)
+    start, tip = image_under(pen, known, point, VELOCITY), pen.the("velocity", point)
     told = not pen.turns(known) and tip != o and is_joined(pen, tip, start)
     if start not in (o, tip) and not told:
         arrow_between(pen, start, tip, point, letter(under(point, known)))

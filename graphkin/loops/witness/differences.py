@@ -17,7 +17,7 @@ from graphkin.construction.core.quantities import (
     OF_SLIDES,
     RATES,
     MotionQuantity,
-    held,
+    motion_value,
 )
 from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.loops.equations import equations
@@ -161,7 +161,7 @@ def paired(
     """Some quantities of a point or a block, which the loops give in the same order."""
     sizes = dict(zip(KINDS, (scales.length, scales.speed, scales.acceleration), strict=True))
     for each, *pair in zip(quantities, theirs, bounds, strict=True):
-        yield f"{name}.{each.attribute}", held(ours, each), *pair, sizes[each.kind]
+        yield f"{name}.{each.attribute}", motion_value(ours, each), *pair, sizes[each.kind]
 
 
 def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
@@ -170,9 +170,9 @@ def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pa
     for name, link in solution.links.items():
         i = motion.index[name]
         for rate in RATES:
-            theirs, bound = held(motion, rate)[:, i], held(bounds, rate)[:, i]
+            theirs, bound = motion_value(motion, rate)[:, i], motion_value(bounds, rate)[:, i]
             path = f"links.{name}.{rate.attribute}"
-            yield path, held(link, rate), theirs, bound, held(scales, rate)
+            yield path, motion_value(link, rate), theirs, bound, motion_value(scales, rate)
 
 
 def of_slides(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:

@@ -10,7 +10,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.quantities import QUANTITIES, held
+from graphkin.construction.core.quantities import QUANTITIES, motion_value
 from graphkin.construction.core.solution import (
     LinkMotion,
     PointMotion,
@@ -18,7 +18,7 @@ from graphkin.construction.core.solution import (
     Solution,
     Verdict,
 )
-from graphkin.loops.assemble import LEVEL, completed, led_by
+from graphkin.loops.assemble import LEVEL, completed_start, led_by
 from graphkin.loops.branch_closures import closure_numbers, closures, other_closure, turned_side
 from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.closing_groups import Group, counted_in_order, groups, speaks_of, stages
@@ -246,7 +246,7 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
     named = {name: place for name, place in places.items() if not is_under(name)}
     with np.errstate(all="ignore"):
         start = start_values(loops, named, slides)
-    return completed(scene, loops, start), untold(loops, start)
+    return completed_start(scene, loops, start), untold(loops, start)
 
 
 def untold(loops: Equations, start: Start) -> tuple[str, ...]:
@@ -327,7 +327,7 @@ def owners_of(loops: Equations) -> dict[str, list[str]]:
 def has_acceleration(solution: Solution) -> bool:
     """Whether a solution holds anything that hangs on accelerations."""
     return any(
-        held(motion, quantity) is not None
+        motion_value(motion, quantity) is not None
         for quantity in QUANTITIES
         if quantity.kind == "acceleration"
         for motion in getattr(solution, quantity.whose.value).values()

@@ -10,7 +10,7 @@ from graphkin.motion.curves import over_driver, plane_paths, ring
 from graphkin.motion.curves.sampled import Sampled, sampled
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.single_loop import loop_of
-from graphkin.writers.plot_style import look, written
+from graphkin.writers.plot_style import figure_file, look
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,7 +26,7 @@ def picture_files(cycle: Cycle, stem: str, formats: Sequence[str]) -> dict[str, 
         for name, drawn in figures(found):
             figure = drawn()
             for kind in formats:
-                files[f"{stem}-{name}.{kind}"] = written(figure, kind)
+                files[f"{stem}-{name}.{kind}"] = figure_file(figure, kind)
     return files
 
 

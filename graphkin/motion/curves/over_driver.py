@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.construction.core.quantities import RATES, held
+from graphkin.construction.core.quantities import RATES, motion_value
 from graphkin.motion.curves.sampled import Sampled, moving_points, turning_links
 from graphkin.motion.driving import TURN
 from graphkin.writers.plot_style import (
@@ -19,13 +19,13 @@ from graphkin.writers.plot_style import (
     WARNING,
     colour,
     dash,
-    heading,
+    figure_title,
     legend,
     new_figure,
+    panel_heading,
     some_of,
     span_of,
     subscripted,
-    titled,
 )
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def of_links(found: Sampled, links: Sequence[str]) -> Figure:
     for rate, letter, words in zip(RATES, ("\\omega", "\\varepsilon"), turning, strict=True):
         curves: list[Curve] = []
         for i, name in enumerate(links):
-            value = held(found.solution.links[name], rate)
+            value = motion_value(found.solution.links[name], rate)
             if value is not None:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape)
                 curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
@@ -194,7 +194,7 @@ def stacked(
 ) -> Figure:
     """Panels one below the other over one axis of the driver."""
     figure = new_figure(WIDTH, PANEL * len(panels) + 0.9)
-    titled(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
+    figure_title(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
     axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
     at = found.broken(found.at * axis_factor(found))
     for ax, (words, unit, curves) in zip(axes, panels, strict=True):
@@ -208,7 +208,7 @@ def stacked(
             ax.margins(y=0.5)
         ax.axhline(0, color=FAINT, linewidth=0.6, zorder=1)
         ax.set_ylabel(unit)
-        heading(ax, words, raised=len(words) + NAMED * len(curves) > LINE)
+        panel_heading(ax, words, raised=len(words) + NAMED * len(curves) > LINE)
         legend(ax)
         singular_lines(found, ax)
     figure.align_ylabels(axes)

@@ -11,7 +11,15 @@ from graphkin.motion.centrodes import Centrodes, centrodes, links_with_centrodes
 from graphkin.motion.curves.outline import Outline, draw, stand_about
 from graphkin.motion.curves.sampled import Sampled, moving_points
 from graphkin.scene.link_points import is_under
-from graphkin.writers.plot_style import COLOURS, FAINT, INK, colour, new_figure, some_of, titled
+from graphkin.writers.plot_style import (
+    COLOURS,
+    FAINT,
+    INK,
+    colour,
+    figure_title,
+    new_figure,
+    some_of,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -151,7 +159,7 @@ def plane(found: Sampled, title: str, box: Box) -> tuple[Figure, Axes]:
     wide, high = box[1] - box[0], box[3] - box[2]
     scale = SIDE / max(wide, high)
     figure = new_figure(max(wide * scale, 5.2) + 0.7, max(high * scale, 2.6) + 1.5)
-    titled(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
+    figure_title(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
     ax = figure.subplots()
     ax.set_xlim(box[0], box[1])
     ax.set_ylim(box[2], box[3])

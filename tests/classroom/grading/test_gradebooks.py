@@ -14,7 +14,7 @@ import openpyxl.styles
 import pytest
 
 from graphkin.classroom.grading import gradebook_xlsx
-from graphkin.classroom.grading.gradebook import GradebookError, filled
+from graphkin.classroom.grading.gradebook import GradebookError, with_marks
 from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook, read_gradebook
 from graphkin.classroom.grading.sheet_xml import computed_anew, with_numbers
 from graphkin.classroom.roster.spreadsheets import SEPARATORS
@@ -51,18 +51,18 @@ def book(tmp_path):
 
 
 def test_moodle_and_canvas_keep_all_but_the_marks_their_quotes_and_row_of_points(book):
-    found = filled(book(MOODLE), MARKS, "Lab 3 (Real)")
+    found = with_marks(book(MOODLE), MARKS, "Lab 3 (Real)")
     expected = MOODLE.replace('UPB,-,,1700000000\r\n"Ș', 'UPB,8.5,,1700000000\r\n"Ș')
     assert found.data.decode("utf-8") == expected.replace('UPB,"-"', 'UPB,"12"')
     assert (found.count, found.absent) == (2, ("X9",))
     assert found.strangers == {4: "Guest X"}
-    found = filled(book(CANVAS), MARKS)
+    found = with_marks(book(CANVAS), MARKS)
     expected = CANVAS.replace("A,,88.5", "A,8.5,88.5").replace("stefan,A,,", "stefan,A,12,")
     assert found.data.decode("utf-8") == expected
     assert found.column == "Lab 3 (4711)"
     assert not found.strangers  # the row of points is no student's
     bare = CANVAS.replace("88.5", "")  # nothing is marked yet: what Canvas computes is empty, too
-    assert filled(book(bare), MARKS).column == found.column
+    assert with_marks(book(bare), MARKS).column == found.column
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_moodle_and_canvas_keep_all_but_the_marks_their_quotes_and_row_of_points
 def test_a_gradebook_that_cannot_be_filled_is_refused(book, text, column, words_found):
     """No mark is written over a name or an id."""
     with pytest.raises(GradebookError, match=words_found):
-        filled(book(text), MARKS, column)
+        with_marks(book(text), MARKS, column)
 
 
 def test_cells_of_a_gradebook_are_those_that_a_spreadsheet_reads(book):
@@ -128,32 +128,32 @@ WORKSHEET = (
 
 
 def test_a_gradebook_without_ids_is_filled_by_addresses(book):
-    found = filled(book(WORKSHEET), OWN, "Grade", SIGNS)
+    found = with_marks(book(WORKSHEET), OWN, "Grade", SIGNS)
     assert b"org,Submitted,9,10," in found.data and b"org,Submitted,7.5,10," in found.data
     assert found.worth == 10 and not found.absent
-    unnamed = filled(book(WORKSHEET.replace("Status,", "Last modified,")), OWN, None, SIGNS)
+    unnamed = with_marks(book(WORKSHEET.replace("Status,", "Last modified,")), OWN, None, SIGNS)
     assert unnamed.data == found.data.replace(b"Status,", b"Last modified,")
     with pytest.raises(GradebookError, match="no column holds ids of this class"):
-        filled(book(WORKSHEET), OWN, "Grade", SIGNS, "id")
+        with_marks(book(WORKSHEET), OWN, "Grade", SIGNS, "id")
     with pytest.raises(GradebookError, match="the class list has no column e-mail"):
-        filled(book(WORKSHEET), OWN, "Grade", signs(OWN))
+        with_marks(book(WORKSHEET), OWN, "Grade", signs(OWN))
 
 
 def test_a_row_without_an_id_is_found_by_its_address(book):
     """Where that is one student's, who has no row with the id; a foreign id is nobody's."""
     text = "Row,ID number,Grade\r\n1,1003,\r\n2,1004,\r\n"
-    found = filled(book(text), OWN, "Grade", SIGNS)
+    found = with_marks(book(text), OWN, "Grade", SIGNS)
     assert found.data == b"Row,ID number,Grade\r\n1,1003,9\r\n2,1004,7.5\r\n"
     text = "ID,E-mail,Grade\r\n01003,,\r\n,PAT@example.org,\r\n,ana.s@example.org,\r\n"
-    found = filled(book(text), OWN, "Grade", SIGNS)
+    found = with_marks(book(text), OWN, "Grade", SIGNS)
     rows = found.data.decode().split("\r\n")
     assert rows[1:4] == ["01003,,9", ",PAT@example.org,7.5", ",ana.s@example.org,"]
     assert (found.count, found.absent) == (2, ())
-    assert filled(book(text), OWN, "Grade", SIGNS, "id").absent == ("01004",)
+    assert with_marks(book(text), OWN, "Grade", SIGNS, "id").absent == ("01004",)
     foreign = text.replace(",PAT", "77,PAT")
-    assert filled(book(foreign), OWN, "Grade", SIGNS).absent == ("01004",)
+    assert with_marks(book(foreign), OWN, "Grade", SIGNS).absent == ("01004",)
     with pytest.raises(GradebookError, match='"01004" stands there twice'):
-        filled(book(text + ",pat@example.org,\r\n"), OWN, "Grade", SIGNS)
+        with_marks(book(text + ",pat@example.org,\r\n"), OWN, "Grade", SIGNS)
 
 
 # --- workbooks ----------------------------------------------------------------------------------

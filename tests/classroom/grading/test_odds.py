@@ -17,7 +17,13 @@ import pytest
 
 from graphkin.classroom.grading.graded import Answer, Graded, Taker
 from graphkin.classroom.grading.keys import Keys, distinct
-from graphkin.classroom.grading.likelihood import MISTAKES, PENCILS, Key, drawn, scattered
+from graphkin.classroom.grading.likelihood import (
+    MISTAKES,
+    PENCILS,
+    Key,
+    likelihood_if_drawn,
+    scattered,
+)
 from graphkin.classroom.grading.one_drawing import is_one_drawing
 from graphkin.classroom.grading.same_digits import (
     FEW,
@@ -230,7 +236,9 @@ def test_answers_are_as_likely_as_the_normal_law_of_each_pencil_has_them(compute
         densities.append(exp(-far / 2) / sqrt(np.linalg.det(2 * pi * spread)))
     lost = log(MISTAKES) + scattered(sizes + off, key)[2]
     expected = log(np.mean(densities)) + 3 * log(1 - MISTAKES) + lost
-    assert drawn(sizes + off, rounding, key, fits) == pytest.approx(expected, abs=1e-5)
+    assert likelihood_if_drawn(sizes + off, rounding, key, fits) == pytest.approx(
+        expected, abs=1e-5
+    )
 
 
 def test_mistakes_are_spread_so_that_half_lie_within_a_factor_of_two_or_10_mm():

@@ -23,7 +23,7 @@ from graphkin.classroom.roster.spreadsheets import SEPARATORS, folded
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.xlsx import xlsx_rows
 from graphkin.classroom.variants.assign import check_of
-from graphkin.text.errors import Problem, RosterError
+from graphkin.text.errors import InTable, RosterError
 
 PLAIN = "number,id,name,group\n1,0042,Ann Lee,A\n2,0043,Bob Roe,B\n"
 READ = [
@@ -190,11 +190,13 @@ def test_a_class_beyond_the_range_of_a_lab_is_one_line(saved):
 def test_one_mistake_in_two_columns_is_told_of_both():
     columns = ("id", "e-mail")
     told = spreadsheets.TableProblems("a.csv")
-    places = [f'a.csv, row {row}, column "{column}"' for row in range(2, 12) for column in columns]
-    told.extend(Problem(place, "nothing", "a text") for place in places)
+    places = [InTable("a.csv", row, column) for row in range(2, 12) for column in columns]
+    for place in places:
+        told.add(place, "nothing", "a text")
     with pytest.raises(RosterError) as raised:
         told.stop()
-    assert [problem.place for problem in raised.value.problems] == places[:2]
+    found = [problem.place for problem in raised.value.problems]
+    assert found == ['a.csv, row 2, column "id"', 'a.csv, row 2, column "e-mail"']
 
 
 HOSTILE = {
