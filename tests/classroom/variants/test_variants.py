@@ -16,7 +16,6 @@ from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.grading.class_marking import Book
-from graphkin.classroom.grading.graded import Taker
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Fair, Range, Rule, ValueList
 from graphkin.classroom.lab.read_lab import read_lab
@@ -24,6 +23,7 @@ from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.roster.read_roster import read_roster
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.classroom.variants.class_words import class_lines
@@ -230,8 +230,8 @@ def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp
         )
     assert run(*args).exit_code == 0
     assert not list(folder.rglob("*.part"))
-    (only,) = read_edition(folder).variants
-    assert (only.id, only.spoken) == ("0003", "it")
+    (only,) = read_edition(folder).takers
+    assert (only.student.id, only.spoken) == ("0003", "it")
 
 
 def test_a_full_disk_leaves_nothing(tmp_path, roster, monkeypatch):
