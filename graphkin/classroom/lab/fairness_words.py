@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import WORDS, Fairness, Fault
-from graphkin.classroom.lab.lab_model import Fair, Lab, Range, Rule, ValueList
+from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.rules import Settings, exact_text
 from graphkin.construction.registry import LIMITED
@@ -54,7 +54,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     yield from labelled("marks", list(mark_lines(outcome)))
 
 
-def again_words(rule: Rule, unfair: float) -> str:
+def again_words(rule: LabRule, unfair: float) -> str:
     """How many of a class will keep unfair data though they are drawn again, as a forecast."""
     left = 100 * unfair**rule.tries
     tries = f"after {rule.tries} draws at most"

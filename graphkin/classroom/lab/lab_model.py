@@ -52,7 +52,7 @@ class ValueList(Struct, frozen=True):
         raise IndexError(index)
 
 
-class Rule(Struct, frozen=True):
+class LabRule(Struct, frozen=True):
     """What gives each student other data.
 
     ``draws`` are ranges of parameters, from which a hash of course, lab and student picks; what is
@@ -127,7 +127,7 @@ class Lab(Struct, frozen=True):
     name: str
     folder: Path
     scene: Path
-    rule: Rule
+    rule: LabRule
     fair: Fair = Fair()
     rubric: Rubric = Rubric()
     text: str = ""

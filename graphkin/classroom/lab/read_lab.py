@@ -15,9 +15,9 @@ from graphkin.classroom.lab.lab_model import (
     NUMBER,
     Fair,
     Lab,
+    LabRule,
     Range,
     Rubric,
-    Rule,
     ValueList,
 )
 from graphkin.classroom.lab.slip_names import NAMES as SLIPS
@@ -108,7 +108,7 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
     return Lab(name, folder, folder / "scene.toml", rule, fair, rubric, text)
 
 
-def read_rule(table: Table, scene: Scene) -> Rule:
+def read_rule(table: Table, scene: Scene) -> LabRule:
     """The rule that gives each student other data."""
     both = "set = { … } with formulas of the number, course = … and draw = { … } with ranges"
     if "set" not in table and "draw" not in table:
@@ -124,7 +124,7 @@ def read_rule(table: Table, scene: Scene) -> Rule:
     return rule
 
 
-def read_formula(table: Table, scene: Scene) -> Rule:
+def read_formula(table: Table, scene: Scene) -> LabRule:
     """Each parameter as an expression in the student's number."""
     inner = table.table("set")
     settings = read_settings(inner, scene)
@@ -132,7 +132,7 @@ def read_formula(table: Table, scene: Scene) -> Rule:
     if settings and not uses and not inner.findings.inside(inner.place):
         found = f"no formula uses {NUMBER}, so all students get the same"
         inner.findings.add(inner.place, found, f'such as n = "{NUMBER}"')
-    return Rule(settings=settings)
+    return LabRule(settings=settings)
 
 
 def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
@@ -161,7 +161,7 @@ def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
     return None if strangers else read
 
 
-def read_ranges(table: Table, scene: Scene) -> Rule:
+def read_ranges(table: Table, scene: Scene) -> LabRule:
     """Each parameter from a range, and the course whose name goes into the hash."""
     course = table.text("course").strip()
     if not course and not table.findings.inside(table.at("course")):
@@ -186,7 +186,7 @@ def read_ranges(table: Table, scene: Scene) -> Rule:
         for name in settings.keys() & inner.raw.keys():
             place = fixed.at(name)
             fixed.findings.add(place, f"draw gives {name} as well", "either set or draw")
-    return Rule(course, draws, tries, settings)
+    return LabRule(course, draws, tries, settings)
 
 
 def known_parameters(table: Table, scene: Scene) -> list[str]:

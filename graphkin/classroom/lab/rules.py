@@ -17,7 +17,7 @@ import json
 from collections.abc import Mapping
 from fractions import Fraction
 
-from graphkin.classroom.lab.lab_model import NUMBER, Lab, Range, Rule, ValueList
+from graphkin.classroom.lab.lab_model import NUMBER, Lab, LabRule, Range, ValueList
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
@@ -39,7 +39,7 @@ def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
     return found
 
 
-def by_formula(rule: Rule, student: Student) -> Settings:
+def by_formula(rule: LabRule, student: Student) -> Settings:
     """The value of each formula at the student's number."""
     if rule.counts and student.number is None:
         raise SceneError(Problem("", "has no number, and the lab's formula needs one"))

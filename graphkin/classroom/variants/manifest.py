@@ -13,7 +13,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from graphkin.classroom.lab.lab_model import Lab, Range, Rule, ValueList
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.variants.assign import Assigned
 
@@ -87,7 +87,7 @@ def code(salt: str, student: str) -> str:
     return base64.b32encode(digest).decode("ascii")[:CODE]
 
 
-def written_rule(rule: Rule) -> dict[str, Any]:
+def written_rule(rule: LabRule) -> dict[str, Any]:
     """A rule as lab.toml writes it, numbers as exact texts."""
     formulas = {"set": {name: formula.text for name, formula in rule.settings.items()}}
     if not rule.draws:

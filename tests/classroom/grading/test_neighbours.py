@@ -18,7 +18,7 @@ from graphkin.classroom.grading.neighbours import (
     standards_of,
     worst_drawn,
 )
-from graphkin.classroom.lab.lab_model import Range, Rule
+from graphkin.classroom.lab.lab_model import LabRule, Range
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
@@ -66,7 +66,7 @@ def test_a_drawing_earns_in_the_mean_what_samples_of_it_earn(found):
 
 def drawing_lab(apart: float | None, tries: int = 200):
     """The slotted lever with numbers drawn from its range."""
-    rule = Rule("mechanics", {"n": Range(Fraction(1), Fraction(30), Fraction(1))}, tries)
+    rule = LabRule("mechanics", {"n": Range(Fraction(1), Fraction(30), Fraction(1))}, tries)
     lab = lab_of("slotted-lever")
     return replace(lab, rule=rule, fair=replace(lab.fair, apart=apart))
 

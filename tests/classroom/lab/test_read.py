@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from graphkin.classroom.lab.asking import asked_of
 from graphkin.classroom.lab.items import all_fields, items
-from graphkin.classroom.lab.lab_model import Fair, Range, Rubric, Rule
+from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, Rubric
 from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
 from graphkin.cli.main import app
 from graphkin.mechanism import load
@@ -59,7 +59,7 @@ def test_a_lab_has_its_defaults(mine):
 
 def test_everything_that_is_stated_is_read(mine):
     lab = read_lab(mine(f"graphkin = 1\n{LINES}\n"))
-    assert lab.rule == Rule("M", {"n": Range(Fraction(3), Fraction(21), Fraction(2))}, 7)
+    assert lab.rule == LabRule("M", {"n": Range(Fraction(3), Fraction(21), Fraction(2))}, 7)
     assert lab.fair == Fair(9, 3, (0.05, 4), 0.02, 0.5)
     slips = {"rpm_as_rad": 0.5}
     rubric = Rubric({"v_D": Fraction(1)}, 0.7, slips, 0.6, 0.4, 0.3, 0.1, 0.9, hold=True)

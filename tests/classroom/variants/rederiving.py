@@ -7,20 +7,20 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from graphkin.classroom.lab.lab_model import Lab, Range, Rule, ValueList
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
 from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.quantity import expression
 
 
-def read_rule(raw: Mapping[str, Any]) -> Rule:
+def read_rule(raw: Mapping[str, Any]) -> LabRule:
     """The rule of a manifest."""
     rule = raw["rule"]
     formulas = {name: expression(text, counting=True) for name, text in rule.get("set", {}).items()}
     if "draw" not in rule:
-        return Rule(settings=formulas)
+        return LabRule(settings=formulas)
     draws = {name: read_draw(values) for name, values in rule["draw"].items()}
-    return Rule(raw["course"], draws, rule["tries"], formulas)
+    return LabRule(raw["course"], draws, rule["tries"], formulas)
 
 
 def read_draw(raw: Any) -> Range | ValueList:

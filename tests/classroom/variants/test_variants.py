@@ -17,7 +17,7 @@ from msgspec.structs import replace
 from graphkin import load
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.lab_model import Fair, Range, Rule, ValueList
+from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, ValueList
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.printing.edition import read_edition
@@ -39,7 +39,7 @@ STUDENTS = [Student(n + 1, f"{n:04d}", n, f"Student {n}", "A") for n in range(1,
 def drawing_lab(fair: Fair | None = None, tries: int = 100):
     """The pump with data drawn from its whole range."""
     lab = read_lab("pump")
-    rule = Rule("mechanics 2026", {"n": NUMBERS}, tries)
+    rule = LabRule("mechanics 2026", {"n": NUMBERS}, tries)
     return replace(lab, rule=rule, fair=fair or lab.fair)
 
 
@@ -367,7 +367,7 @@ def listing_lab(tries: int = 100):
     """The pump with numbers drawn from a list of values and a range."""
     parts = (*(Range(Fraction(n), Fraction(n), Fraction(1)) for n in (2, 9)), Range(12, 20, 4))
     lab = read_lab("pump")
-    return replace(lab, rule=Rule("mechanics 2026", {"n": ValueList(parts)}, tries))
+    return replace(lab, rule=LabRule("mechanics 2026", {"n": ValueList(parts)}, tries))
 
 
 def test_a_list_is_drawn_from_as_a_range_is_and_derived_again(tmp_path, roster):
