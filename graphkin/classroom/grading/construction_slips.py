@@ -60,9 +60,12 @@ def of_drivers(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 
 
 def scaled(standard: Standard, ratio: float) -> Paper:
-    """The scale factors that follow from a crank as many times faster: its plan stays the same."""
+    """The scale factors that follow from a crank as many times faster: its plan stays the same.
+
+    Where no crank says them, they stay as the sheet states them.
+    """
     paper = standard.paper
-    if not getattr(standard.scales, "from_driver", True):
+    if not standard.scales.of_crank:
         return paper
     return Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
 

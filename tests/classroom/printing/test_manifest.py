@@ -65,6 +65,10 @@ def test_what_is_no_manifest_is_refused(make):
     for text in ("", "{", "[1]", '{"students": 3}', "\x00", "[" * 100_000):
         (folder / "manifest.json").write_text(text, encoding="utf-8")
         assert len(told(folder)) == 1
+    nobody = make("b", ["1"])
+    change(nobody, students=[])
+    (line,) = told(nobody)
+    assert "has no student" in line
 
 
 def test_every_student_who_is_wrong_is_told(make):
