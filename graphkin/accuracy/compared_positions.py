@@ -17,7 +17,7 @@ from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import TURN
 from graphkin.motion.pieces import Path, Piece, reachable_ranges
 from graphkin.motion.sweep import Sweep, inputs, sweep_of
-from graphkin.scene.model import Closure, Scene
+from graphkin.scene.model import Scene
 from graphkin.text.errors import ClosureError, Problem
 
 AROUND = {"turn": 60.0}
@@ -192,16 +192,11 @@ class EndSearch(NamedTuple):
     share: float
 
 
-def searched(piece: Piece) -> bool:
-    """Whether a piece has a group of higher class, the end of which is known to few digits."""
-    return any(isinstance(branch, Closure) for branch in piece.branches.values())
-
-
 def towards(way: EndSearch, groups: int, each: int, kind: End) -> Approach:
     """Places of a piece at ever smaller distances from its end, so many at each."""
     piece, goal = way.piece, way.goal
     far = FIRST * (piece.high.at - piece.low.at)
-    share = max(way.share, SURELY if kind == "change" or searched(piece) else 0.0)
+    share = max(way.share, SURELY if kind == "change" or piece.is_searched else 0.0)
     near = max(ULPS * float(np.spacing(abs(goal) + far)), share * far)
     distance = np.geomspace(far, near, groups)
     spread = 1 - APART * np.arange(each) / each

@@ -21,8 +21,8 @@ from graphkin.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from graphkin.classroom.printing.edition import Variant
     from graphkin.classroom.printing.print_run import Outcome, Tell
+    from graphkin.classroom.roster.student import Student
     from graphkin.drawing.style import Ink
 
 TENTHS = 10
@@ -138,28 +138,28 @@ def progress(what: str = "students") -> Iterator[Tell]:
     yield line
 
 
-def lost_words(variant: Variant) -> str:
+def lost_words(student: Student) -> str:
     """What is said of a student with signs in the name or group that are not printed."""
     from graphkin.classroom.printing.personal import UNKNOWN, is_readable, lost
 
-    whole = ", ".join(filter(None, (variant.name, variant.group)))
+    whole = ", ".join(filter(None, (student.name, student.group)))
     signs, instead = " ".join(lost(whole)), f"{UNKNOWN} stands for each"
-    if variant.name and not is_readable(variant.name):
+    if student.name and not is_readable(student.name):
         instead = "the id stands for the name"
-    return f'{variant.id}: the font of the sheets lacks {signs} of "{whole}"; {instead}'
+    return f'{student.id}: the font of the sheets lacks {signs} of "{whole}"; {instead}'
 
 
 def report(outcome: Outcome) -> None:
     """Say what came of a run: the files for the printer, and who got none and why."""
     if outcome.left:
         complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
-    for variant in outcome.lost:
-        complain(lost_words(variant))
+    for student in outcome.lost:
+        complain(lost_words(student))
     for line in outcome.strange:
         complain(line)
-    for variant, problems in outcome.refused:
+    for taker, problems in outcome.refused:
         for problem in problems:
-            complain(f"{variant.id} {variant.name}: {problem}")
+            complain(f"{taker.student.id} {taker.student.name}: {problem}")
     stood = f", {outcome.stood} stood already" if outcome.stood else ""
     say(f"{outcome.made} student{'' if outcome.made == 1 else 's'} printed{stood}")
     for path in outcome.files or [outcome.folder]:

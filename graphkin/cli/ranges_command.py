@@ -35,7 +35,6 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
     """
     from graphkin.classroom.lab.fair_ranges import fair_ranges
     from graphkin.classroom.lab.fair_ranges_words import range_lines
-    from graphkin.classroom.lab.lab_model import Formula
     from graphkin.classroom.lab.read_lab import read_lab
     from graphkin.text.plain_table import labelled
     from graphkin.writers.files import refuse_folder, write_all
@@ -45,7 +44,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
         refuse_folder(folder)
     found = fair_ranges(lab)
     tell(range_lines(lab, found))
-    if isinstance(lab.rule, Formula):
+    if not lab.rule.draws:
         tell(labelled("formula", formula_lines(lab)))
     tell(["", *proposed(lab, found)])
     if folder is not None:

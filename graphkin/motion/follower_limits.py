@@ -12,9 +12,9 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
-from graphkin.motion.pieces import ALIKE, BACK, Piece, Range
+from graphkin.motion.pieces import ALIKE, BACK, Range
 from graphkin.motion.refine import crossings_of_nought
-from graphkin.scene.model import Closure, Link, Scene
+from graphkin.scene.model import Link, Scene
 
 FINE = 3600
 """Places in each piece at which the sense of a follower is looked at."""
@@ -216,14 +216,9 @@ def samples(pieces: Range) -> Reals:
         low += 0.0 if piece.low.kind == "window" else APART
         high -= 0.0 if piece.high.kind == "window" else APART
         if low < high:
-            fine = FEWER if searched(piece) else FINE
+            fine = FEWER if piece.is_searched else FINE
             parts.append(np.linspace(low, high, fine + 1))
     return np.concatenate(parts) if parts else np.array([pieces[0].low.at])
-
-
-def searched(piece: Piece) -> bool:
-    """Whether a piece has a group of higher class."""
-    return any(isinstance(each, Closure) for each in piece.branches.values())
 
 
 def ends(pieces: Range) -> Reals:
@@ -233,7 +228,7 @@ def ends(pieces: Range) -> Reals:
 
 def enough_of(pieces: Range) -> float:
     """To how much of u limits are found in a range: the last digit, unless places are searched."""
-    return ENOUGH if any(searched(piece) for piece in pieces) else 0.0
+    return ENOUGH if any(piece.is_searched for piece in pieces) else 0.0
 
 
 def turning_places(

@@ -51,14 +51,13 @@ def drawn_rows(opened: ClassFolder, out: Path) -> Iterator[DrawnRow]:
     except GraphkinError:
         records = {}
     form = drawn_items(opened)
-    variants = {each.code: each for each in opened.edition.variants}
     language = opened.words().language
     order = PrintOrder(opened.edition.lab, opened.edition.scene, language, "colour")
     for taker in opened.takers:
         own = {kind: record for (code, kind), record in records.items() if code == taker.code}
         if not own:
             continue
-        sheets = sheets_of(order, variants[taker.code], language)
+        sheets = sheets_of(order, taker, language)
         places: dict[int, tuple[str, complex | None]] = {}
         verdicts: dict[int, str] = {}
         for kind, page in task_pages(sheets):

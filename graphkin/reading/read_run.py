@@ -49,8 +49,8 @@ def read_order(opened: ClassFolder, grid: Grid, *, by_hand: bool = False) -> Rea
     edition = opened.edition
     language = opened.words().language
     order = PrintOrder(edition.lab, edition.scene, language, "colour")
-    variants = {each.code: each for each in edition.variants}
-    return ReadOrder(order, variants, grid, by_hand, drawn_items(opened))
+    takers = {each.code: each for each in edition.takers}
+    return ReadOrder(order, takers, grid, by_hand, drawn_items(opened))
 
 
 def read_class(
@@ -90,7 +90,7 @@ def read_class(
 
 def reading_key(order: ReadOrder, picture: Photograph) -> str:
     """What decides a reading: the photograph, the student's data, how it is read."""
-    students = {code: dict(each.settings) for code, each in order.variants.items()}
+    students = {code: dict(each.settings) for code, each in order.takers.items()}
     marked = [each.field for each in order.marked] if order.by_hand else []
     how = msgspec.to_builtins(order.grid), order.by_hand, marked
     return key_of(METHOD, hash_of_picture(picture), students, order.order.scene, how)

@@ -13,9 +13,9 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
 from graphkin.classroom.printing.register_crosses import without_crosses
+from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.marks import Page
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
@@ -63,7 +63,7 @@ class ReadOrder(Struct, frozen=True):
     """What the reading of a class shares: its lab and scene, its students by code."""
 
     order: PrintOrder
-    variants: Mapping[str, Variant]
+    takers: Mapping[str, Taker]
     grid: Grid = Grid()
     by_hand: bool = False
     marked: tuple[Item, ...] = ()
@@ -105,9 +105,9 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         grey = grey_of(photograph)
         if photograph.left is not None:
             grey = of_halves(grey_of(photograph.left), grey, order)
-            code, corners = code_of_halves(grey, order.variants)
+            code, corners = code_of_halves(grey, order.takers)
         else:
-            code, corners = known_code(grey, order.variants)
+            code, corners = known_code(grey, order.takers)
         found = found_sheet(grey, order, code, corners)
         points, corners_at = (
             points_to_click(found, order) if order.by_hand else read_points(grey, found)
@@ -137,16 +137,16 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
 
 def student_label(order: ReadOrder, code: str) -> str:
     """Whose sheet has a code: id and name of the student; nothing for a code that is not read."""
-    variant = order.variants.get(code)
-    return f"{variant.id} {variant.name}".strip() if variant is not None else ""
+    taker = order.takers.get(code)
+    return f"{taker.student.id} {taker.student.name}".strip() if taker is not None else ""
 
 
-def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
+def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
     """The one code of the class in a picture, with its corners. Raises Unreadable."""
     from graphkin.reading.codes import codes_in
 
     found = codes_in(grey)
-    ours = [each for each in found if each.text in variants]
+    ours = [each for each in found if each.text in takers]
     if len(ours) > 1:
         told = ", ".join(sorted(each.text for each in ours))
         raise Unreadable(f"holds several sheets: {told}; one in each picture")
@@ -161,7 +161,7 @@ def known_code(grey: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
     return each.text, each.corners
 
 
-def code_of_halves(sheet: Any, variants: Mapping[str, Variant]) -> tuple[str, Any]:
+def code_of_halves(sheet: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
     """The code on a sheet that was put together of its halves, with its corners: it stands where
     they meet, and scans may lack some of it. Raises Unreadable.
     """
@@ -169,9 +169,9 @@ def code_of_halves(sheet: Any, variants: Mapping[str, Variant]) -> tuple[str, An
     from graphkin.reading.halves import DENSITY
 
     try:
-        return known_code(sheet, variants)
+        return known_code(sheet, takers)
     except Unreadable:
-        found = code_among(sheet, DENSITY, tuple(variants))
+        found = code_among(sheet, DENSITY, tuple(takers))
         if found is None:
             raise
         return found.text, found.corners
@@ -187,9 +187,9 @@ def found_sheet(grey: Any, order: ReadOrder, code: str, corners: Any) -> FoundSh
 
     search = SheetSearch(grey, corners)
     best, most, held, refused = None, -1.0, 0.0, ""
-    own = order.variants[code].spoken or order.order.language
+    own = order.takers[code].spoken or order.order.language
     for language in dict.fromkeys((own, *LANGUAGES)):
-        sheets = sheets_of(order.order, order.variants[code], language)
+        sheets = sheets_of(order.order, order.takers[code], language)
         pages = dict(task_pages(sheets))
         shares = {
             kind: search.likeness(page, [other for other in pages.values() if other is not page])
@@ -214,8 +214,8 @@ def of_halves(left: Any, right: Any, order: ReadOrder) -> Any:
     """The sheet of two pictures of its halves. Raises Unreadable where one of them is not found."""
     from graphkin.reading.halves import put_together
 
-    variant = next(iter(order.variants.values()))
-    sheets = sheets_of(order.order, variant, order.order.language)
+    taker = next(iter(order.takers.values()))
+    sheets = sheets_of(order.order, taker, order.order.language)
     return put_together(left, right, task_pages(sheets)[0][1])
 
 
@@ -230,13 +230,13 @@ def drawn_for(code: str, settings: Any, language: str, scene: str) -> dict[str, 
     return {}
 
 
-def sheets_of(order: PrintOrder, variant: Variant, language: str) -> Sheets:
+def sheets_of(order: PrintOrder, taker: Taker, language: str) -> Sheets:
     """The sheets of a student in a language."""
-    settings = tuple(sorted(variant.settings.items()))
-    kept = drawn_for(variant.code, settings, language, order.scene)
+    settings = tuple(sorted(taker.settings.items()))
+    kept = drawn_for(taker.code, settings, language, order.scene)
     if "" not in kept:
         told = PrintOrder(order.lab, order.scene, language, order.ink)
-        kept[""] = Sheets(told, replace(variant, language=language))
+        kept[""] = Sheets(told, replace(taker, language=language))
     return kept[""]
 
 

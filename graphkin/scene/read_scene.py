@@ -163,9 +163,9 @@ def assembled(
         ask=Ask(),
         sheet=read_sheet(top.table("sheet"), measures),
         time=time,
-        titles=read_languages(top.table("titles"), findings),
+        titles=read_languages(top.table("titles")),
         names=read_names(top.table("names"), findings),
-        notes=read_languages(top.table("notes"), findings),
+        notes=read_languages(top.table("notes")),
         values=values,
         source=source,
     )

@@ -215,7 +215,7 @@ def read_enlarge(table: Table, measures: Measures, rule: str) -> tuple[Quantity,
     return tuple(each for each in found if each is not None)
 
 
-def read_languages(table: Table, findings: Findings) -> dict[str, str]:
+def read_languages(table: Table) -> dict[str, str]:
     """A text per language: ``ro = "…"``, ``en = "…"``."""
     texts = {language: table.text(language) for language in LANGUAGES if language in table}
     table.known.extend(LANGUAGES)

@@ -144,7 +144,7 @@ def closing(
     grown, left, count = {*known, tried.link}, list(waiting), count - 1
     chain: list[Group] = []
     while True:
-        last: Last | None = over_given(joints, known, grown, left)
+        last: Last | None = over_given(known, grown, left)
         last = last or next_tie(joints, grown)
         if by_wheels and last is None:
             last = over_rolled(joints, known, grown, chain)
@@ -175,7 +175,7 @@ def closing(
 
 
 def over_given(
-    joints: Joints, known: Collection[str], grown: Collection[str], waiting: list[Driver]
+    known: Collection[str], grown: Collection[str], waiting: list[Driver]
 ) -> Driver | None:
     """A driver whose two links have become known without it."""
     for driver in waiting:

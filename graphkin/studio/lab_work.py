@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 from msgspec import Struct
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges
-from graphkin.classroom.lab.lab_model import Formula, Lab
+from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.lab_trial import LabTrial, tried
 from graphkin.classroom.lab.proposed_ranges import (
     FormulaFaults,
@@ -76,7 +76,7 @@ def proposal_of(texts: LabTexts) -> LabProposal | LabProblems:
 def searched(lab: Lab) -> LabProposal:
     """The search of a lab's whole space, and of a formula's faults."""
     found = fair_ranges(lab)
-    formula = formula_faults(lab) if isinstance(lab.rule, Formula) else None
+    formula = None if lab.rule.draws else formula_faults(lab)
     return LabProposal(found, proposed_ranges(lab, found), formula)
 
 

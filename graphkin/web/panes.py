@@ -119,16 +119,11 @@ def mechanism_pane(rect: Rect, box: Extent) -> Field:
 def posed(rect: Rect, boxes: Sequence[Extent]) -> Field:
     """The field of a plan with its pole where the plan needs to be moved least: at its middle."""
     room = room_in(rect, AIR)
-    sides = [sorted(each) for each in zip(*(sides_of(b) for b in boxes), strict=True)]
+    sides = [sorted(each) for each in zip(*(b.sides for b in boxes), strict=True)]
     half = len(boxes) // 2
     usual = extent_of([complex(sides[i][half], sides[i + 1][half]) for i in (0, 2)])
     field = Field(rect, scale_in(room, boxes), usual.middle, middle_of(room))
     return field if field.holds(0j, AIR) else replace(field, middle=0j)
-
-
-def sides_of(box: Extent) -> tuple[float, float, float, float]:
-    """Left, bottom, right and top of a box."""
-    return box.left, box.bottom, box.right, box.top
 
 
 def middle_of(room: Rect) -> tuple[float, float]:

@@ -57,7 +57,7 @@ def main(count: int, seed: int) -> None:
     cv2.setNumThreads(1)
     with TemporaryDirectory() as where:
         folder = folder_of("pump", Path(where), seed)
-        code = next(iter(read_order(open_class(folder), Grid()).variants))
+        code = next(iter(read_order(open_class(folder), Grid()).takers))
         _, page = task_pages(sheets_of(folder, code))[0]
         both = {"without": without_crosses(page), "with": page}
         images = {name: printed_page(own) for name, own in both.items()}

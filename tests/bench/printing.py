@@ -80,7 +80,7 @@ def memory(count: int) -> float:
         edition = read_edition(class_of(count, Path(folder)))
     order = PrintOrder(edition.lab, edition.scene, "ro", "colour")
     parts = (("task", "pdf"), ("key", "pdf"))
-    wanted = [StudentSheets(variant, variant.id, parts) for variant in edition.variants]
+    wanted = [StudentSheets(each, each.student.id, parts) for each in edition.takers]
     with processes(1) as pool:
         return pool.submit(worked, order, wanted).result()
 

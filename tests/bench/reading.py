@@ -141,7 +141,7 @@ def take(classes: dict[str, Path], where: Path, seed: int, i: int) -> None:
         return
     rng = np.random.default_rng([i, seed])
     lab = list(classes)[i % len(classes)]
-    variants = list(read_order(open_class(classes[lab]), Grid()).variants)
+    variants = list(read_order(open_class(classes[lab]), Grid()).takers)
     code = variants[(i // len(classes)) % len(variants)]
     kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
     kind = kinds[int(rng.integers(len(kinds)))]
@@ -184,8 +184,8 @@ def tolerances(order: ReadOrder, record: SheetRecord) -> dict[int, float]:
     """Within so many mm of the key the student's pencil has 95 of 100 drawings of each point."""
     if record.refused is not None:
         return {}
-    variant = order.variants[record.code]
-    sheets = key_sheets(order.order, variant, variant.spoken or order.order.language)
+    taker = order.takers[record.code]
+    sheets = key_sheets(order.order, taker, taker.spoken or order.order.language)
     drawing = next(each for each in sheets.drawings if each.kind == record.kind)
     sheet = LetteredSheet(drawing, dict(task_pages(sheets))[record.kind])
     pencil = Pencil(sheets.lab.rubric.point, sheets.lab.rubric.line)

@@ -54,7 +54,7 @@ def page_of(folder: Path, who: str = "0042") -> Path:
 
 def key_of(folder: Path) -> Mapping[str, float]:
     """The right values of the first student, by field."""
-    data = read_edition(folder).variants[0].settings
+    data = read_edition(folder).takers[0].settings
     return book_of(folder.name).marker(data).standard.key
 
 

@@ -80,8 +80,8 @@ class DrawnSheet(Struct, frozen=True):
 def sheets_of(folder: Path, code: str) -> Sheets:
     """The sheets of a student of a class folder."""
     edition = read_edition(folder)
-    variant = next(each for each in edition.variants if each.code == code)
-    return Sheets(PrintOrder(edition.lab, edition.scene, "en", "colour"), variant)
+    taker = next(each for each in edition.takers if each.code == code)
+    return Sheets(PrintOrder(edition.lab, edition.scene, "en", "colour"), taker)
 
 
 @lru_cache(maxsize=16)

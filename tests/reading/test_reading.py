@@ -25,8 +25,8 @@ from pypdf import PdfWriter
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_folder import open_class
 from graphkin.classroom.grading.probes import Probe, probes
-from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.qr_code import modules
+from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
 from graphkin.construction.core.program import Plane
 from graphkin.drawing.areas import AREA
@@ -395,7 +395,7 @@ def test_what_leads_to_points_of_a_rack(rack: Path) -> None:
     """Both points lie on the printed guide, by whatever way a hand finds them; the tip of the
     velocity of contact needs its vector, and no side of a similar triangle.
     """
-    (code,) = read_order(open_class(rack), Grid()).variants
+    (code,) = read_order(open_class(rack), Grid()).takers
     sheets = sheets_of(rack, code)
     drawing = next(each for each in sheets.drawings if each.kind == "velocity")
     page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
@@ -413,7 +413,7 @@ def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(
     rack: Path, tmp_path: Path
 ) -> None:
     folder = rack
-    (code,) = read_order(open_class(folder), Grid()).variants
+    (code,) = read_order(open_class(folder), Grid()).takers
     for kind in ("velocity", "acceleration"):
         taken = scan(printed(folder, code, kind), 150, 0.0, 1)
         (tmp_path / f"{kind} 1.jpg").write_bytes(taken.data)
@@ -458,7 +458,7 @@ def test_the_code_is_told_where_the_halves_lack_some_of_it(a_class: Path, code: 
     image = printed(a_class, code, "velocity").copy()
     image[:, 2100:2126] = image[:, 2126:2127]  # 2.6 mm that neither picture holds
     assert not codes_in(image)
-    variants = read_order(open_class(a_class), Grid()).variants
+    variants = read_order(open_class(a_class), Grid()).takers
     found = code_among(image, 10.0, tuple(variants))
     assert found is not None
     assert found.text == code
@@ -563,7 +563,7 @@ def test_a_line_that_leaves_the_window_it_was_seen_in_is_another() -> None:
 
 def test_two_sheets_in_one_picture_are_told_also_of_one_student() -> None:
     """A picture shows as many sheets as there are squares in it."""
-    whose = {"TZHG6MXPZY": cast(Variant, None), "HCZRNFKJ4X": cast(Variant, None)}
+    whose = {"TZHG6MXPZY": cast(Taker, None), "HCZRNFKJ4X": cast(Taker, None)}
     first, second = (255 - 255 * np.kron(modules(code), np.ones((8, 8))) for code in whose)
     for pair in ((first, first), (first, second)):
         picture = np.hstack([np.pad(each, 80, constant_values=255) for each in pair])
@@ -627,7 +627,7 @@ def lever_sheet(
     """A sheet of the rapid return, the steps of its letters in the plan and on the mechanism, and
     where they lie.
     """
-    (code,) = read_order(open_class(levers), Grid()).variants
+    (code,) = read_order(open_class(levers), Grid()).takers
     sheet = velocity_of(levers, code, kind)
     steps, values = sheet.exact.program.steps, sheet.exact.trace.values
     planes = Plane.MECHANISM, sheet.drawing.plane
@@ -721,7 +721,7 @@ def test_a_line_that_ends_before_a_point_does_not_lead_to_it(
     """A bar may point to where a point is expected on another, and begin at the student's own."""
     (tmp_path / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
     call("variants", "pump-collinear", tmp_path / "class.csv", "-o", tmp_path / "class")
-    (code,) = read_order(open_class(tmp_path / "class"), Grid()).variants
+    (code,) = read_order(open_class(tmp_path / "class"), Grid()).takers
     sheet = velocity_of(tmp_path / "class", code)
     steps, values = sheet.exact.program.steps, sheet.exact.trace.values
     named = {name: next(n for n in values if steps[n].name == name) for name in "ACD"}
@@ -799,7 +799,7 @@ def test_what_hangs_on_a_doubtful_mistake_waits_for_its_own_lines(
 
 
 def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: Path) -> None:
-    (code,) = read_order(open_class(rack), Grid()).variants
+    (code,) = read_order(open_class(rack), Grid()).takers
     sheet = velocity_of(rack, code)
     steps, values = sheet.exact.program.steps, sheet.exact.trace.values
     a, b, t, o = (next(n for n in values if steps[n].name == name) for name in "abto")

@@ -12,15 +12,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
-from graphkin.classroom.grading.graded import (
-    Answer,
-    Decision,
-    EarnedMark,
-    Graded,
-    Result,
-    Status,
-    Taker,
-)
+from graphkin.classroom.grading.graded import Answer, Decision, EarnedMark, Graded, Result, Status
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.same_digits import copies
 from graphkin.classroom.grading.slips import Slip
@@ -28,6 +20,7 @@ from graphkin.classroom.grading.standard import Expectation, standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.workers import chunks, engine
+from graphkin.classroom.roster.taker import Taker
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 

@@ -12,9 +12,10 @@ from graphkin.classroom.grading.answers import Answers, Unread
 from graphkin.classroom.grading.class_pictures import pictures, slip_counts
 from graphkin.classroom.grading.feedback_rows import SLIPS, points_words
 from graphkin.classroom.grading.feedback_rows import unread as unread_words
-from graphkin.classroom.grading.graded import SURE, Decision, Graded, Result, Suspicion, Taker
+from graphkin.classroom.grading.graded import SURE, Decision, Graded, Result, Suspicion
 from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.text import Words
 from graphkin.writers.templates import from_template
 
@@ -26,7 +27,7 @@ def class_report(result: Result, title: str, unread: Sequence[Unread], words: Wo
     """The report as a page for a browser, its pictures within."""
     own = own_work(result)
     pngs = pictures(result.graded, words, "png", own)
-    names = {each.taker.student.id: name_of(each) for each in result.graded}
+    names = names_of(result)
     students = [each.taker.student for each in result.graded]
     page = from_template(
         "classroom/templates/class.html",
@@ -66,20 +67,14 @@ def summary(graded: Sequence[Graded], words: Words) -> str:
     return f"{text}; {words('class.pending', count=waiting)}" if waiting else text
 
 
-def name_of(graded: Graded) -> str:
-    """A student by name and id."""
-    return named(graded.taker.student)
-
-
-def named(student: Student) -> str:
-    """The same of a class list."""
-    return f"{student.name} ({student.id})" if student.name else student.id
+def names_of(result: Result) -> dict[str, str]:
+    """What each student is called, by id."""
+    return {each.taker.student.id: each.taker.student.called for each in result.graded}
 
 
 def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
     """Each wrong variant, with the points that the row earned and what of them a person decides."""
-    graded = {each.taker.student.id: each for each in result.graded}
-    names = {who: name_of(each) for who, each in graded.items()}
+    graded, names = {each.taker.student.id: each for each in result.graded}, names_of(result)
     for found in result.wrong_variants:
         each = graded[found.students[0]]
         text = wrong_variant_words(found, names, words)
@@ -93,7 +88,7 @@ def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
 
 def held_line(result: Result, words: Words) -> str:
     """Whose marks are held, and how that is decided; empty where nobody's are."""
-    held = [name_of(each) for each in result.graded if each.held]
+    held = [each.taker.student.called for each in result.graded if each.held]
     return words("class.held_row", who=words("list_mark").join(held)) if held else ""
 
 
@@ -108,14 +103,18 @@ def decision_lines(result: Result, words: Words) -> Iterator[str]:
         if each.points is not None:
             key, amounts["after"] = "class.decided_row", points_words(each.points, words)
         field = each.field or words("class.whole")
-        yield words(key, who=name_of(graded), field=field, reason=each.reason, **amounts)
+        yield words(
+            key, who=graded.taker.student.called, field=field, reason=each.reason, **amounts
+        )
 
 
 def request_lines(result: Result, words: Words) -> Iterator[str]:
     """What was asked and is not decided yet."""
     for graded, each in decisions_of(result, is_open=True):
         field = each.field or words("class.whole")
-        yield words("class.request_row", who=name_of(graded), field=field, reason=each.reason)
+        yield words(
+            "class.request_row", who=graded.taker.student.called, field=field, reason=each.reason
+        )
 
 
 def decisions_of(result: Result, *, is_open: bool) -> Iterator[tuple[Graded, Decision]]:
@@ -167,7 +166,7 @@ def unread_lines(
     students: Iterable[Student], unread: Iterable[Unread], words: Words
 ) -> Iterator[str]:
     """The cells that cannot be read, each in a sentence."""
-    names = {student.id: named(student) for student in students}
+    names = {student.id: student.called for student in students}
     for cell in unread:
         yield words(
             "unread.row",
@@ -205,7 +204,7 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
     for taker in takers:
         if taker.language and language_in(taker.language) is None:
             yield words(
-                "class.no_language", who=named(taker.student), text=shown_cell(taker.language)
+                "class.no_language", who=taker.student.called, text=shown_cell(taker.language)
             )
 
 
@@ -213,12 +212,12 @@ def absent_lines(result: Result) -> Iterator[str]:
     """Those who handed in nothing."""
     for each in result.graded:
         if not each.is_marked:
-            yield name_of(each)
+            yield each.taker.student.called
 
 
 def unsure_lines(result: Result, words: Words) -> Iterator[str]:
     """The fields of each student that hardly a drawing tells."""
-    names = {each.taker.student.id: name_of(each) for each in result.graded}
+    names = names_of(result)
     for who, fields in result.unsure.items():
         yield words("class.unsure_row", who=names[who], fields=", ".join(fields))
 
@@ -226,7 +225,7 @@ def unsure_lines(result: Result, words: Words) -> Iterator[str]:
 def result_lines(result: Result, words: Words) -> Iterator[str]:
     """What a terminal shows: how the class did, and evidence."""
     yield summary(result.graded, words)
-    names = {each.taker.student.id: name_of(each) for each in result.graded}
+    names = names_of(result)
     yield from wrong_variant_lines(result, words)
     for each in result.copies:
         yield copies_words(each, names, words)

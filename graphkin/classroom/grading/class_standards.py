@@ -19,7 +19,7 @@ from graphkin.accuracy.pencil.pencil_marks import PencilMark
 from graphkin.classroom.grading.standard import FormLayout, Standard, layout
 from graphkin.classroom.grading.tolerance import pencil_errors
 from graphkin.classroom.lab.lab_model import Item, Rubric
-from graphkin.classroom.lab.variant_scales import by_arrays, empty, scaled
+from graphkin.classroom.lab.variant_scales import Scaling, by_arrays, scaled
 from graphkin.construction.core.program import Program, Step
 from graphkin.documents.scaling import scales, the_crank
 from graphkin.drawing.scale import Scales
@@ -156,15 +156,14 @@ def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
     like = [i for i, each in enumerate(own) if each.program is usual.program]
     known: dict[int, Scales] = {}
     if by_arrays(usual) and len(like) > 1:
-        found = empty(len(like))
+        found = Scaling([None] * len(like))
         values = {
             name: np.array([float(own[i].scene.values[name]) for i in like])
             for name in usual.scene.values
         }
-        done = scaled(usual, values, found)
-        for place in np.flatnonzero(done & np.isfinite(found.kL)):
-            i = like[place]
-            known[i] = as_sheet(own[i], found.of(int(place)))
+        scaled(usual, values, found)
+        pairs = zip(like, found.own, strict=True)
+        known = {i: as_sheet(own[i], each) for i, each in pairs if each is not None}
     return [known[i] if i in known else scales(each) for i, each in enumerate(own)]
 
 

@@ -16,7 +16,6 @@ from graphkin.classroom.grading.slips import Slip, differs, unit_ratios
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import Determined
-from graphkin.construction.core.program import Program
 from graphkin.construction.registry import COMPONENTS
 from graphkin.numbers.arithmetic import turn_by
 from graphkin.scene.model import Driver
@@ -61,9 +60,12 @@ def of_drivers(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 
 
 def scaled(standard: Standard, ratio: float) -> Paper:
-    """The scale factors that follow from a crank as many times faster: its plan stays the same."""
+    """The scale factors that follow from a crank as many times faster: its plan stays the same.
+
+    Where no crank says them, they stay as the sheet states them.
+    """
     paper = standard.paper
-    if not getattr(standard.scales, "from_driver", True):
+    if not standard.scales.of_crank:
         return paper
     return Paper(paper.mechanism, paper.velocities * ratio, paper.accelerations * ratio**2)
 
@@ -107,12 +109,7 @@ def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
         if mirrored and step.extra:
             other = replace(step, extra=tuple(-sign for sign in step.extra))
             steps = (*program.steps[:number], other, *program.steps[number + 1 :])
-            yield "other_side", standard.told({}, replaced(program, steps))
-
-
-def replaced(program: Program, steps: tuple[Any, ...]) -> Program:
-    """A program with other steps."""
-    return replace(program, steps=steps)
+            yield "other_side", standard.told({}, replace(program, steps=steps))
 
 
 def of_components(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Taker
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
 from graphkin.classroom.lab.asking import asked_of, worth
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.classroom.roster.read_roster import NAMES
@@ -24,6 +24,7 @@ from graphkin.classroom.roster.spreadsheets import (
     read_sheet,
 )
 from graphkin.classroom.roster.student_signs import Signs
+from graphkin.classroom.roster.taker import Taker
 from graphkin.scene.findings import nearest, shown
 from graphkin.text.errors import InTable
 

@@ -12,7 +12,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Protocol
 
-from msgspec import Struct, field
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
 from graphkin.classroom.roster.spreadsheets import folded
@@ -78,44 +79,29 @@ class GradebookTable(Protocol):
         """Its cells, row by row, the head first."""
 
 
-class MarkPlaces(Struct, frozen=True):
-    """Where marks go: a column and its head, the student of each line, who of the class is not in.
+class Filled(Struct, frozen=True):
+    """Where marks go in a gradebook, and its bytes with them in it.
 
-    Lines count from nought, the head's. ``worth`` is what the gradebook holds the column worth,
-    ``strangers`` what those are called who are in no class list, by line.
+    ``place`` is the column, ``lines`` has the student of each line; both count from nought, lines
+    from the head. ``absent`` are those of the class who are not in it. ``worth`` is what it holds
+    the column worth, where it says so, as Canvas does; ``replaced`` how many marks take the place
+    of something else; ``strangers`` what those are called whose rows are of nobody in the class,
+    by the number of the row.
     """
 
-    column: int
-    head: str
+    place: int
+    column: str
     lines: Mapping[int, str]
     absent: tuple[str, ...]
-    worth: Fraction | None = None
-    replaced: int = 0
-    strangers: Mapping[int, str] = field(default_factory=dict)
+    worth: Fraction | None
+    replaced: int
+    strangers: Mapping[int, str]
+    data: bytes = b""
 
-
-class Filled(Struct, frozen=True):
-    """A gradebook with marks in it: its bytes, how many, and who of the class is not in it.
-
-    ``worth`` is what it holds the column worth, where it says so, as Canvas does; ``replaced`` how
-    many marks took the place of something else; ``strangers`` what those are called whose rows are
-    of nobody in the class, by the number of the row.
-    """
-
-    data: bytes
-    column: str
-    count: int
-    absent: tuple[str, ...]
-    worth: Fraction | None = None
-    replaced: int = 0
-    strangers: Mapping[int, str] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, data: bytes, found: MarkPlaces) -> Filled:
-        """A gradebook with marks in some places."""
-        count, rows = len(found.lines), {line + 1: who for line, who in found.strangers.items()}
-        worth, replaced = found.worth, found.replaced
-        return cls(data, found.head, count, found.absent, worth, replaced, rows)
+    @property
+    def count(self) -> int:
+        """How many marks there are."""
+        return len(self.lines)
 
 
 def with_marks(
@@ -132,11 +118,11 @@ def with_marks(
     that cannot be told.
     """
     found = places(book, marks, column, signs, match)
-    comma = writes_comma(book, found.column)
+    comma = writes_comma(book, found.place)
     rows = list(book.rows)
     for line, who in found.lines.items():
         text = mark_text(marks[who], comma)
-        rows[line] = with_mark(rows[line], found.column, text, book.separator)
+        rows[line] = with_mark(rows[line], found.place, text, book.separator)
     text = "".join(
         book.separator.join(each.raw for each in row) + end
         for row, end in zip(rows, book.ends, strict=True)
@@ -144,7 +130,7 @@ def with_marks(
     data = book.bom + text.encode(
         book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
     )
-    return Filled.of(data, found)
+    return replace(found, data=data)
 
 
 def places(
@@ -153,7 +139,7 @@ def places(
     column: str | None,
     signs: Signs = NOBODY,
     match: Match = "",
-) -> MarkPlaces:
+) -> Filled:
     """Where the marks go. Raises GradebookError where that cannot be told."""
     signs = signs if signs.ids else signs_of(marks)
     where = id_column(book, signs, match)
@@ -177,7 +163,7 @@ def places(
     replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
     head = book.rows[0][target].text
     worth, others = worth_of(book, target), strangers(book, where, {line for line, _ in ours})
-    return MarkPlaces(target, head, lines, absent, worth, replaced, others)
+    return Filled(target, head, lines, absent, worth, replaced, others)
 
 
 def students(
@@ -201,14 +187,14 @@ def students(
 
 
 def strangers(book: GradebookTable, where: int, ours: Collection[int]) -> dict[int, str]:
-    """What those are called who have an id or an address, but are nobody of the class, by line."""
+    """What those are called who have an id or an address, but are nobody of the class, by row."""
     names = [i for i, head in enumerate(book.rows[0]) if folded(head.text) in NAMED]
     found: dict[int, str] = {}
     for line, row in enumerate(book.rows[1:], 1):
         sign = text_at(row, where)
         if line in ours or is_possible(row) or sign in EMPTY:
             continue
-        found[line] = " ".join(filter(None, (text_at(row, i) for i in names))) or sign
+        found[line + 1] = " ".join(filter(None, (text_at(row, i) for i in names))) or sign
     return found
 
 

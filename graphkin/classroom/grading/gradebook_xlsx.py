@@ -17,6 +17,7 @@ from pathlib import Path
 from xml.parsers.expat import ExpatError
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.gradebook import (
     NOBODY,
@@ -24,7 +25,6 @@ from graphkin.classroom.grading.gradebook import (
     Filled,
     Gradebook,
     GradebookError,
-    MarkPlaces,
     mark_text,
     places,
     with_marks,
@@ -164,22 +164,22 @@ def filled_workbook(
     found = places(book, marks, column, signs, match)
     refuse_formulas(book, found)
     numbers = {
-        (line + 1, found.column + 1): mark_text(marks[who], comma=False)
+        (line + 1, found.place + 1): mark_text(marks[who], comma=False)
         for line, who in found.lines.items()
     }
     try:
         data = with_cells(book, numbers)
     except (ExpatError, ValueError) as error:
         raise GradebookError(unreadable(book.name).problems) from error
-    return Filled.of(data, found)
+    return replace(found, data=data)
 
 
-def refuse_formulas(book: Workbook, found: MarkPlaces) -> None:
+def refuse_formulas(book: Workbook, found: Filled) -> None:
     """Raise GradebookError where marks would take the place of formulas."""
-    wrong = [line for line in found.lines if (line, found.column) in book.formulas]
+    wrong = [line for line in found.lines if (line, found.place) in book.formulas]
     if wrong:
         where = f"{book.name}, row {wrong[0] + 1}"
-        text = f'"{found.head}" holds a formula'
+        text = f'"{found.column}" holds a formula'
         hint = "name another one with --column"
         raise GradebookError(Problem(where, text, "a column for points", hint))
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 from msgspec import Struct, field
 
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 
 
 class Answer(Struct, frozen=True):
@@ -116,21 +116,6 @@ class EarnedMark(Struct, frozen=True):
         if self.item.what in ("segment", "value"):
             return abs(self.answer.value) - abs(self.expected)
         return self.answer.value - self.expected
-
-
-class Taker(Struct, frozen=True):
-    """A student who takes part: the parameters of the own variant, exact and as written.
-
-    ``compute`` are fields too small to be measured, which were to be computed; ``code`` is the
-    opaque name on the sheets, ``language`` and ``email`` what the class list says of the student's.
-    """
-
-    student: Student
-    settings: Mapping[str, str]
-    code: str = ""
-    compute: tuple[str, ...] = ()
-    language: str = ""
-    email: str = ""
 
 
 class Graded(Struct, frozen=True):

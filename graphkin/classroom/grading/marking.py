@@ -12,13 +12,14 @@ from graphkin.classroom.grading.construction_slips import constructions
 from graphkin.classroom.grading.field_slips import of_fields
 from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
 from graphkin.classroom.grading.form_relations import Following
-from graphkin.classroom.grading.graded import BLANK, Answer, EarnedMark, Graded, Status, Taker
+from graphkin.classroom.grading.graded import BLANK, Answer, EarnedMark, Graded, Status
 from graphkin.classroom.grading.one_drawing import of_one_drawing
 from graphkin.classroom.grading.slip_diagnosis import Found, diagnosed
 from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.asking import worth
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.roster.taker import Taker
 
 NONE = Fraction()
 

@@ -25,9 +25,10 @@ from graphkin.classroom.lab.held_centres import held
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
-from graphkin.classroom.lab.variant_scales import Loader, Scaling, scaling, taken
+from graphkin.classroom.lab.variant_scales import Loader, scaling, taken
 from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
 from graphkin.construction.registry import LIMITED
+from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene
 
@@ -201,7 +202,8 @@ def judged_block(
     import numpy as np
 
     closes = closing(mechanism, values, count)
-    scales = scaling(mechanism, values, count, load, closes)
+    scaled = scaling(mechanism, values, count, load, closes)
+    scales = scaled.together(range(count))
     found = Fairness(
         limits,
         tuple(form),
@@ -214,23 +216,17 @@ def judged_block(
     for triangles in (True, False):
         which = np.flatnonzero(closes & found.fits & (scales.triangles == triangles))
         if len(which):
-            drawn = drawn_at(mechanism, taken(values, which), scales.taken(which))
-            put_drawn(found, drawn, form, scales.taken(which), which)
+            own = scaled.together(which)
+            drawn = sketches(
+                mechanism,
+                taken(values, which),
+                own.seconds,
+                triangles=triangles,
+                rates={number: rate[which] for number, rate in scaled.rates.items()},
+                margins=True,
+            )
+            put_drawn(found, drawn, form, own, which)
     return found
-
-
-def drawn_at(
-    mechanism: Mechanism, values: Mapping[str, Any], scales: Scaling
-) -> list[VariantSheet]:
-    """The sheets of variants that draw the same steps, each at its own scales."""
-    return sketches(
-        mechanism,
-        values,
-        scales.seconds,
-        triangles=bool(scales.triangles[0]),
-        rates=scales.rates,
-        margins=True,
-    )
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
@@ -253,12 +249,12 @@ def put_drawn(
     found: Fairness,
     drawn: Sequence[VariantSheet],
     form: Sequence[Item],
-    scales: Scaling,
+    scales: Scales,
     which: Array,
 ) -> None:
-    """What is drawn on the sheets of some variants, put at their places."""
+    """What is drawn on the sheets of some variants, put at their places; scales are arrays."""
     for sheet in drawn:
-        lengths = segment_lengths(sheet, form, scales.stands(sheet.kind))
+        lengths = segment_lengths(sheet, form, scales.kL / scales.metres(sheet.kind))
         put(found.crossings, crossing_angles(sheet), which, len(found))
         put(found.lengths, lengths, which, len(found))
         put(found.triangles, triangle_ratios(sheet), which, len(found))

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import WORDS, Fairness, Fault
-from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, ValueList
+from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
 from graphkin.classroom.lab.rules import Settings, exact_text
 from graphkin.construction.registry import LIMITED
@@ -38,7 +38,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     yield from labelled("fair", good)
     who = "number" if lab.rule.counts else "id"
     yield from labelled("unfair", list(broken_lines(outcome.faults(), who)))
-    if isinstance(lab.rule, Ranges):
+    if lab.rule.draws:
         yield from labelled("again", [again_words(lab.rule, outcome.spoiled_share)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(outcome.names)]
     yield from labelled("compute", list(fields_by_whom(computed, who)))
@@ -54,7 +54,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     yield from labelled("marks", list(mark_lines(outcome)))
 
 
-def again_words(rule: Ranges, unfair: float) -> str:
+def again_words(rule: LabRule, unfair: float) -> str:
     """How many of a class will keep unfair data though they are drawn again, as a forecast."""
     left = 100 * unfair**rule.tries
     tries = f"after {rule.tries} draws at most"
@@ -67,7 +67,7 @@ def rule_words(lab: Lab) -> str:
     """The rule in words."""
     rule = lab.rule
     formulas = ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
-    if isinstance(rule, Formula):
+    if not rule.draws:
         return formulas
     draws = ", ".join(f"{name} {draw_words(values)}" for name, values in rule.draws.items())
     return f"{f'{formulas}; ' if formulas else ''}{draws}, drawn for {rule.course}"

@@ -8,13 +8,12 @@ from typing import Any
 
 from graphkin.classroom.lab.drawing_extents import VariantSheet
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.lab.variant_scales import Scaling
 from graphkin.construction.core.drawn_scene import ENDLESS
 from graphkin.construction.core.layout import held_beside, room_below
 from graphkin.construction.core.paper_canvas import WITHIN
 from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.areas import AREA
-from graphkin.drawing.scale import Extent
+from graphkin.drawing.scale import Extent, Scales
 from graphkin.numbers.arithmetic import larger
 from graphkin.numbers.plane import Ratio
 
@@ -23,9 +22,9 @@ Array = Any
 
 
 def held(
-    sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scaling
+    sheets: Sequence[VariantSheet], sheet: VariantSheet, form: Sequence[Item], scales: Scales
 ) -> Iterator[tuple[str, Array]]:
-    """Whether the mechanism's field holds each place of the form on a sheet."""
+    """Whether the mechanism's field holds each place of the form on a sheet; scales are arrays."""
     asked = [item for item in form if item.what == "place"]
     targets = sheet.trace.program.targets
     places = {

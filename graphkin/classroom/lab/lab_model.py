@@ -18,20 +18,6 @@ NUMBER = "number"
 What = Literal["segment", "value", "sense", "place"]
 
 
-class Formula(Struct, frozen=True):
-    """A rule of the student's number: the same number always gets the same data.
-
-    ``settings`` gives each parameter of the scene as an expression in ``number``.
-    """
-
-    settings: Mapping[str, Quantity]
-
-    @property
-    def counts(self) -> bool:
-        """Whether each student needs a number."""
-        return True
-
-
 class Range(Struct, frozen=True):
     """From a least to a most, in steps counted from the least."""
 
@@ -66,15 +52,16 @@ class ValueList(Struct, frozen=True):
         raise IndexError(index)
 
 
-class Ranges(Struct, frozen=True):
-    """A rule that draws each parameter from a range, by a hash of course, lab and student.
+class LabRule(Struct, frozen=True):
+    """What gives each student other data.
 
-    What is unfair is drawn again, at most ``tries`` times. ``settings`` gives the parameters that
-    are not drawn as expressions in ``number``.
+    ``draws`` are ranges of parameters, from which a hash of course, lab and student picks; what is
+    unfair is drawn again, at most ``tries`` times. ``settings`` gives parameters as expressions in
+    ``number``; where nothing is drawn, the same number always gets the same data.
     """
 
-    course: str
-    draws: Mapping[str, Range | ValueList]
+    course: str = ""
+    draws: Mapping[str, Range | ValueList] = {}
     tries: int = 100
     settings: Mapping[str, Quantity] = field(default_factory=dict)
 
@@ -82,6 +69,11 @@ class Ranges(Struct, frozen=True):
     def counts(self) -> bool:
         """Whether each student needs a number."""
         return any(NUMBER in formula.uses() for formula in self.settings.values())
+
+    @property
+    def attempts(self) -> int:
+        """How often a student's data are tried, at most: formulas give the same again."""
+        return self.tries if self.draws else 1
 
 
 class Fair(Struct, frozen=True):
@@ -135,7 +127,7 @@ class Lab(Struct, frozen=True):
     name: str
     folder: Path
     scene: Path
-    rule: Formula | Ranges
+    rule: LabRule
     fair: Fair = Fair()
     rubric: Rubric = Rubric()
     text: str = ""

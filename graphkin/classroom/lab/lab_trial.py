@@ -9,7 +9,7 @@ from msgspec import Struct
 from graphkin.classroom.grading.neighbours import Neighbours, compared, pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.items import asked_fields, items
-from graphkin.classroom.lab.lab_model import Lab, Ranges
+from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
@@ -80,8 +80,8 @@ class LabTrial(Struct, frozen=True):
     @property
     def spoilt(self) -> bool:
         """Whether students would get unfair data: some by a formula, all that ranges can give."""
-        ranges = isinstance(self.lab.rule, Ranges)
-        unfair = self.unfair == len(self.many) if ranges else bool(self.unfair or self.coarse)
+        by_formula = not self.lab.rule.draws
+        unfair = bool(self.unfair or self.coarse) if by_formula else self.unfair == len(self.many)
         return bool(self.unasked or self.by_keys) or unfair
 
     @property

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.lab.fair_ranges import FairRanges
 from graphkin.classroom.lab.formula_mending import Mending, mended
-from graphkin.classroom.lab.lab_model import Lab, Range, Ranges, ValueList
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
 from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
@@ -40,9 +40,9 @@ def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
     """The ranges that were found, tried on a class; None where none were."""
     if found.ranges is None:
         return None
-    course = lab.rule.course if isinstance(lab.rule, Ranges) else COURSE
+    course = lab.rule.course or COURSE
     apart = lab.fair.apart if lab.fair.apart is not None else APART
-    new = replace(lab, rule=Ranges(course, found.ranges), fair=replace(lab.fair, apart=apart))
+    new = replace(lab, rule=LabRule(course, found.ranges), fair=replace(lab.fair, apart=apart))
     students = [Student(i, f"{i:04d}", i) for i in range(1, CLASS + 1)]
     kept = sum(each.fair for each in assigned(new, students))
     return ProposedRanges(found.ranges, course, found.count, apart, kept, CLASS, found.exact_inside)

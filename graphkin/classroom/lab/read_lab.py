@@ -14,10 +14,9 @@ from graphkin.classroom.lab.items import all_fields
 from graphkin.classroom.lab.lab_model import (
     NUMBER,
     Fair,
-    Formula,
     Lab,
+    LabRule,
     Range,
-    Ranges,
     Rubric,
     ValueList,
 )
@@ -106,12 +105,11 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
     rubric = read_rubric(top.table("marks"), top.table("marking"), mechanism)
     top.finish()
     findings.stop()
-    assert rule is not None
     return Lab(name, folder, folder / "scene.toml", rule, fair, rubric, text)
 
 
-def read_rule(table: Table, scene: Scene) -> Formula | Ranges | None:
-    """The rule that gives each student other data; None, with a problem noted, where it is none."""
+def read_rule(table: Table, scene: Scene) -> LabRule:
+    """The rule that gives each student other data."""
     both = "set = { … } with formulas of the number, course = … and draw = { … } with ranges"
     if "set" not in table and "draw" not in table:
         table.findings.add(table.place, "no rule", f"{both}, or both")
@@ -126,7 +124,7 @@ def read_rule(table: Table, scene: Scene) -> Formula | Ranges | None:
     return rule
 
 
-def read_formula(table: Table, scene: Scene) -> Formula:
+def read_formula(table: Table, scene: Scene) -> LabRule:
     """Each parameter as an expression in the student's number."""
     inner = table.table("set")
     settings = read_settings(inner, scene)
@@ -134,7 +132,7 @@ def read_formula(table: Table, scene: Scene) -> Formula:
     if settings and not uses and not inner.findings.inside(inner.place):
         found = f"no formula uses {NUMBER}, so all students get the same"
         inner.findings.add(inner.place, found, f'such as n = "{NUMBER}"')
-    return Formula(settings)
+    return LabRule(settings=settings)
 
 
 def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
@@ -163,7 +161,7 @@ def formula(place: str, raw: object, findings: Findings) -> Quantity | None:
     return None if strangers else read
 
 
-def read_ranges(table: Table, scene: Scene) -> Ranges:
+def read_ranges(table: Table, scene: Scene) -> LabRule:
     """Each parameter from a range, and the course whose name goes into the hash."""
     course = table.text("course").strip()
     if not course and not table.findings.inside(table.at("course")):
@@ -188,7 +186,7 @@ def read_ranges(table: Table, scene: Scene) -> Ranges:
         for name in settings.keys() & inner.raw.keys():
             place = fixed.at(name)
             fixed.findings.add(place, f"draw gives {name} as well", "either set or draw")
-    return Ranges(course, draws, tries, settings)
+    return LabRule(course, draws, tries, settings)
 
 
 def known_parameters(table: Table, scene: Scene) -> list[str]:

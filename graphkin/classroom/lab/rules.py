@@ -17,7 +17,7 @@ import json
 from collections.abc import Mapping
 from fractions import Fraction
 
-from graphkin.classroom.lab.lab_model import NUMBER, Formula, Lab, Range, Ranges, ValueList
+from graphkin.classroom.lab.lab_model import NUMBER, Lab, LabRule, Range, ValueList
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
@@ -34,12 +34,12 @@ def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
     Raises SceneError where a formula has no number to reckon with, or gives none.
     """
     found = by_formula(lab.rule, student)
-    if isinstance(lab.rule, Ranges):
-        found |= by_ranges(lab.rule, lab.name, student.id, attempt)
+    for name, values in lab.rule.draws.items():
+        found[name] = drawn(values, lab.rule.course, lab.name, student.id, attempt, name)
     return found
 
 
-def by_formula(rule: Formula | Ranges, student: Student) -> Settings:
+def by_formula(rule: LabRule, student: Student) -> Settings:
     """The value of each formula at the student's number."""
     if rule.counts and student.number is None:
         raise SceneError(Problem("", "has no number, and the lab's formula needs one"))
@@ -51,14 +51,6 @@ def by_formula(rule: Formula | Ranges, student: Student) -> Settings:
             raise SceneError(Problem(f"set.{name}", f"{what}, which is not rational"))
         found[name] = value
     return found
-
-
-def by_ranges(rule: Ranges, lab: str, student: str, attempt: int) -> Settings:
-    """The value drawn for each parameter, by the student's id."""
-    return {
-        name: drawn(values, rule.course, lab, student, attempt, name)
-        for name, values in rule.draws.items()
-    }
 
 
 def drawn(

@@ -7,7 +7,8 @@ go through scaling.scales, one variant after the other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from math import nan
 from typing import Any
 
 from msgspec import Struct, field
@@ -28,54 +29,25 @@ Loader = Callable[[int], Mechanism]
 """What makes the mechanism of one variant, by its place in the batch."""
 
 
+NOWHERE = Scales(nan, nan, nan, nan, nan)
+"""What stands for the scale factors of a variant that fits nowhere."""
+
+
 class Scaling(Struct):
-    """The scale factors of each variant, as drawing.scale.Scales an array for each; NaN where
-    nothing fits. ``rates`` is what the hand tries in auxiliary plans, by the step.
+    """The scale factors of each variant, None where nothing fits; ``rates`` is what the hand tries
+    in auxiliary plans, an array by the step.
     """
 
-    kL: Array
-    seconds: Array
-    larger: Array
-    larger_still: Array
-    of_crank: Array
-    triangles: Array
+    own: list[Scales | None]
     rates: dict[int, Array] = field(default_factory=dict)
 
-    def stands(self, kind: str) -> Array:
-        """What a metre of paper stands for in a sheet's plan, in SI."""
-        if kind == "acceleration":
-            return self.kL / (self.seconds**2 * self.larger_still)
-        return self.kL / (self.seconds * self.larger)
+    def together(self, which: Iterable[int]) -> Scales:
+        """Those of some variants, of which each factor is an array; NaN where nothing fits."""
+        import numpy as np
 
-    def times(self, kind: str) -> Array:
-        """How many times as large as on the mechanism a sheet's plan draws its vectors."""
-        return self.larger_still if kind == "acceleration" else self.larger
-
-    def put(self, index: int, own: Scales) -> None:
-        """Put the scale factors of one variant at its place."""
-        for name in own.__struct_fields__:
-            getattr(self, name)[index] = getattr(own, name)
-
-    def of(self, index: int) -> Scales:
-        """The scale factors of one variant."""
-        kL, seconds, m, again, crank = (
-            float(each[index])
-            for each in (self.kL, self.seconds, self.larger, self.larger_still, self.of_crank)
-        )
-        return Scales(kL, seconds, m, again, crank, bool(self.triangles[index]))
-
-    def taken(self, which: Array) -> Scaling:
-        """The scale factors of some variants."""
-        own = {name: getattr(self, name)[which] for name in Scales.__struct_fields__}
-        return Scaling(**own, rates={number: rate[which] for number, rate in self.rates.items()})
-
-
-def empty(count: int) -> Scaling:
-    """No scale factors yet."""
-    import numpy as np
-
-    own: dict[str, Any] = {name: np.full(count, np.nan) for name in Scales.__struct_fields__}
-    return Scaling(**own | {"triangles": np.ones(count, dtype=bool)})
+        some, names = [self.own[i] or NOWHERE for i in which], Scales.__struct_fields__
+        factors: list[Any] = [np.array([getattr(each, name) for each in some]) for name in names]
+        return Scales(*factors)
 
 
 def scaling(
@@ -88,7 +60,7 @@ def scaling(
     """
     import numpy as np
 
-    found = empty(count)
+    found = Scaling([None] * count)
     done = np.zeros(count, dtype=bool)
     if by_arrays(mechanism):
         done = scaled(mechanism, values, found)
@@ -116,15 +88,14 @@ def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
     """Scale what a crank drives that turns; the result says which variants that are."""
     import numpy as np
 
-    size = len(found.kL)
+    size = len(found.own)
     speed = np.broadcast_to(np.abs(mechanism.scene.drivers[0].speed.si(values, batch_kind())), size)
     turning = np.flatnonzero(np.asarray(speed, dtype=float) > 0)
     part, speeds = taken(values, turning), speed[turning]
     said = stated_of(mechanism, part, len(turning))
     drawn = side_by_side(mechanism, part, speeds, said)
     for index, own in zip(turning, drawn, strict=True):
-        if own is not None:
-            found.put(int(index), own)
+        found.own[int(index)] = own
     done = np.zeros(size, dtype=bool)
     done[turning] = True
     return done
@@ -177,7 +148,7 @@ def side_by_side(
 
 
 def one_by_one(load: Loader, index: int, found: Scaling) -> None:
-    """The scale factors of one variant by its own sheet; NaN stays where it has none."""
+    """The scale factors of one variant by its own sheet, if it has some."""
     import numpy as np
 
     try:
@@ -185,9 +156,9 @@ def one_by_one(load: Loader, index: int, found: Scaling) -> None:
         own = scales(one)
     except GraphkinError:
         return
-    found.put(index, own)
+    found.own[index] = own
     for number, rate in one.trial_rates.items():
-        rates = found.rates.setdefault(number, np.full(len(found.kL), np.nan))
+        rates = found.rates.setdefault(number, np.full(len(found.own), np.nan))
         rates[index] = rate
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,11 @@ from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.roster.csv_text import safe
-from graphkin.classroom.roster.language_names import HEADS, language_in
+from graphkin.classroom.roster.language_names import HEADS
 from graphkin.classroom.roster.spreadsheets import columns, read_sheet
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.student_signs import EMAIL
+from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, as_text
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import Problem, SceneError
@@ -24,27 +27,6 @@ from graphkin.writers.files import put_in_place
 FILES = ("scene.toml", "lab.toml")
 """The files of the lab, whose hashes the manifest holds."""
 AGAIN = "make the folder again with graphkin variants"
-
-
-class Variant(Struct, frozen=True):
-    """One student's sheet: who, the opaque code, and the scene's parameters as exact text.
-
-    ``compute``: the fields of the form that are reckoned, too small to be measured. ``language``
-    is what the class list says of it, by code or by name; nothing where it is silent.
-    """
-
-    id: str
-    code: str
-    settings: Mapping[str, str]
-    name: str = ""
-    group: str = ""
-    compute: tuple[str, ...] = ()
-    language: str = ""
-
-    @property
-    def spoken(self) -> str | None:
-        """The code of the student's language; None where it is that of the class."""
-        return language_in(self.language)
 
 
 class Edition(Struct, frozen=True):
@@ -57,7 +39,7 @@ class Edition(Struct, frozen=True):
     folder: Path
     lab: Lab
     scene: str
-    variants: tuple[Variant, ...] = ()
+    takers: tuple[Taker, ...] = ()
     language: str = ""
 
 
@@ -71,23 +53,23 @@ def read_edition(folder: Path) -> Edition:
     raw = tables(folder)
     refuse_changed(folder, raw.get("sha256"))
     problems: list[Problem] = []
-    variants = [
+    takers = [
         found
         for place, student in enumerate(raw["students"], 1)
-        if (found := variant(student, place, problems)) is not None
+        if (found := taker(student, place, problems)) is not None
     ]
-    problems += twins(variants)
+    problems += twins(takers)
     language = raw.get("language", "")
     if language not in ("", *LANGUAGES):
         wrong = f'language: "{language}" is no language of the pages'
         problems.append(Problem(MANIFEST, wrong, " or ".join(LANGUAGES)))
     if problems:
         raise SceneError(problems)
-    own = languages(folder)
-    variants = [replace(each, language=own.get(safe(each.id), "")) for each in variants]
+    own = beside_ids(folder)
+    takers = [replace(each, **own.get(safe(each.student.id), {})) for each in takers]
     lab = replace(read_lab(folder / COPY), name=str(raw.get("lab", COPY)))
     scene = (folder / COPY / FILES[0]).read_text(encoding="utf-8-sig")
-    return Edition(folder, lab, scene, tuple(variants), language)
+    return Edition(folder, lab, scene, tuple(takers), language)
 
 
 def keep_language(folder: Path, language: str) -> None:
@@ -150,7 +132,7 @@ def refuse_changed(folder: Path, hashes: object) -> None:
         raise SceneError(problems)
 
 
-def variant(student: object, place: int, problems: list[Problem]) -> Variant | None:
+def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:
     """One student of the manifest; None, with a problem noted, where something is missing."""
     where = f"{MANIFEST}, student {place}"
     if not isinstance(student, dict):
@@ -168,30 +150,41 @@ def variant(student: object, place: int, problems: list[Problem]) -> Variant | N
         found = f"{', '.join(dict.fromkeys(wrong))}: missing or of the wrong kind"
         problems.append(Problem(where, found, "text, and parameters as text", AGAIN))
         return None
-    return Variant(settings=settings, compute=tuple(compute), **texts)
+    row, number = (whole(student.get(key)) for key in ("row", "number"))
+    who = Student(row or place, texts["id"], number, texts["name"], texts["group"])
+    return Taker(who, settings, texts["code"], tuple(compute))
 
 
-def twins(variants: Sequence[Variant]) -> Iterator[Problem]:
+def whole(value: object) -> int | None:
+    """A whole number of the manifest; None where there is none."""
+    return value if isinstance(value, int) and not isinstance(value, bool) else None
+
+
+def twins(takers: Sequence[Taker]) -> Iterator[Problem]:
     """The problems of students whose ids or codes are the same."""
-    for what, texts in (("id", [v.id for v in variants]), ("code", [v.code for v in variants])):
+    ids, codes = [each.student.id for each in takers], [each.code for each in takers]
+    for what, texts in (("id", ids), ("code", codes)):
         for text, times in Counter(texts).items():
             if times > 1:
                 found = f'{times} students have the {what} "{text}"'
                 yield Problem(MANIFEST, found, "one of each", AGAIN)
 
 
-def languages(folder: Path) -> dict[str, str]:
-    """What the table of a class folder says of each student's language, by id as it is written
-    there; nothing where it has no such column, or where there is no table, which is needed for
-    nothing else.
+def beside_ids(folder: Path) -> dict[str, dict[str, str]]:
+    """What the table of a class folder says of each student's language and e-mail address, by id as
+    it is written there; nothing where it has no such columns, or where there is no table, which is
+    needed for nothing else.
 
     Raises RosterError where the table cannot be read.
     """
     if not (folder / TABLE).exists():
         return {}
     sheet = read_sheet(folder / TABLE)
-    where = columns(sheet, {"id": (), "language": HEADS})
-    if len(where) < 2:
+    where = columns(sheet, {"id": (), "language": HEADS, "email": EMAIL})
+    if "id" not in where:
         return {}
-    rows = ((row.cells[where["id"]], row.cells[where["language"]]) for row in sheet.rows)
-    return {who: text for who, text in rows if text}
+    own = where.pop("id")
+    return {
+        row.cells[own]: {what: row.cells[column] for what, column in where.items()}
+        for row in sheet.rows
+    }

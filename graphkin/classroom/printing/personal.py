@@ -8,8 +8,8 @@ from unicodedata import category, normalize
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.qr_code import stamped
+from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.overlay import FOOT
 from graphkin.drawing.areas import A3_AREA
@@ -37,9 +37,11 @@ class Owner(Struct, frozen=True):
         return f"{self.name}   {self.code}"
 
 
-def owner(variant: Variant) -> Owner:
-    """Whose the sheets of a variant are."""
-    return Owner(shortened(printable_name(variant.name, variant.id, variant.group)), variant.code)
+def owner(taker: Taker) -> Owner:
+    """Whose the sheets of a student are."""
+    student = taker.student
+    whose = printable_name(student.name, student.id, student.group)
+    return Owner(shortened(whose), taker.code)
 
 
 def printable_name(name: str, ident: str, group: str) -> str:

@@ -13,13 +13,15 @@ from pathlib import Path
 from msgspec import Struct, field
 
 from graphkin import __version__
-from graphkin.classroom.printing.edition import Edition, Variant
+from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import in_the_way, inside, stems
 from graphkin.classroom.printing.journal import Entry, Journal, hash_of, key_of
 from graphkin.classroom.printing.personal import lost
 from graphkin.classroom.printing.print_work import Made, PrintOrder, StudentSheets, make
 from graphkin.classroom.printing.workers import chunks, engine, results
-from graphkin.classroom.roster.language_names import name_and_id, unknown_lines
+from graphkin.classroom.roster.language_names import unknown_lines
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.documents.sheet_documents import language_of
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
@@ -74,9 +76,9 @@ class Outcome(Struct):
     made: int = 0
     stood: int = 0
     files: list[Path] = field(default_factory=list)
-    refused: list[tuple[Variant, tuple[Problem, ...]]] = field(default_factory=list)
+    refused: list[tuple[Taker, tuple[Problem, ...]]] = field(default_factory=list)
     left: str = ""
-    lost: list[Variant] = field(default_factory=list)
+    lost: list[Student] = field(default_factory=list)
     strange: list[str] = field(default_factory=list)
 
 
@@ -121,24 +123,26 @@ class PrintRun:
     def __init__(self, edition: Edition, wishes: PrintRequest, journal: Journal) -> None:
         self.edition, self.wishes, self.journal = edition, wishes, journal
         self.order = PrintOrder(edition.lab, edition.scene, spoken(edition, wishes), wishes.ink)
-        variants = edition.variants
-        names = stems([one.id for one in variants], [one.code for one in variants])
-        self.stems = dict(zip((one.code for one in variants), names, strict=True))
+        takers = edition.takers
+        names = stems([one.student.id for one in takers], [one.code for one in takers])
+        self.stems = dict(zip((one.code for one in takers), names, strict=True))
         self.keys, self.settings = dict[str, str](), dict[str, Mapping[str, str]]()
         self.note_parts()
-        self.outcome = Outcome(journal.folder, len(variants))
-        self.outcome.lost = [one for one in variants if lost(one.name) or lost(one.group)]
-        named = ((name_and_id(one.id, one.name), one.language) for one in variants)
+        self.outcome = Outcome(journal.folder, len(takers))
+        students = [one.student for one in takers]
+        self.outcome.lost = [one for one in students if lost(one.name) or lost(one.group)]
+        named = ((one.student.called, one.language) for one in takers)
         self.outcome.strange = list(unknown_lines(named))
 
     def note_parts(self) -> None:
         """Note of each part what it is made with, and a hash of all that decides its bytes."""
         order = self.order
         texts = [sha256(text.encode()).hexdigest() for text in (order.scene, order.lab.text)]
-        for one in self.edition.variants:
+        for one in self.edition.takers:
             language = one.spoken or order.language
             shared = (__version__, order.lab.name, language, order.ink)
-            own = (one.name, one.group, one.id, one.code, dict(one.settings), one.compute)
+            who = one.student
+            own = (who.name, who.group, who.id, one.code, dict(one.settings), one.compute)
             made = {"language": language, "ink": order.ink, "graphkin": __version__}
             made |= {"lab": key_of(order.lab.name, texts), "student": key_of(own)}
             for view, kind in self.parts():
@@ -170,7 +174,7 @@ class PrintRun:
     def wanted(self) -> list[StudentSheets]:
         """What is not finished, student by student."""
         found = []
-        for one in self.edition.variants:
+        for one in self.edition.takers:
             missing = tuple(
                 (view, kind)
                 for view, kind in self.parts()
@@ -192,7 +196,7 @@ class PrintRun:
         tell(done, total)
         if not wanted:
             return
-        students = {one.variant.code: one.variant for one in wanted}
+        students = {one.taker.code: one.taker for one in wanted}
         jobs = min(means.jobs, ceil(len(wanted) / FEWEST))
         with engine(jobs, means.cluster) as (executor, workers):
             work = partial(make, self.order)
@@ -203,7 +207,7 @@ class PrintRun:
                         self.outcome.refused.append((students[one.code], one.problems))
                 done += len(found)
                 tell(done, total)
-        places = {one.code: i for i, one in enumerate(self.edition.variants)}
+        places = {one.code: i for i, one in enumerate(self.edition.takers)}
         self.outcome.refused.sort(key=lambda refused: places[refused[0].code])
         self.outcome.made = len(wanted) - len(self.outcome.refused)
 
@@ -246,12 +250,12 @@ class PrintRun:
         path = merge(self.journal, self.order.lab.name, view, members, language, self.wishes.force)
         self.outcome.files += [path] if path is not None else []
 
-    def printed(self, view: str) -> list[tuple[Variant, list[str]]]:
+    def printed(self, view: str) -> list[tuple[Taker, list[str]]]:
         """The PDF files of a view that stand, student by student in the order of the roster."""
-        refused = {variant.code for variant, _ in self.outcome.refused}
+        refused = {taker.code for taker, _ in self.outcome.refused}
         return [
             (one, list(self.journal.entries[part_of(one.code, view, "pdf")].files))
-            for one in self.edition.variants
+            for one in self.edition.takers
             if one.code not in refused
         ]
 
@@ -270,7 +274,7 @@ def spoken(edition: Edition, wishes: PrintRequest) -> str:
     return language_of(mechanism, wishes.language or edition.language or None).language
 
 
-Members = Sequence[tuple[Variant, Sequence[str]]]
+Members = Sequence[tuple[Taker, Sequence[str]]]
 """Students in order, each with the names of the PDF files that are put in."""
 
 
@@ -286,7 +290,7 @@ def merge(
     name, title = f"class-{view}.pdf", f"{lab}, {view}"
     entries = {n: found for e in journal.entries.values() for n, found in e.files.items()}
     hashes = [[entries[name] for name in names] for _, names in members]
-    marks = [bookmark(variant) for variant, _ in members]
+    marks = [bookmark(taker) for taker, _ in members]
     key = key_of(title, language, marks, hashes)
     path = inside(journal.folder, name)
     if journal.finished(name, key):
@@ -308,12 +312,13 @@ def merge(
 
 def parts(folder: Path, members: Members) -> Iterator[PdfPart]:
     """The files of the students one after another, a bookmark where each student begins."""
-    for variant, names in members:
+    for taker, names in members:
         for number, name in enumerate(names):
-            yield PdfPart(folder / name, "" if number else bookmark(variant))
+            yield PdfPart(folder / name, "" if number else bookmark(taker))
 
 
-def bookmark(variant: Variant) -> str:
+def bookmark(taker: Taker) -> str:
     """What a student is called in the list beside the pages."""
-    name = variant.name or variant.id
-    return f"{name}, {variant.group}" if variant.group else name
+    student = taker.student
+    name = student.name or student.id
+    return f"{name}, {student.group}" if student.group else name

@@ -14,9 +14,9 @@ from graphkin.classroom.lab.asking import asked_of
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.answer_form import form, quantity_of, why
-from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.personal import Owner, owned, owned_pages, owner, signed
 from graphkin.classroom.printing.register_crosses import crossed
+from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
 from graphkin.documents.calculation import calculation
@@ -58,7 +58,7 @@ class PrintOrder(Struct, frozen=True):
 class StudentSheets(Struct, frozen=True):
     """A student's sheets that are to be made: (view, format) each, under a stem of file names."""
 
-    variant: Variant
+    taker: Taker
     stem: str
     parts: tuple[tuple[str, str], ...]
 
@@ -80,13 +80,13 @@ def make(order: PrintOrder, wanted: Sequence[StudentSheets]) -> list[Made]:
 def made(order: PrintOrder, wanted: StudentSheets) -> Made:
     """The files of one student."""
     try:
-        sheets = Sheets(order, wanted.variant)
+        sheets = Sheets(order, wanted.taker)
         files = {
             part: dict(files_of(sheets, wanted.stem, *part, order.ink)) for part in wanted.parts
         }
     except GraphkinError as error:
-        return Made(wanted.variant.code, {}, error.problems)
-    return Made(wanted.variant.code, files)
+        return Made(wanted.taker.code, {}, error.problems)
+    return Made(wanted.taker.code, files)
 
 
 class Sheets:
@@ -96,12 +96,12 @@ class Sheets:
     fit.
     """
 
-    def __init__(self, order: PrintOrder, variant: Variant) -> None:
-        self.lab, self.variant = order.lab, variant
-        scene = read_text(order.scene, order.lab.name, settings=dict(variant.settings))
+    def __init__(self, order: PrintOrder, taker: Taker) -> None:
+        self.lab, self.taker = order.lab, taker
+        scene = read_text(order.scene, order.lab.name, settings=dict(taker.settings))
         self.mechanism = Mechanism(scene)
-        self.whose: Owner = owner(variant)
-        self.words: Words = language_of(self.mechanism, variant.spoken or order.language)
+        self.whose: Owner = owner(taker)
+        self.words: Words = language_of(self.mechanism, taker.spoken or order.language)
         verdict = proved(self.mechanism, sheet_motion(self.mechanism))
         self.drawings = drawings_of(self.mechanism, verdict, self.words)
         self.made: dict[str, list[SheetDocument]] = {}
@@ -130,16 +130,15 @@ class Sheets:
         from graphkin.web.step_page import Form, step_page, task_page
         from graphkin.web.your_turn import TurnOwner
 
-        variant, lab, language = self.variant, self.lab, self.words.language
+        taker, lab, language = self.taker, self.lab, self.words.language
+        student = taker.student
         if view != "task":
-            return step_page(
-                self.mechanism, language, ink, TurnOwner(stem, variant.id, variant.code)
-            )
-        name = ", ".join(part for part in (variant.name, variant.group) if part)
-        whose = form_page.Identity(stem, f"{lab.name} {variant.code}", variant.id, name)
+            return step_page(self.mechanism, language, ink, TurnOwner(stem, student.id, taker.code))
+        name = ", ".join(part for part in (student.name, student.group) if part)
+        whose = form_page.Identity(stem, f"{lab.name} {taker.code}", student.id, name)
         fields, points = self.asked()
         pivot = form_page.first_pivot(self.mechanism)
-        body = form_page.form_fragment(fields, points, variant.compute, self.words, whose, pivot)
+        body = form_page.form_fragment(fields, points, taker.compute, self.words, whose, pivot)
         answers = Form(body, form_page.style(), form_page.script())
         return task_page(self.mechanism, language, ink, answers)
 
@@ -150,20 +149,20 @@ class Sheets:
         title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
         fields, points = self.asked()
         whose, pivot = (self.whose.name, self.whose.code), first.scene.frame.points[:1]
-        return form(fields, points, self.variant.compute, self.words, (title, name), whose, *pivot)
+        return form(fields, points, self.taker.compute, self.words, (title, name), whose, *pivot)
 
     def asked(self) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
         """The fields of the student's form, and what each is worth."""
         form = items(self.mechanism, self.lab)
-        return asked_of(form, self.lab.rubric.points, self.variant.compute)
+        return asked_of(form, self.lab.rubric.points, self.taker.compute)
 
     @cached_property
     def computed(self) -> dict[str, str]:
         """Why some quantities are computed instead of measured, by their symbols."""
-        if not self.variant.compute:
+        if not self.taker.compute:
             return {}
         fields = items(self.mechanism, self.lab)
-        compute = self.variant.compute
+        compute = self.taker.compute
         return {quantity_of(i): why(i, self.words) for i in fields if i.field in compute}
 
 

@@ -25,11 +25,11 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.lab_trial import by_numbers
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.printing.answer_form import advice
-from graphkin.classroom.printing.edition import Variant
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
 from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.quiz.gaps import Gap, Taken, gaps
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import Assigned, assigned
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
@@ -92,7 +92,8 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
     """The question of one variant; ``code`` stands on its sheets, where long data have no room."""
     settings = {name: exact_text(value) for name, value in each.settings.items()}
     told = ", ".join(f"{name} = {value}" for name, value in settings.items())
-    sheets = Sheets(order, Variant(told, code, settings, told, "", each.computed))
+    who = Student(each.student.row, told, name=told)
+    sheets = Sheets(order, Taker(who, settings, code, each.computed))
     words = sheets.words
     marker = book.marker(settings, each.computed)
     _, points = sheets.asked()

@@ -32,12 +32,7 @@ def named_languages(roster: str, students: Iterable[Student]) -> Iterator[tuple[
         for head, text in each.extra.items():
             if folded(head) in heads:
                 cell = f'{roster}, row {each.row}, column "{head}"'
-                yield f"{cell}, {name_and_id(each.id, each.name)}", text
-
-
-def name_and_id(student: str, name: str) -> str:
-    """A student as notes name one: by name and id."""
-    return f"{name} ({student})" if name else student
+                yield f"{cell}, {each.called}", text
 
 
 def unknown_lines(named: Iterable[tuple[str, str]]) -> Iterator[str]:

@@ -25,109 +25,26 @@ from graphkin.scene.findings import nearest, shown, visible
 from graphkin.text.errors import InTable, Problem
 
 NAMES = {
-    "number": (
-        "no",
-        "nr",
-        "nr.",
-        "n",
-        "no.",
-        "n.",
-        "num",
-        "nr crt",
-        "nr. crt.",
-        "număr",
-        "număr de ordine",
-        "numero",
-        "numero d'ordine",
-        "student number",
-        "n°",
-        "nº",
-    ),
-    "id": (
-        "id number",
-        "student id",
-        "studentid",
-        "registration",
-        "registration number",
-        "sis user id",
-        "matricol",
-        "nr. matricol",
-        "număr matricol",
-        "cod",
-        "cod student",
-        "matricola",
-        "numero di matricola",
-        "n. matricola",
-        "codice",
-        "id student",
-        "id studente",
-        "identificator",
-        "identificativo",
-        "code",
-        "student code",
-        "codice studente",
-    ),
-    "name": (
-        "full name",
-        "student",
-        "student name",
-        "nume",
-        "numele",
-        "nume și prenume",
-        "nume prenume",
-        "numele și prenumele",
-        "nome",
-        "nome e cognome",
-        "cognome e nome",
-        "nominativo",
-        "studente",
-        "numele studentului",
-        "numele și prenumele studentului",
-        "numele complet",
-        "nume complet",
-        "nume student",
-        "nome completo",
-        "nome studente",
-        "nome dello studente",
-        "nome cognome",
-        "cognome nome",
-        "name and surname",
-        "surname and name",
-    ),
-    "first": (
-        "first name",
-        "first names",
-        "given name",
-        "given names",
-        "forename",
-        "prenume",
-        "prenumele",
-        "prenume student",
-        "prenumele studentului",
-    ),
-    "last": (
-        "surname",
-        "last name",
-        "family name",
-        "nume de familie",
-        "numele de familie",
-        "cognome",
-        "cognome studente",
-        "cognome dello studente",
-    ),
-    "group": (
-        "class",
-        "section",
-        "grupă",
-        "grupa",
-        "grupa/semigrupa",
-        "semigrupa",
-        "semigrupă",
-        "gruppo",
-        "classe",
-        "sezione",
-        "seria",
-    ),
+    what: tuple(names.split("; "))
+    for what, names in {
+        "number": "no; nr; nr.; n; no.; n.; num; nr crt; nr. crt.; număr; număr de ordine; numero; "
+        "numero d'ordine; student number; n°; nº",
+        "id": "id number; student id; studentid; registration; registration number; sis user "
+        "id; matricol; nr. matricol; număr matricol; cod; cod student; matricola; numero "
+        "di matricola; n. matricola; codice; id student; id studente; identificator; "
+        "identificativo; code; student code; codice studente",
+        "name": "full name; student; student name; nume; numele; nume și prenume; nume prenume; "
+        "numele și prenumele; nome; nome e cognome; cognome e nome; nominativo; studente; "
+        "numele studentului; numele și prenumele studentului; numele complet; nume "
+        "complet; nume student; nome completo; nome studente; nome dello studente; nome "
+        "cognome; cognome nome; name and surname; surname and name",
+        "first": "first name; first names; given name; given names; forename; prenume; prenumele; "
+        "prenume student; prenumele studentului",
+        "last": "surname; last name; family name; nume de familie; numele de familie; cognome; "
+        "cognome studente; cognome dello studente",
+        "group": "class; section; grupă; grupa; grupa/semigrupa; semigrupa; semigrupă; gruppo; "
+        "classe; sezione; seria",
+    }.items()
 }
 """What each column may be called, in English, Romanian and Italian."""
 NAMED = {"name", "first", "last"}

@@ -20,3 +20,8 @@ class Student(Struct, frozen=True):
     name: str = ""
     group: str = ""
     extra: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def called(self) -> str:
+        """As notes name one: by name and id."""
+        return f"{self.name} ({self.id})" if self.name else self.id

@@ -15,7 +15,7 @@ from graphkin.classroom.grading.neighbours import (
 )
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
-from graphkin.classroom.lab.lab_model import Formula, Lab, Ranges
+from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, settings
 from graphkin.classroom.roster.read_roster import Check
 from graphkin.classroom.roster.student import Student
@@ -70,18 +70,11 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     mechanism = Mechanism(read_scene(lab.scene))
     if lab.rule.counts:
         refuse_misfits(lab, students, mechanism, roster)
-    if isinstance(lab.rule, Formula):
-        many = [settings(lab, student) for student in students]
-        found = judged(mechanism, lab, many)
-        every = [one(student, many[i], 0, found, i) for i, student in enumerate(students)]
-        return spaced(lab, mechanism, every) if lab.fair.needs_keys else every
-    every = by_ranges(lab, students, mechanism, lab.rule)
-    return spaced(lab, mechanism, every, lab.rule) if lab.fair.needs_keys else every
+    every = fairest(lab, students, mechanism)
+    return spaced(lab, mechanism, every) if lab.fair.needs_keys else every
 
 
-def spaced(
-    lab: Lab, mechanism: Mechanism, every: list[Assigned], rule: Ranges | None = None
-) -> list[Assigned]:
+def spaced(lab: Lab, mechanism: Mechanism, every: list[Assigned]) -> list[Assigned]:
     """The same, where a pencil draws everything as exactly as it should, and nobody's right values
     earn too much on the sheet of one before in the list.
 
@@ -96,14 +89,14 @@ def spaced(
         held = standards_of(lab, mechanism, [(each.settings, each.computed) for each in tried])
         room = with_room(lab, kept, list(zip(tried, held, strict=True)))
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
-        again = [i for i in near if rule is not None and found[i].attempt + 1 < rule.tries]
+        again = [i for i in near if found[i].attempt + 1 < lab.rule.attempts]
         vain = vain + len(waiting) if len(near) == len(waiting) else 0
-        if rule is None or not again or vain >= VAIN:
+        if not again or vain >= VAIN:
             for i, fault in near.items():
                 found[i] = replace(found[i], faults=(fault,))
             break
         since = [found[i].attempt + 1 for i in again]
-        redrawn = by_ranges(lab, [found[i].student for i in again], mechanism, rule, since)
+        redrawn = fairest(lab, [found[i].student for i in again], mechanism, since)
         waiting = []
         for i, each in zip(again, redrawn, strict=True):
             found[i] = each if each.fair else replace(found[i], faults=(near[i],))
@@ -179,14 +172,10 @@ def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
     ]
 
 
-def by_ranges(
-    lab: Lab,
-    students: Sequence[Student],
-    mechanism: Mechanism,
-    rule: Ranges,
-    since: Sequence[int] = (),
+def fairest(
+    lab: Lab, students: Sequence[Student], mechanism: Mechanism, since: Sequence[int] = ()
 ) -> list[Assigned]:
-    """The first fair data that are drawn for each student, else the least unfair of all tried.
+    """The first fair data that the rule gives each student, else the least unfair of all tried.
 
     ``since`` are the attempts with which each begins, the first where it is left out.
     """
@@ -200,7 +189,7 @@ def by_ranges(
             drawn = one(students[i], many[place], attempts[i], fairness, place)
             found[i] = min(found.get(i, drawn), drawn, key=unfairness)
             attempts[i] += 1
-        waiting = [i for i in waiting if not found[i].fair and attempts[i] < rule.tries]
+        waiting = [i for i in waiting if not found[i].fair and attempts[i] < lab.rule.attempts]
     return [found[i] for i in range(len(students))]
 
 

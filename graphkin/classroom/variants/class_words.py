@@ -15,7 +15,7 @@ from graphkin.classroom.lab.fairness_words import (
     rule_words,
     spread_lines,
 )
-from graphkin.classroom.lab.lab_model import Formula, Lab
+from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, held_against
 from graphkin.text.plain_table import labelled, table
@@ -32,7 +32,7 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("fair", [f"{fair} of {len(found)} students"])
     yield from labelled("unfair", unfair_lines([each for each in found if not each.fair]))
     again = [each for each in found if each.attempt]
-    if not isinstance(lab.rule, Formula):
+    if lab.rule.draws:
         yield from labelled("again", again_lines(again))
     yield from labelled("compute", computed_lines([each for each in found if each.computed]))
     drawn = [each for each in found if each.flattest is not None]
@@ -47,7 +47,7 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("pencil", pencil_lines(neighbours))
     unsure = list(zip(names, map(unsure_fields, standards), strict=True))
     yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
-    if isinstance(lab.rule, Formula):
+    if not lab.rule.draws:
         yield from labelled("note", alike_lines([each.student for each in found]))
 
 

@@ -2,7 +2,7 @@
 
 The rule as it is written, the course, the lab's name and its very text (copied beside it, with its
 hash); for each student the id, the opaque code, the exact parameters as text, and how often was
-drawn. ``rederived`` holds the rule against the parameters, from the manifest alone.
+drawn. Tests derive the parameters again from the manifest alone.
 """
 
 from __future__ import annotations
@@ -11,15 +11,11 @@ import base64
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from typing import Any
 
-from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges, ValueList
-from graphkin.classroom.lab.rules import exact_text, settings
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
+from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.variants.assign import Assigned
-from graphkin.scene.quantity import expression
-from graphkin.text.errors import Problem, SceneError
 
 FORMAT = 1
 """Version of the manifest."""
@@ -50,7 +46,7 @@ def manifest(
         "graphkin": __version__,
         "numpy": numpy.__version__,
         "lab": lab.name,
-        "course": lab.rule.course if isinstance(lab.rule, Ranges) else "",
+        "course": lab.rule.course,
         "rule": written_rule(lab.rule),
         "roster": roster,
         "sha256": dict(hashes),
@@ -91,10 +87,10 @@ def code(salt: str, student: str) -> str:
     return base64.b32encode(digest).decode("ascii")[:CODE]
 
 
-def written_rule(rule: Formula | Ranges) -> dict[str, Any]:
+def written_rule(rule: LabRule) -> dict[str, Any]:
     """A rule as lab.toml writes it, numbers as exact texts."""
     formulas = {"set": {name: formula.text for name, formula in rule.settings.items()}}
-    if isinstance(rule, Formula):
+    if not rule.draws:
         return formulas
     draws = {name: written_draw(values) for name, values in rule.draws.items()}
     return {**(formulas if rule.settings else {}), "draw": draws, "tries": rule.tries}
@@ -106,46 +102,6 @@ def written_draw(values: Range | ValueList) -> Any:
         return [written_draw(part) for part in values.parts]
     ends = {"min": values.least, "max": values.most, "step": values.step}
     return {key: exact_text(end) for key, end in ends.items()}
-
-
-def read_draw(raw: Any) -> Range | ValueList:
-    """The same back."""
-    if isinstance(raw, list):
-        return ValueList(tuple(read_range(part) for part in raw))
-    return read_range(raw)
-
-
-def read_range(raw: Mapping[str, str]) -> Range:
-    """A range from the texts of its ends."""
-    return Range(*(Fraction(raw[key]) for key in ("min", "max", "step")))
-
-
-def read_rule(raw: Mapping[str, Any]) -> Formula | Ranges:
-    """The rule of a manifest. Raises SceneError where there is none."""
-    try:
-        rule = raw["rule"]
-        formulas = rule.get("set", {}).items()
-        settings = {name: expression(text, counting=True) for name, text in formulas}
-        if "draw" not in rule:
-            return Formula(settings)
-        draws = {name: read_draw(values) for name, values in rule["draw"].items()}
-        return Ranges(raw["course"], draws, int(rule["tries"]), settings)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        found = "the rule cannot be read"
-        raise SceneError(Problem(MANIFEST, found, '{"set": …} or {"draw": …}')) from error
-
-
-def rederived(raw: Mapping[str, Any]) -> list[dict[str, str]]:
-    """The exact parameters of every student, derived again from the rule of a manifest alone."""
-    from pathlib import Path
-
-    lab = Lab(str(raw["lab"]), Path(), Path(), read_rule(raw))
-    found = []
-    for each in raw["students"]:
-        student = Student(int(each["row"]), str(each["id"]), each["number"])
-        values = settings(lab, student, int(each["attempt"]))
-        found.append({name: exact_text(value) for name, value in values.items()})
-    return found
 
 
 def as_text(raw: Mapping[str, Any]) -> str:

@@ -67,7 +67,7 @@ def branch_conditions(
             elif not numbered:
                 continue
             else:
-                holds = picked_rows(scene, branch, solved, group, name)
+                holds = picked_rows(branch, solved, group, name)
             found[name] = found.get(name, True) & holds
     return found
 
@@ -91,9 +91,7 @@ def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
     return np.asarray(branch.way * (stands - other) > -LEVEL * loops.size - 4 * error)
 
 
-def picked_rows(
-    scene: Scene, branch: Way | Closure, solved: LoopSolution, group: Group, name: str
-) -> Flags:
+def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name: str) -> Flags:
     """Whether a group stands as stated, by looking for all its closures."""
     count = solved.loops.numbers.count
     holds = np.ones(count, dtype=np.bool_)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.motion.curves.outline import Outline, circle, draw, stand_about
+from graphkin.motion.curves.outline import circle, draw, stand_about
 from graphkin.motion.curves.plane_paths import Box, below, box_of, breadth_of, plane
 from graphkin.motion.curves.sampled import Sampled
 from graphkin.motion.single_loop import Band, Loop, Ring, class_of
@@ -38,7 +38,7 @@ def reach(found: Sampled, loop: Loop) -> Figure:
     figure, ax = plane(found, "What the driven pin passes, and what the rest can reach", box)
     area(ax, loop, factor, box)
     draw(ax, stand, breadth_of(box))
-    pin_path(ax, loop, stand, factor)
+    pin_path(ax, loop, factor)
     dead_marks(ax, found, loop)
     below(ax, reach_note(loop), stand)
     return figure
@@ -111,7 +111,7 @@ def within(loop: Loop) -> str:
     return f"band that the rod reaches on either side of the path of {loop.pins[2]}"
 
 
-def pin_path(ax: Axes, loop: Loop, stand: Outline, factor: float) -> None:
+def pin_path(ax: Axes, loop: Loop, factor: float) -> None:
     """The path of the driven pin, whole where it is within reach, dashed and red elsewhere."""
     places = path_places(loop)
     good = reached(loop, places)

@@ -12,9 +12,10 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.classroom.grading.class_marking import Book, graded_class
-from graphkin.classroom.grading.graded import Answer, Result, Taker
+from graphkin.classroom.grading.graded import Answer, Result
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from tests.classroom.grading import hand
 from tests.classroom.grading.students import lab_of
 

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
 from graphkin.classroom.grading.class_marking import Book
-from graphkin.classroom.grading.graded import Answer, Taker
+from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.grading.tolerance import joint_drawings
@@ -22,6 +22,7 @@ from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from tests.chosen import EVERY
 
 LABS = ("pump", "slotted-lever", "offset-slider-crank", "pump-collinear")[: 4 if EVERY else 3]

@@ -8,6 +8,8 @@ from math import exp, log, pi
 import numpy as np
 import pytest
 
+from graphkin import load
+from graphkin.classroom.grading.construction_slips import constructions
 from graphkin.classroom.grading.graded import Answer, EarnedMark, Status
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.slip_diagnosis import (
@@ -20,7 +22,10 @@ from graphkin.classroom.grading.slip_diagnosis import (
     share,
 )
 from graphkin.classroom.grading.slips import Slip
-from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.grading.standard import Standard, standard
+from graphkin.classroom.lab.items import asked_fields
+from graphkin.classroom.lab.lab_model import Rubric
+from tests.chosen import FOLDER
 from tests.classroom.grading.students import LABS, drawn, given, marker_of, row, taker
 
 RPM = 30 / pi
@@ -230,3 +235,15 @@ def test_what_is_computed_from_an_explained_value_is_no_further_evidence():
     assert odds({fields[1]: (fields[0],)}) == pytest.approx(one * third)
     assert odds({fields[1]: ("elsewhere",)}) == pytest.approx(one * other * third)
     assert odds({fields[2]: ("elsewhere",)}, ("elsewhere",)) == pytest.approx(one * other)
+
+
+@pytest.mark.parametrize(("scene", "longer"), [("pump", 1.0), (FOLDER / "gears-planet.toml", RPM)])
+def test_a_speed_in_the_wrong_unit_lengthens_a_plan_whose_scale_no_crank_says(scene, longer):
+    """One crank's speed is in the scale of its plan; of several drivers the sheet states one."""
+    mechanism = load(scene)
+    found = standard(mechanism, asked_fields(mechanism).values(), Rubric())
+    told = next(slip.values for slip in constructions(found) if slip.name == "rpm_as_rad")
+    point = mechanism.scene.ask.velocity[0]
+    assert told[f"v_{point}"] == pytest.approx(RPM * found.key[f"v_{point}"])
+    segment = f"v_{point}_mm"
+    assert told.get(segment, found.key[segment]) == pytest.approx(longer * found.key[segment])

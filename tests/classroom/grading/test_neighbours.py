@@ -18,7 +18,7 @@ from graphkin.classroom.grading.neighbours import (
     standards_of,
     worst_drawn,
 )
-from graphkin.classroom.lab.lab_model import Formula, Range, Ranges
+from graphkin.classroom.lab.lab_model import LabRule, Range
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
@@ -66,7 +66,7 @@ def test_a_drawing_earns_in_the_mean_what_samples_of_it_earn(found):
 
 def drawing_lab(apart: float | None, tries: int = 200):
     """The slotted lever with numbers drawn from its range."""
-    rule = Ranges("mechanics", {"n": Range(Fraction(1), Fraction(30), Fraction(1))}, tries)
+    rule = LabRule("mechanics", {"n": Range(Fraction(1), Fraction(30), Fraction(1))}, tries)
     lab = lab_of("slotted-lever")
     return replace(lab, rule=rule, fair=replace(lab.fair, apart=apart))
 
@@ -102,7 +102,7 @@ def test_where_there_is_no_room_the_last_fair_data_stay_and_the_fault_is_told():
 
 def test_a_formula_draws_nothing_again_and_says_who_is_near():
     lab = lab_of("pump")
-    assert isinstance(lab.rule, Formula)
+    assert not lab.rule.draws
     lab = replace(lab, fair=replace(lab.fair, apart=0.5))
     found = assigned(lab, STUDENTS)
     assert [each.settings["n"] for each in found] == list(range(1, 9))

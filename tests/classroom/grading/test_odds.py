@@ -15,7 +15,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from graphkin.classroom.grading.graded import Answer, Graded, Taker
+from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.keys import Keys, distinct
 from graphkin.classroom.grading.likelihood import (
     MISTAKES,
@@ -38,6 +38,7 @@ from graphkin.classroom.grading.same_digits import (
 )
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from tests.chosen import EVERY
 from tests.classroom.grading import hand
 from tests.classroom.grading.classes import LABS, Kind, book_of, row

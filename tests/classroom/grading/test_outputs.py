@@ -19,10 +19,11 @@ from graphkin.classroom.grading.class_marking import Class, graded_class
 from graphkin.classroom.grading.class_pictures import pictures
 from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
-from graphkin.classroom.grading.graded import Answer, Taker
+from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import differences, marks_table, read_marks
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
 from graphkin.text import words
 from tests.chosen import SPOKEN

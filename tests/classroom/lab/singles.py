@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from graphkin import load
-from graphkin.classroom.lab.lab_model import Fair, Formula, Lab, Range, Ranges, Rubric
+from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, Rubric
 from graphkin.classroom.lab.rules import Settings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.solution import Verdict
@@ -31,7 +31,7 @@ def sheets_of(mechanism: Mechanism) -> list[Drawing]:
 
 def lab_of(scene: Path, fair: Fair = Fair(), **draws: Range) -> Lab:  # noqa: B008
     """A lab that draws from ranges, beside any scene."""
-    return Lab(scene.stem, scene.parent, scene, Ranges("a course", draws), fair, Rubric())
+    return Lab(scene.stem, scene.parent, scene, LabRule("a course", draws), fair, Rubric())
 
 
-__all__ = ["LABS", "NOBODY", "ROOT", "SCENES", "Formula", "lab_of", "mechanism_of", "sheets_of"]
+__all__ = ["LABS", "NOBODY", "ROOT", "SCENES", "lab_of", "mechanism_of", "sheets_of"]

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.classroom.lab import rules
-from graphkin.classroom.lab.lab_model import Formula, Lab, Range, Ranges
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range
 from graphkin.classroom.lab.rules import drawn, exact_text, picked, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.expression import UnreadableError
@@ -23,14 +23,14 @@ PHI = Range(Fraction(20), Fraction(160), Fraction(5))
 TENTHS = Range(Fraction(1, 10), Fraction(3), Fraction(1, 10))
 
 
-def lab(rule: Formula | Ranges, name: str = "pump") -> Lab:
+def lab(rule: LabRule, name: str = "pump") -> Lab:
     """A lab of which only its name and rule matter."""
     return Lab(name, Path(), Path(), rule)
 
 
 def ranges(**draws: Range) -> Lab:
     """A lab that draws from ranges."""
-    return lab(Ranges("mechanics 2026", draws))
+    return lab(LabRule("mechanics 2026", draws))
 
 
 def by_hand(course: str, name: str, student: str, attempt: int, parameter: str) -> int:
@@ -80,7 +80,7 @@ def test_every_value_of_a_range_is_drawn_about_as_often():
 
 
 def test_a_formula_is_exact():
-    rule = Formula({"n": expression("number/3 + 0.1"), "m": expression("30")})
+    rule = LabRule(settings={"n": expression("number/3 + 0.1"), "m": expression("30")})
     assert settings(lab(rule), Student(2, "x", 7)) == {
         "n": Fraction(7, 3) + Fraction(1, 10),
         "m": Fraction(30),
@@ -88,7 +88,7 @@ def test_a_formula_is_exact():
 
 
 def test_a_rest_goes_round_from_nought_and_binds_as_a_product():
-    rule = Formula({"n": expression("2 + 7*number mod 30", counting=True)})
+    rule = LabRule(settings={"n": expression("2 + 7*number mod 30", counting=True)})
     found = [settings(lab(rule), Student(2, "x", k))["n"] for k in (1, 4, 5, 34)]
     assert found == [9, 30, 7, 30]
     assert expression("-7 mod 3", counting=True).number({}) == 2
@@ -101,8 +101,8 @@ def test_a_scene_has_no_rests():
 
 
 def test_formulas_and_ranges_give_each_their_own_parameters():
-    mixed = Ranges("M", {"phi": PHI}, settings={"n": expression("3*number mod 5", counting=True)})
-    alone = Ranges("M", {"phi": PHI})
+    mixed = LabRule("M", {"phi": PHI}, settings={"n": expression("3*number mod 5", counting=True)})
+    alone = LabRule("M", {"phi": PHI})
     one, two = Student(2, "x", 2), Student(3, "y", 9)
     assert mixed.counts
     assert not alone.counts
@@ -110,7 +110,7 @@ def test_formulas_and_ranges_give_each_their_own_parameters():
         assert settings(lab(mixed), student) == {"n": n, **settings(lab(alone), student)}
     with pytest.raises(SceneError, match="has no number"):
         settings(lab(mixed), Student(2, "x"))
-    constant = Ranges("M", {"phi": PHI}, settings={"n": expression("4")})
+    constant = LabRule("M", {"phi": PHI}, settings={"n": expression("4")})
     assert settings(lab(constant), Student(2, "x"))["n"] == 4
 
 
@@ -125,7 +125,7 @@ def test_formulas_and_ranges_give_each_their_own_parameters():
     ],
 )
 def test_a_formula_without_a_number_or_without_a_rational_value_is_told(text, number, said):
-    rule = Formula({"n": expression(text, counting=True)})
+    rule = LabRule(settings={"n": expression(text, counting=True)})
     with pytest.raises(SceneError, match=said):
         settings(lab(rule), Student(2, "x", number))
 

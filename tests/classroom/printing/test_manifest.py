@@ -26,10 +26,10 @@ def told(folder):
 
 def test_students_come_in_roster_order_with_their_data_as_text(make):
     edition = read_edition(make("a", ["0002", "0001"]))
-    assert [variant.id for variant in edition.variants] == ["0002", "0001"]
-    assert edition.variants[0].settings == {"n": "1"}
-    assert edition.variants[0].group == "331 A"
-    assert edition.variants[1].compute == ("v_B_mm", "v_B")
+    assert [each.student.id for each in edition.takers] == ["0002", "0001"]
+    assert edition.takers[0].settings == {"n": "1"}
+    assert edition.takers[0].student.group == "331 A"
+    assert edition.takers[1].compute == ("v_B_mm", "v_B")
     assert edition.lab.name == "slider"
     assert edition.lab.rubric.points["v_B_mm"] == 2
 
@@ -65,6 +65,10 @@ def test_what_is_no_manifest_is_refused(make):
     for text in ("", "{", "[1]", '{"students": 3}', "\x00", "[" * 100_000):
         (folder / "manifest.json").write_text(text, encoding="utf-8")
         assert len(told(folder)) == 1
+    nobody = make("b", ["1"])
+    change(nobody, students=[])
+    (line,) = told(nobody)
+    assert "has no student" in line
 
 
 def test_every_student_who_is_wrong_is_told(make):

@@ -13,12 +13,14 @@ from hypothesis import strategies as st
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.printing.answer_form import form
-from graphkin.classroom.printing.edition import Variant, read_edition
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.personal import fits, owner, shortened
 from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.printing.qr_code import boxes, modules
 from graphkin.classroom.printing.register_crosses import crosses_of, without_crosses
+from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.glyphs import measures
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
@@ -49,16 +51,16 @@ def pages(sheets: Sheets, view: str) -> list[Page]:
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_name_group_and_code_stand_on_every_page(edition, view):
-    for variant in edition.variants:
-        found = pages(Sheets(order(edition), variant), view)
+    for taker in edition.takers:
+        found = pages(Sheets(order(edition), taker), view)
         assert found
         for page in found:
             page.check()
             said = " ".join(texts(page))
-            assert variant.code in said
-            for word in (*variant.name.split(), "331"):
+            assert taker.code in said
+            for word in (*taker.student.name.split(), "331"):
                 assert word in said, (view, word)
-            assert variant.id not in said
+            assert taker.student.id not in said
 
 
 def test_files_are_made_by_one_thread_at_a_time(edition, monkeypatch):
@@ -74,7 +76,7 @@ def test_files_are_made_by_one_thread_at_a_time(edition, monkeypatch):
         return b""
 
     monkeypatch.setattr(pdf, "write_pdf", slow)
-    wanted = [StudentSheets(edition.variants[0], "a", (("overlay", "pdf"),))]
+    wanted = [StudentSheets(edition.takers[0], "a", (("overlay", "pdf"),))]
     with ThreadPoolExecutor(3) as threads:
         list(threads.map(lambda _: made(order(edition), wanted), range(6)))
     assert most == 1
@@ -87,18 +89,18 @@ def test_the_square_of_every_task_sheet_and_form_holds_the_code_alone(edition, m
     make_qr = segno.make_qr
     monkeypatch.setattr(segno, "make_qr", lambda text, **k: seen.append(text) or make_qr(text, **k))
     modules.cache_clear()
-    sheets = Sheets(order(edition), edition.variants[1])
+    sheets = Sheets(order(edition), edition.takers[1])
     for view in ("task", "key"):
         for page in pages(sheets, view):
             assert any(mark.cls == "qr" for mark in page.marks) == (view == "task")
-    assert set(seen) == {edition.variants[1].code}
+    assert set(seen) == {edition.takers[1].code}
 
 
 def test_crosses_stand_clear_of_all_print_in_line_with_the_border(edition):
     """In the fields of a task's drawing sheets, and nowhere else: 20 mm apart about the middle of
     the sheet, as the divisions of an ISO 5457 border are 50 mm apart, below all that is drawn.
     """
-    sheets = Sheets(order(edition), edition.variants[0])
+    sheets = Sheets(order(edition), edition.takers[0])
     *drawings, form = sheets.of("task")
     for sheet in drawings:
         page = sheet.pages[0]
@@ -119,7 +121,7 @@ def test_crosses_stand_clear_of_all_print_in_line_with_the_border(edition):
 
 def test_the_form_has_every_field_once_with_its_points(edition):
     for language in LANGUAGES:
-        sheets = Sheets(order(edition, language), edition.variants[0])
+        sheets = Sheets(order(edition, language), edition.takers[0])
         (page,) = sheets.answers()
         said = texts(page)
         fields = [item.field for item in items(sheets.mechanism, edition.lab)]
@@ -136,7 +138,7 @@ def hints(page: Page) -> list[str]:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_segment_too_short_to_be_measured_leaves_one_row_with_all_the_points(edition, language):
     """Form, blank calculation and key say alike that the velocity of B is computed."""
-    sheets = Sheets(order(edition, language), edition.variants[1])
+    sheets = Sheets(order(edition, language), edition.takers[1])
     (page,) = sheets.answers()
     said = texts(page)
     assert "v_B_mm" not in said
@@ -156,7 +158,7 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     lab = LAB + "I_2_x_mm = 1\nI_2_y_mm = 1\n"
     lifted = scene.replace("[0, 30]", "[35, 10]")
     edition = read_edition(write_class(tmp_path / "a", ["1"], scene=lifted, lab=lab))
-    sheets = Sheets(order(edition, language), edition.variants[0])
+    sheets = Sheets(order(edition, language), edition.takers[0])
     found = standard(sheets.mechanism, items(sheets.mechanism, edition.lab), edition.lab.rubric)
     decimal = words(language).fixed
     place = words(language).place(*(decimal(found.key[f"I_2_{axis}_mm"], 2) for axis in "xy"))
@@ -168,7 +170,7 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
 
 
 def test_a_long_form_goes_on_on_further_pages(edition):
-    sheets = Sheets(order(edition), edition.variants[0])
+    sheets = Sheets(order(edition), edition.takers[0])
     fields = items(sheets.mechanism, edition.lab)[:1] * 70
     found = form(fields, {}, (), words("en"), ("Title", "Answers"), ("Ana", "AAAA"))
     assert len(found) == 3
@@ -178,14 +180,14 @@ def test_a_long_form_goes_on_on_further_pages(edition):
 
 @given(st.text(max_size=60))
 def test_any_name_can_be_written_and_fits(text):
-    whose = owner(Variant(text or "id", "CODE", {}, name=text, group=text))
+    whose = owner(Taker(Student(1, text or "id", name=text, group=text), {}, "CODE"))
     assert fits(whose.name)
     assert set(whose.name) <= measures(italic=False).keys()
 
 
 def test_a_student_who_cannot_be_drawn_keeps_nobody_else_back(edition):
-    good = edition.variants[0]
-    bad = Variant("9", "BAD", {"n": "9999"})
+    good = edition.takers[0]
+    bad = Taker(Student(1, "9"), {"n": "9999"}, "BAD")
     parts = (("task", "pdf"),)
     found = made(
         order(edition), [StudentSheets(bad, "9", parts), StudentSheets(good, "0012", parts)]
@@ -207,5 +209,5 @@ def test_of_a_name_too_long_as_much_is_kept_as_fits():
 def test_who_has_no_letter_of_the_font_in_the_name_is_called_by_the_id():
     printed = {"Ana 王": "Ana ?, 912", "Łukasz Żółć": "Łukasz Żółć, 912"}
     for name in ("Зоя Иванова", "李 小龍", "", *printed):
-        whose = owner(Variant("0104", "CODE", {}, name=name, group="912"))
+        whose = owner(Taker(Student(1, "0104", name=name, group="912"), {}, "CODE"))
         assert whose.name == printed.get(name, "0104, 912")

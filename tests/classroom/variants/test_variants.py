@@ -16,20 +16,20 @@ from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.grading.class_marking import Book
-from graphkin.classroom.grading.graded import Taker
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.lab_model import Fair, Range, Ranges, ValueList
+from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, ValueList
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.roster.read_roster import read_roster
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.classroom.variants.class_words import class_lines
-from graphkin.classroom.variants.manifest import read_rule, rederived
 from graphkin.cli.main import app
 from graphkin.text.errors import PageError, RosterError
+from tests.classroom.variants.rederiving import read_rule, rederived
 from tests.running import killed_at
 
 NUMBERS = Range(Fraction(1), Fraction(30), Fraction(1))
@@ -39,7 +39,7 @@ STUDENTS = [Student(n + 1, f"{n:04d}", n, f"Student {n}", "A") for n in range(1,
 def drawing_lab(fair: Fair | None = None, tries: int = 100):
     """The pump with data drawn from its whole range."""
     lab = read_lab("pump")
-    rule = Ranges("mechanics 2026", {"n": NUMBERS}, tries)
+    rule = LabRule("mechanics 2026", {"n": NUMBERS}, tries)
     return replace(lab, rule=rule, fair=fair or lab.fair)
 
 
@@ -230,8 +230,8 @@ def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp
         )
     assert run(*args).exit_code == 0
     assert not list(folder.rglob("*.part"))
-    (only,) = read_edition(folder).variants
-    assert (only.id, only.spoken) == ("0003", "it")
+    (only,) = read_edition(folder).takers
+    assert (only.student.id, only.spoken) == ("0003", "it")
 
 
 def test_a_full_disk_leaves_nothing(tmp_path, roster, monkeypatch):
@@ -367,7 +367,7 @@ def listing_lab(tries: int = 100):
     """The pump with numbers drawn from a list of values and a range."""
     parts = (*(Range(Fraction(n), Fraction(n), Fraction(1)) for n in (2, 9)), Range(12, 20, 4))
     lab = read_lab("pump")
-    return replace(lab, rule=Ranges("mechanics 2026", {"n": ValueList(parts)}, tries))
+    return replace(lab, rule=LabRule("mechanics 2026", {"n": ValueList(parts)}, tries))
 
 
 def test_a_list_is_drawn_from_as_a_range_is_and_derived_again(tmp_path, roster):
