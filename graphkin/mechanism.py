@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -132,7 +132,7 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     @cached_property
     def drawings(self) -> dict[tuple[int, ...], Trace]:
-        """What was drawn last of some steps, at one scale of velocities or another."""
+        """What was run last of some steps, at one scale of velocities or another."""
         return {}
 
     def steps_of(self, targets: tuple[Target, ...], by_hand: bool) -> tuple[int, ...]:
@@ -181,11 +181,8 @@ class Mechanism(Struct, frozen=True, dict=True):
         overrides = {} if seconds is None or program.seconds is None else {program.seconds: seconds}
         overrides |= self.trial_rates if by_hand else {}
         try:
-            if kind is FLOAT and by_hand and program.seconds is not None:
-                trace = self.in_doubles(needed, overrides, self.drawings.get(needed))
-                kept(self.drawings, needed, trace)
-            elif kind is FLOAT:
-                trace = self.in_doubles(needed, overrides)
+            if kind is FLOAT:
+                trace = self.in_doubles(needed, overrides, by_hand)
             else:
                 with kind.working():
                     values = self.scene.values_in(kind)
@@ -198,16 +195,23 @@ class Mechanism(Struct, frozen=True, dict=True):
         return trace
 
     def in_doubles(
-        self, needed: Sequence[int], overrides: Mapping[int, Any], begun: Trace | None = None
+        self, needed: tuple[int, ...], overrides: Mapping[int, Any], by_hand: bool
     ) -> Trace:
-        """The values of some steps in doubles, what was ``begun`` at another scale of velocities
-        kept where it does not depend on that. Raises StepFailed."""
-        program, values = self.program, self.scene.values
+        """The values of some steps in doubles, begun with what was drawn last: where a group is
+        closed by trying, with the same steps drawn by hand alone. Raises StepFailed."""
+        program, begun = self.program, self.drawings.get(needed)
         if not self.is_of_higher_class:
-            return run(program, needed, values, FLOAT, overrides=overrides, begun=begun)
-        from graphkin.construction.higher_class.closure_solver import run_settled
+            begun = begun or next(reversed(self.drawings.values()), None)
+            values = self.scene.values
+            trace = run(program, needed, values, FLOAT, overrides=overrides, begun=begun)
+        else:
+            from graphkin.construction.higher_class.closure_solver import run_settled
 
-        return run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
+            begun = begun if by_hand else None
+            trace = run_settled(self.scene, program, needed, overrides=overrides, begun=begun)
+        if by_hand or not self.is_of_higher_class:
+            kept(self.drawings, needed, trace)
+        return trace
 
     def solve(self, *, asked: bool = False) -> Solution:
         """The motion of every point and link, or only what the scene asks for."""

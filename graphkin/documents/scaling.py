@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import reduce
 
 from msgspec.structs import replace
@@ -61,9 +61,9 @@ def scales(mechanism: Mechanism, curves: tuple[Curve, ...] | None = None) -> Sca
     crank, gives_way = the_crank(mechanism), may_give_way(mechanism.program)
     natural = 0.0 if crank else natural_seconds(mechanism)
     asking = searched_scales(said, crank, natural, may_give_way=gives_way)
-    chosen = found(mechanism, curves, asking)
+    chosen, drafts = found(mechanism, curves, asking)
     if said.keys:
-        refuse_dots(chosen, drafts_of(mechanism, curves, chosen), said.keys)
+        refuse_dots(chosen, drafts, said.keys)
     return chosen
 
 
@@ -95,15 +95,22 @@ def stated(mechanism: Mechanism) -> Stated:
     return Stated(number(sheet.scale), by_kind, 1000 * number(sheet.ka))
 
 
-def found(mechanism: Mechanism, curves: tuple[Curve, ...], asking: Search) -> Scales:
-    """What a search ends in, told what the drafts need that it asks for."""
+def found(
+    mechanism: Mechanism, curves: tuple[Curve, ...], asking: Search
+) -> tuple[Scales, list[Drawing]]:
+    """What a search ends in, told what the drafts need that it asks for; and its own drafts."""
+    sheets = sheet_targets(mechanism)
+    drafted: dict[tuple[float, bool], list[Drawing]] = {}
     draft = next(asking)
     try:
         while True:
-            draft = asking.send(needs_of(drafts_of(mechanism, curves, draft)))
+            drafts = drafts_of(mechanism, sheets, curves, draft)
+            drafted[draft.seconds, draft.triangles] = drafts
+            draft = asking.send(needs_of(drafts))
     except StopIteration as end:
         chosen: Scales = end.value
-        return chosen
+        drafts = drafted[chosen.seconds, chosen.triangles]
+        return chosen, [replace(each, scales=replace(chosen, kL=1.0)) for each in drafts]
 
 
 def needs_of(drafts: list[Drawing]) -> Needs:
@@ -117,12 +124,17 @@ def needs_of(drafts: list[Drawing]) -> Needs:
     return Needs(bare, whole, plans, longest)
 
 
-def drafts_of(mechanism: Mechanism, curves: tuple[Curve, ...], scales: Scales) -> list[Drawing]:
+def drafts_of(
+    mechanism: Mechanism,
+    sheets: Mapping[str, tuple[Target, ...]],
+    curves: tuple[Curve, ...],
+    scales: Scales,
+) -> list[Drawing]:
     """The material of each sheet at full size, a velocity drawn as its way in some time."""
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     return [
         drawing(mechanism, kind, found, replace(scales, kL=1.0), nobody, words("en"), curves)
-        for kind, found in sheet_targets(mechanism).items()
+        for kind, found in sheets.items()
     ]
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable
-from heapq import heappop, heappush
 from itertools import combinations
 from math import comb
 
@@ -121,8 +120,7 @@ def stages(scene: Scene, loops: Equations) -> list[Group]:
             return found
         found.append(group)
         known |= set(group.links)
-        for each in net.sets_beside(group.links, known):
-            heappush(waiting, each)
+        waiting = sorted([*waiting, *net.sets_beside(group.links, known)])
 
 
 def counted_in_order(loops: Equations) -> Equations:
@@ -231,12 +229,12 @@ def by_link(every: tuple[Joint, ...]) -> dict[str, list[tuple[int, Joint]]]:
 
 
 def first_ready(net: Net, known: frozenset[str], waiting: list[Set]) -> Group | None:
-    """The first of the sets that wait (a heap) that the known links determine.
+    """The first of the sets that wait, in order, that the known links determine.
 
     Those that they do not are dropped until a neighbour of theirs is known.
     """
     while waiting:
-        _, numbers = heappop(waiting)
+        _, numbers = waiting.pop(0)
         links = tuple(net.loops.links[number] for number in numbers)
         if known.isdisjoint(links) and (group := net.ready(links, known)):
             return group

@@ -66,11 +66,14 @@ def unknowns_of(loops: Equations, pose: Pose) -> Reals:
 
 
 class PlaceMotion(NamedTuple):
-    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,)."""
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,).
 
-    place: Complexes
-    velocity: Complexes
-    acceleration: Complexes
+    Or the bounds of their errors.
+    """
+
+    place: Complexes | Reals
+    velocity: Complexes | Reals
+    acceleration: Complexes | Reals
 
 
 class SlideRates(NamedTuple):

@@ -9,14 +9,14 @@ All sums are of magnitudes, so that no bound depends on errors that cancel.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.loops.equations import Equations
-from graphkin.loops.loop_motion import Motion, SlideRates
+from graphkin.loops.loop_motion import Motion, PlaceMotion, SlideRates
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.link_points import ends_of
 
@@ -26,14 +26,6 @@ AGAIN = 4
 """How many times the first-order error a position may be off where it is nearly singular."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
-
-
-class PlaceBound(NamedTuple):
-    """Bounds of the errors of a place (m), a velocity (m/s) and an acceleration (m/s²): (N, …)."""
-
-    place: Reals
-    velocity: Reals
-    acceleration: Reals
 
 
 class Loads(Struct, frozen=True, eq=False):
@@ -96,10 +88,10 @@ class Rounding(Struct, frozen=True, eq=False):
 
     motion: Motion
     angles: Reals
-    origin: PlaceBound
+    origin: PlaceMotion
     omega: Reals
     epsilon: Reals
-    points: PlaceBound
+    points: PlaceMotion
     slides: Reals
     regular: Flags
 
@@ -108,22 +100,22 @@ class Rounding(Struct, frozen=True, eq=False):
         """The equations of the motion."""
         return self.motion.loops
 
-    def point(self, name: str) -> PlaceBound:
+    def point(self, name: str) -> PlaceMotion:
         """Of a point; ``A@3`` is the point of link 3 under A."""
         point, carrier = ends_of(name)
         p = self.motion.names[point]
         if carrier:
             return self.carried(carrier, self.motion.points.place[:, p], self.points.place[:, p])
-        return PlaceBound(*(row[:, p] for row in self.points))
+        return PlaceMotion(*(row[:, p] for row in self.points))
 
-    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceBound:
+    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceMotion:
         """Of the point of a link that stands at a place, which has an error of its own."""
         i = self.motion.index[link]
         start, velocity, acceleration = (row[:, i] for row in self.origin)
         arm, off = abs(place - self.motion.origin.place[:, i]), start + error
         omega, epsilon = abs(self.motion.omega[:, i]), abs(self.motion.epsilon[:, i])
         turn, twist = self.omega[:, i], self.epsilon[:, i]
-        return PlaceBound(
+        return PlaceMotion(
             np.asarray(error),
             velocity + off * omega + (arm + off) * turn,
             acceleration
@@ -219,7 +211,7 @@ def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) ->
         linear = straight(loops, seconds) + touching(loops, carried, places)
         linear += lifted(loops, unknowns, found.off, (rates, seconds, less))
         later = split(found.led(acceleration, linear))
-        every = PlaceBound(
+        every = PlaceMotion(
             rows.moved(off, places).turned.sum(axis=-1) + places[:, :1],
             velocity + longer.sum(slower),
             acceleration + longer.sum(later),
@@ -228,10 +220,10 @@ def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) ->
     return Rounding(
         motion=motion,
         angles=off.turned,
-        origin=PlaceBound(*(row[:, :links] for row in every)),
+        origin=PlaceMotion(*(row[:, :links] for row in every)),
         omega=slower.turned[:, which],
         epsilon=later.turned[:, which],
-        points=PlaceBound(*(row[:, points:] for row in every)),
+        points=PlaceMotion(*(row[:, points:] for row in every)),
         slides=np.stack([off.slid + 2 * places[:, rows.carrier], slower.slid, later.slid]),
         regular=np.asarray(found.regular.all(axis=1)),
     )

@@ -49,7 +49,7 @@ def decoded(data: bytes) -> str:
     if len(data) > LARGEST:
         raise SceneError(Problem("", "the file is too large", f"at most {LARGEST // 1024} KiB"))
     try:
-        return data.decode("utf-8-sig")
+        return data.decode().removeprefix("\ufeff")
     except UnicodeDecodeError as error:
         if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
             raise SceneError(Problem("", "the file is UTF-16", "a text saved as UTF-8")) from None

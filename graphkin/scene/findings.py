@@ -118,13 +118,13 @@ class Table:
 
 def plain_text(place: str, raw: object, findings: Findings) -> str:
     """A text to be printed, in composed letters (NFC), refused with control or bidi characters."""
-    import unicodedata
-
     if not isinstance(raw, str):
         findings.add(place, shown(raw), "a text in quotes")
         return ""
     if raw.isascii() and raw.isprintable():
         return raw
+    import unicodedata
+
     for character in raw:
         if character not in "\n\t" and unicodedata.category(character) in ("Cc", "Cf", "Cs"):
             findings.add(place, f"the control character {character!a}", "printable text")

@@ -61,7 +61,7 @@ class Quantity(Struct, frozen=True, eq=False):
         return type(other) is type(self) and self.key == other.key
 
     def __hash__(self) -> int:
-        return hash(self.key)
+        return hash((self.text, self.unit))
 
     def uses(self) -> frozenset[str]:
         """Names of the parameters in it, and ``t`` if it is a law of time."""

@@ -14,7 +14,6 @@ from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
-from graphkin.structure.touching_wheels import asked_of
 from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
@@ -57,6 +56,8 @@ def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) ->
 
 def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]) -> Unresolved:
     """What is left, and what there is in it that no construction takes."""
+    from graphkin.structure.touching_wheels import asked_of
+
     links = tuple(joints.unknown(known))
     driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
     held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)

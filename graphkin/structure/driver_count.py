@@ -26,7 +26,6 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.impossible_joints import impossible
 from graphkin.structure.pairs import Pin, all_pairs, sharers
-from graphkin.structure.touching_wheels import keeper_hint
 from graphkin.text.errors import (
     Change,
     DriverAdded,
@@ -246,6 +245,8 @@ def follows(scene: Scene) -> bool:
 
 def misplaced(scene: Scene, ties: Sequence[str], loose: Sequence[str]) -> Problem:
     """A link closes what is driven already, and others are free."""
+    from graphkin.structure.touching_wheels import keeper_hint
+
     drivers, points = len(scene.drivers), lone_points(scene)
     lone = ", ".join(each.words for each in points)
     tie = f"link {ties[0]}" if len(ties) == 1 else f"links {', '.join(ties)}"

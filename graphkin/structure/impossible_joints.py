@@ -9,7 +9,6 @@ from graphkin.numbers.plane import cross
 from graphkin.scene.known_names import quoted
 from graphkin.scene.model import FRAME, Scene, Slide, link_words
 from graphkin.structure.link_axes import guide_line, metres
-from graphkin.structure.touching_wheels import lone_wheels
 from graphkin.structure.turning import LEVEL
 from graphkin.text.errors import Problem, Written
 
@@ -20,11 +19,19 @@ APART = 1e-9
 def impossible(scene: Scene) -> list[Problem]:
     """Every guide, wheel and driver that cannot do what is written."""
     return [
-        *lone_wheels(scene),
+        *wheels_alone(scene),
         *double_guides(scene),
         *unknown_leans(scene),
         *unturnable(scene),
     ]
+
+
+def wheels_alone(scene: Scene) -> Iterator[Problem]:
+    """Wheels that roll on nothing; what looks for them is loaded for a scene that has some."""
+    if any(link.wheels for link in scene.every_link):
+        from graphkin.structure.touching_wheels import lone_wheels
+
+        yield from lone_wheels(scene)
 
 
 def double_guides(scene: Scene) -> Iterator[Problem]:

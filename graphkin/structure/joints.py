@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from copy import copy
+from typing import Any
 
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import Joint, Pin, all_pairs, refuse_loose, sharers
@@ -65,29 +65,29 @@ class Joints:
 
     def part(self, links: Collection[str]) -> Joints:
         """The same pairs, where only some links are looked at as unknown."""
-        part = copy(self)
-        part.names = tuple(name for name in self.names if name in links)
-        return part
+        return self._but(names=tuple(name for name in self.names if name in links))
 
     def with_pins(self, pins: Sequence[tuple[Joint, Pin]]) -> Joints:
         """The same pairs, with pins in place of some of them."""
-        pinned = copy(self)
-        pinned.found = {}
-        pinned.others = {
+        others = {
             link: [next((pin for held, pin in pins if held == pair), pair) for pair in pairs]
             for link, pairs in self.others.items()
         }
-        pinned.owners = self.owners | {pin.point: pin.links for _, pin in pins}
-        return pinned
+        owners = self.owners | {pin.point: pin.links for _, pin in pins}
+        return self._but(found={}, others=others, owners=owners)
 
     def without(self, pairs: Collection[Joint]) -> Joints:
         """The same pairs but some."""
-        fewer = copy(self)
-        fewer.found = {}
-        fewer.others = {
+        others = {
             link: [pair for pair in own if pair not in pairs] for link, own in self.others.items()
         }
-        return fewer
+        return self._but(found={}, others=others)
+
+    def _but(self, **parts: Any) -> Joints:
+        """The same but for some of what it holds."""
+        other = object.__new__(Joints)
+        vars(other).update(vars(self) | parts)
+        return other
 
     def apart(self, known: Collection[str], tied: Iterable[set[str]]) -> Iterator[set[str]]:
         """The unknown links in parts that neither pairs nor the sets ``tied`` join, as written."""

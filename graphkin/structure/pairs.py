@@ -18,8 +18,6 @@ from graphkin.scene.model import (
     link_words,
     of_one_size,
 )
-from graphkin.scene.wheels import contact_letters
-from graphkin.structure.touching_wheels import touching
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError
 
@@ -251,12 +249,18 @@ def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:
 
 def contacts(scene: Scene) -> tuple[Contact, ...]:
     """All rolling pairs, as written. Raises StructureError for wheels that do not touch."""
+    if not any(link.rolls for link in scene.every_link):
+        return ()
+    from graphkin.scene.wheels import contact_letters
+
     letters = contact_letters(scene)
     return tuple(each for link in letters for each in contacts_of(scene, link, letters[link]))
 
 
 def contacts_of(scene: Scene, link: str, letters: tuple[str, ...]) -> list[Contact]:
     """The rolling pairs that a link is written with; each may rest on the tracks before it."""
+    from graphkin.structure.touching_wheels import touching
+
     found: list[Contact] = []
     for rolling, letter in zip(scene.link(link).rolls, letters, strict=True):
         before = [(each.rolling, each.wheel) for each in found if each.track is None]

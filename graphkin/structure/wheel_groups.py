@@ -19,7 +19,6 @@ from graphkin.scene.model import Driver, Scene, link_words, of_one_size
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.one_link import Driven, OneLink, TriedLink
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding
-from graphkin.structure.touching_wheels import radius, track_line
 from graphkin.structure.turning import LEVEL
 from graphkin.text.plain_table import listed
 
@@ -346,6 +345,8 @@ def keeps_parallel(joints: Joints, contact: Contact) -> bool:
 
 def straight_tracks(joints: Joints, wheel: str) -> dict[str, Line]:
     """The links on whose straight tracks a wheel rolls, with the lines of these there."""
+    from graphkin.structure.touching_wheels import track_line
+
     pairs = (pair for pair in joints.others[wheel] if isinstance(pair, Contact))
     return {
         pair.links[1]: track_line(joints.scene, pair.rolling)
@@ -482,6 +483,8 @@ def signed_radii(contact: Contact, values: Mapping[str, Any]) -> Sequence[Any]:
 
 def turned_by_smaller(scene: Scene, wheel: Geared) -> bool:
     """Whether a wheel is turned by a smaller one, than which it is slower."""
+    from graphkin.structure.touching_wheels import radius
+
     contact, link = wheel.contact, wheel.link
     if contact.track is None:
         return False

@@ -26,7 +26,6 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding, contacts
-from graphkin.structure.touching_wheels import keeper_asked
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -222,6 +221,8 @@ def wheel_base(scene: Scene, link: str, pin: str, contact: Contact) -> Base:
 
 def no_track(scene: Scene, contact: Contact) -> StructureError:
     """The error for a track that a pin and a wheel are to carry, and what keeps the wheel there."""
+    from graphkin.structure.touching_wheels import keeper_asked
+
     wheel, track = contact.links
     found = "is a straight track that only a wheel and a pin hold"
     hint = "" if contact.rolling.keeper else keeper_asked(scene.links, wheel, track)

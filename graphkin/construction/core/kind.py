@@ -220,11 +220,8 @@ def lies_along(step: Step) -> str:
 
 def constructions(program: Program, kind: type[K]) -> Iterator[K]:
     """The constructions of a kind in a program, each once, in the order of the work."""
-    seen: set[int] = set()
-    for step in program.steps:
-        if isinstance(step.of, kind) and id(step.of) not in seen:
-            seen.add(id(step.of))
-            yield step.of
+    found = {id(step.of): step.of for step in program.steps}
+    return (each for each in found.values() if isinstance(each, kind))
 
 
 # --- what is said of them -------------------------------------------------------------------------

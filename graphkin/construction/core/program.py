@@ -232,8 +232,10 @@ class Program(Struct, frozen=True):
         """The arrows whose ends are all there, with what comes along to them."""
         found = set(wanted)
         for number, step in enumerate(self.steps):
+            if not step.arrow:
+                continue
             along = {arg for arg in step.args if self._comes_along(arg, found)}
-            if step.arrow and found.issuperset(set(step.args) - along):
+            if found.issuperset(set(step.args) - along):
                 found |= {number, *along}
         return found - wanted
 

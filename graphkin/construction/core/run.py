@@ -52,8 +52,8 @@ def run(
     use in place of a step's own; ``by_hand`` lets composite steps take the hand's value.
     A step that only the hand's way uses and that cannot be drawn here (the normal to a velocity
     that is nought) is left out, and what would follow from it. Raises StepFailed at any other.
-    What was ``begun`` with the same steps and values at another scale of velocities is kept where
-    it does not depend on that.
+    What was ``begun`` with the same values, at another scale of velocities or for other targets, is
+    kept where it does not depend on that scale.
     """
     found: dict[int, Any] = {}
     margins: dict[int, Any] = {}
@@ -62,13 +62,13 @@ def run(
     for number in needed:
         step = program.steps[number]
         if begun is not None and number not in anew:
-            if anew.isdisjoint(step.args):
-                if number in begun.values:
-                    found[number] = begun.values[number]
+            if not anew.isdisjoint(step.args):
+                anew.add(number)
+            elif number in begun.values:
+                found[number] = begun.values[number]
                 if number in begun.margins:
                     margins[number] = begun.margins[number]
                 continue
-            anew.add(number)
         if number in overrides:
             value = overrides[number]
         elif by_hand and step.by_hand is not None and step.by_hand in found:
