@@ -108,7 +108,7 @@ def test_slips_are_named_of_the_values_of_which_grading_names_them(name):
         own = [slip for slip in own if differs(standard, field, slip.values[field])]
         for value in [slip.values[field] for slip in own]:
             size = value if what == "place" else abs(value)
-            blank = {each: BLANK for each in standard.key}
+            blank = dict.fromkeys(standard.key, BLANK)
             given = blank | {field: Answer(repr(size), size)}
             fits = any(likelihood(standard, slip, field, given) for slip in own)
             share, told = gap.share(repr(size))
