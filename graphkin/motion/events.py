@@ -78,8 +78,8 @@ def named(course: Course, event: Event, inside: float) -> Singular:
 def flattest(course: Course, inside: float) -> tuple[str, str]:
     """What closes no further where a group of higher class is followed: its flattest crossing."""
     group = numbered(course)
-    sines = course.margins(np.array([inside]))[:-1, 0]
-    if len(sines) and np.nanmin(sines, initial=1.0) < FLAT:
+    sines = course.margins(np.array([inside]))[:, 0]  # the last, of no crossing, is 1
+    if np.nanmin(sines, initial=1.0) < FLAT:
         return words(course, course.crossings[int(np.nanargmin(sines))], inside)
     link = "" if group is None else f" of link {group.link}"
     return f"the group{link}", f"two closures of the group{link} meet"

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from msgspec.structs import replace
 
+from graphkin.construction.centres.centre import velocity_normal
 from graphkin.construction.centres.relative_centre import LineOfCentres, RelativeCentre
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.solution import Solution
@@ -23,6 +24,14 @@ from tests.scene_files import scene_text
 FIVE_BAR = scene_text("construction/five-bar")
 ALL = 'centres = "all"'
 NEAR = 1e-9
+
+
+def test_the_ray_to_a_centre_is_square_to_a_velocity_from_wherever_the_plan_has_its_pole():
+    """A hand puts the pole where it hits it, and measures from there."""
+    for pole in (0, 3 - 1j, -40 + 7j):
+        ray = velocity_normal(1 + 2j, pole, pole + 2 + 5j)
+        assert ray.point == 1 + 2j
+        assert dot(ray.along, 2 + 5j) == 0 and ray.along != 0
 
 
 def four_bar(ask: str, angle: float = 75, speed: float = 12, acceleration: float = 0) -> Mechanism:

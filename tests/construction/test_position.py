@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from cmath import rect
 from itertools import combinations
 
 import pytest
 from hypothesis import given
 
 from graphkin.construction.core.link_poses import LinkPoses
+from graphkin.construction.guides.guide_line import stretch
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from tests.chosen import CHOSEN
@@ -28,6 +30,16 @@ def test_a_slide_counts_from_the_zero_of_its_guide_to_the_blocks_first_point(mad
     assert set(slides) == {block.name for block in made.blocks}
     for block in made.blocks:
         assert abs(slides[block.name].position - block.zero) <= 1e-11 * extent
+
+
+@pytest.mark.parametrize("here", [0, 3 - 2j])
+@pytest.mark.parametrize("way", [1, 1j, rect(1, 2.3)])
+def test_a_stretched_bar_reaches_from_pin_to_pin_in_the_axes_of_its_guide(here, way):
+    """The guide runs through any point of its link; its block stands 5 along it and 2 beside."""
+    own, block_pin, first = 0.7 + 0.4j, 1.5 - 1j, 0.5 + 0.25j
+    found = stretch(block_pin, first, 2.0, here + own * way, here, here + 3 * way, 5.0)
+    seen = here + (5 + 2j + block_pin - first) * way
+    assert found * way == pytest.approx(seen - (here + own * way))
 
 
 @pytest.mark.parametrize("angle", [0, 17, 60, 90, 133, 180, 200, 270, 359])
@@ -91,7 +103,11 @@ def poses(mechanism: Mechanism) -> LinkPoses:
 MADE = {**dict.fromkeys(CHOSEN, mechanism_named), **dict.fromkeys(RARE, rare)}
 
 
-def test_every_block_is_as_far_from_its_guide_as_is_written():
+@pytest.mark.parametrize("known", [True, False], ids=["through a point", "through none"])
+def test_every_block_is_as_far_from_its_guide_as_is_written(known, monkeypatch):
+    """Also where nothing tells where the guide's point stands: then its foot is its place."""
+    if not known:
+        monkeypatch.setattr(LinkPoses, "carried", lambda *_: None)
     seen = 0
     for name, made in MADE.items():
         for way in poses(made(name)).guideways:

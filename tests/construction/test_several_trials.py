@@ -118,6 +118,21 @@ def test_every_closure_is_found(kind, seed, count):
     assert trying.closures_of(known).ways() == count
 
 
+@pytest.mark.parametrize("name", [*NAMES, "plank-pulled-by-a-rod"])
+def test_a_sign_is_tried_with_the_first_unknown_that_tells_what_hangs_on_it(name):
+    """No earlier, for each doubles the work; the last unknown tells what is left."""
+    trying, _ = closer(mechanism(name))
+    tried = set[int]()
+    for stage in trying.stages:
+        told = {trying.unknowns[k].misfit for k in stage.misfits}
+        told |= {arg for _, args in stage.reaches for arg in args}
+        hang = {k for k, n in enumerate(trying.signs) if told & trying.program.descendants(n)}
+        is_last = stage is trying.stages[-1]
+        assert {*stage.signs} == ({*range(len(trying.signs))} if is_last else hang) - tried
+        tried |= hang
+    assert len(trying.stages) > 1
+
+
 def test_cells_are_left_out_where_misfits_grow_without_bound():
     """Plank and floor all but parallel: a misfit is thousands of times what it is elsewhere, and
     bounds nothing."""

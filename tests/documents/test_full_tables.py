@@ -1,5 +1,8 @@
 """Tables of many rows fit above the title block, or one line tells why none do."""
 
+from itertools import pairwise
+
+import numpy as np
 import pytest
 import shapely
 
@@ -7,7 +10,7 @@ from graphkin.construction.result_tables import slide_rows, tables, turning_rows
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import sheet
 from graphkin.drawing.areas import TABLES
-from graphkin.drawing.columns import HEIGHT, PAD, SMALL, ColumnTable, Look, Row, laid_out
+from graphkin.drawing.columns import HEIGHT, SMALL, ColumnTable, Look, Row, laid_out
 from graphkin.drawing.marks import LineMark, Mark, Text, reach
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.errors import PageError
@@ -68,8 +71,27 @@ def test_letters_are_large_where_the_widest_text_fits_its_column(spare):
     """With 0.7 mm to both sides and no more; where there is less they are small."""
     for text in ("3,8", "12,345", "*v*_{D}", "1·10^{–3}"):
         table = ColumnTable((1.0,), Row(("a",)), rows := (Row((text,)),), rows)
-        width = table.breadth(0, HEIGHT) + PAD + spare
+        width = table.breadth(0, HEIGHT) + 1.4 + spare
         assert table.letters(Look(9.0, 3.0, 1.0), [width]) == (HEIGHT if spare >= 0 else SMALL)
+
+
+@pytest.mark.parametrize("wished", [1.0, *np.arange(8.0, 13.0, 0.25), 20.0])
+def test_texts_stand_clear_of_the_lines_between_columns(wished):
+    """By 0.7 mm at least, whatever widths are wished; what is left of these is shared evenly."""
+    rows = tuple(Row(texts) for texts in (("*v*_{D}", "12,345", "3"), ("n", "–1·10^{–3}", "44")))
+    table = ColumnTable((wished,) * 3, Row(("vector", "mm", "m/s")), rows, rows)
+    marks = table.marks(10.0, 10.0, Look(9.0, 6.0, 1.0))
+    rules = sorted({m.x1 for m in marks if isinstance(m, LineMark) and m.x1 == m.x2})
+    texts = [reach(mark) for mark in marks if isinstance(mark, Text)]
+    free = []
+    for left, right in pairwise(rules):
+        inside = [box for box in texts if left < (box[0] + box[2]) / 2 < right]
+        assert len(inside) == 3
+        free.append(min(min(box[0] - left, right - box[2]) for box in inside))
+    assert min(free) >= 0.69
+    needed = right - rules[0] - 2 * sum(free)
+    if 3 * wished > needed + 4.2:
+        assert rules[-1] - rules[0] == pytest.approx(3 * wished)
 
 
 # --- Names of eight letters and more, and names with an index of their own -----------------------

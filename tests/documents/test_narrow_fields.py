@@ -2,10 +2,11 @@
 
 from itertools import product
 
+import numpy as np
 import pytest
 
 from graphkin.construction.core.layout import lay_out, refuse_wide
-from graphkin.documents.captions import HEADING, headlines
+from graphkin.documents.captions import HEADING, caption, headlines
 from graphkin.documents.data_heading import NAME as DATA
 from graphkin.documents.overlay import overlay
 from graphkin.documents.sheet import sheet, sheet_heading, title_line
@@ -36,6 +37,20 @@ def test_captions_and_notes_of_narrow_fields_stay_in_them(name, language, view):
         for note in notes:
             rect = left if note.x < right[0] else right
             assert reach(note)[2] <= rect[2] - 1, note.markup
+
+
+@pytest.mark.parametrize("height", [1.8, 2.5, 3.5])
+def test_a_caption_ends_in_its_field_and_is_broken_only_where_it_must_be(height):
+    """In fields of any breadth, with at least a millimetre and at most five to either edge."""
+    said = "Mechanism, scale 1:5  (k_L = 0.005 m/mm; v_B = 0.5 m/s)"
+    for width in np.arange(20 * height, 40 * height, 0.7):
+        marks = caption(said, (10, 20, 10 + width, 90), height)
+        assert " ".join(mark.markup for mark in marks).split() == said.split()
+        assert all(11 <= reach(m)[0] <= 15 and reach(m)[2] <= 9 + width for m in marks)
+        alone = caption(said, (10, 20, 500, 90), height)
+        assert len(alone) == 1
+        assert len(marks) > 1 or reach(alone[0])[2] <= 9 + width
+        assert len(marks) == 1 or reach(alone[0])[2] > 5 + width
 
 
 @pytest.mark.parametrize("view", ["key", "task"])

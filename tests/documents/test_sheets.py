@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from math import dist, hypot
+from collections.abc import Sequence
+from math import cos, dist, hypot, sin
 
+import numpy as np
 import pytest
 import shapely
 from shapely.geometry.base import BaseGeometry
@@ -18,13 +20,15 @@ from graphkin.construction.core.segments import TINY as SHORTEST
 from graphkin.construction.result_tables import turning_links, vectors
 from graphkin.documents.captions import HEADING
 from graphkin.documents.data_heading import NAME as DATA
-from graphkin.documents.detail import RADIUS
+from graphkin.documents.detail import parted
+from graphkin.documents.inset import far_places, inset
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import boards
 from graphkin.documents.signs import mechanism_signs, round_below, sign_of
 from graphkin.drawing.areas import AREA
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.label import SMALL
+from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
 from graphkin.drawing.richtext import CLEAR, plain, runs, signs
 from graphkin.drawing.style import OWN_LINES, style_of
@@ -360,7 +364,7 @@ def circles(page):
     """The circles of the details on a mechanism: the small ones and the large ones."""
     marks = page.marks["mechanism"]
     every = [m for m in marks if isinstance(m, CircleMark) and m.cls == "detail"]
-    return [m for m in every if m.r < RADIUS], [m for m in every if m.r == RADIUS]
+    return [m for m in every if m.r < 4], [m for m in every if m.r > 4]
 
 
 def test_each_small_circle_has_its_large_one_and_indices_there_can_be_read(page):
@@ -378,6 +382,105 @@ def test_a_pin_at_which_three_triangles_meet_is_shown_enlarged():
     small, _ = circles(page)
     assert small
     assert any(dist(page.layout.mechanism(pin), (m.cx, m.cy)) < m.r for m in small)
+
+
+@pytest.mark.parametrize("length", [0.51, 0.65, 0.79, 0.8, 1.2, 1.99])
+@pytest.mark.parametrize("angle", [0.3, 2.5])
+def test_a_detail_holds_a_short_vector_as_many_times_as_long_as_it_says(length, angle):
+    """Its circle is three to eight times as wide as the vector, and clear of what else is drawn."""
+    board, way = FieldContent((0.0, 0.0, 140.0, 110.0)), (cos(angle), sin(angle))
+    x, y = 40.0, 50.0
+    board.marks = [
+        LineMark(x, y, x + length * way[0], y + length * way[1], "velocity", "v_B"),
+        *(LineMark(5.0, each, 90.0, each, "link") for each in (20.0, 70.0, 100.0)),
+    ]
+    (field,) = parted(board)
+    (times,) = field.times
+    (small,) = [m for m in field.marks if isinstance(m, CircleMark) and kind_of(m) == "detail"]
+    (large,) = [m for m in field.details if isinstance(m, CircleMark) and kind_of(m) == "detail"]
+    (shown,) = [m for m in field.details if is_vector_line(m)]
+    (line,) = [m for m in field.details if isinstance(m, LineMark) and m.cls == "detail"]
+    (said,) = [m for m in field.details if isinstance(m, Text) and m.markup == f"{times}:1"]
+    assert large.r == pytest.approx(times * small.r)
+    drawn_as = (shown.x2 - shown.x1, shown.y2 - shown.y1)
+    assert drawn_as == pytest.approx([times * length * part for part in way])
+    middle = (shown.x1 + shown.x2) / 2, (shown.y1 + shown.y2) / 2
+    assert middle == pytest.approx((large.cx, large.cy))
+    assert (small.cx, small.cy) == pytest.approx((x + length * way[0] / 2, y + length * way[1] / 2))
+    assert 3 <= 2 * large.r / (times * length) <= 8.01
+    assert dist((line.x1, line.y1), (small.cx, small.cy)) == pytest.approx(small.r)
+    assert dist((line.x2, line.y2), (large.cx, large.cy)) == pytest.approx(large.r)
+    disc = shapely.Point(large.cx, large.cy).buffer(large.r)
+    assert not disc.intersects(shapely.box(*reach(said)))
+    assert all(disc.distance(outline(m)) > 1 for m in board.marks if not isinstance(m, Text))
+    assert shapely.box(*board.rect).contains(disc)
+
+
+def is_vector_line(mark: Mark) -> bool:
+    """True for the line of a vector in a detail."""
+    return isinstance(mark, LineMark) and kind_of(mark) == "velocity"
+
+
+def test_an_inset_has_bars_and_a_far_centre_as_small_as_it_says():
+    """Bars of 50, 120 and 90 mm; the centre lies in line with the crank, and with the rocker."""
+    page = drawn("four-bar-crank-rocker", None, "velocity")
+    board = far_inset(page, page.marks["mechanism"])
+    reduced = scale_of_inset(board)
+    bars = [m for m in board if kind_of(m) == "link"]
+    found = {round(length_of(bar) * reduced, 6) for bar in bars}
+    assert found == {50, 120, 90}
+    (centre,) = [m for m in board if kind_of(m) == "centre"]
+    for length in (50, 90):
+        bar = next(m for m in bars if round(length_of(m) * reduced, 6) == length)
+        across = (bar.x2 - bar.x1) * (centre.cy - bar.y1) - (bar.y2 - bar.y1) * (centre.cx - bar.x1)
+        assert across == pytest.approx(0, abs=1e-9)
+    left, top, right, low = frame_of(board)
+    points = [(m.cx, m.cy) for m in board if isinstance(m, CircleMark)]
+    points += [(bar.x1, bar.y1) for bar in bars]
+    assert all(left + 7.9 < x < right - 7.9 and top + 7.9 < y < low - 7.9 for x, y in points)
+
+
+@pytest.mark.parametrize("lanes", [100.0, 60.0, 50.0, 45.0, 40.0, 30.0, 20.0])
+def test_an_inset_is_as_large_as_there_is_room_for(lanes):
+    """Between lines so many mm apart: 80 by 60 mm at most, and no smaller than 26; places are tried
+    every 5 mm."""
+    page = drawn("four-bar-crank-rocker", None, "velocity")
+    left, top, right, low = page.layout.mechanism.rect
+    heights = np.arange(top, low, lanes)
+    lines = [LineMark(left, height, right, height, "link") for height in heights]
+    ((kind, centre),) = far_places(page.drawing, page.layout.mechanism)
+    field = page.layout.mechanism
+    found = inset(page.drawing, kind, centre, field, Space(lines, field.rect))
+    if found is None:
+        assert lanes < 45
+        return
+    start, above, end, below = frame_of(found.marks)
+    assert end - start <= 80 and below - above <= 60 and max(end - start, below - above) >= 26
+    assert not any(above <= height <= below for height in heights)
+    reduced = scale_of_inset(found.marks)
+    step = {1: 2, 2: 2, 5: 2.5}[int(str(reduced)[0])]
+    wide, high = ((size - 16) * step + 16 for size in (end - start, below - above))
+    assert wide > 80 or high > 60 or hypot(wide, high) + 9 > lanes
+
+
+def far_inset(page: Drawn, marks: Sequence[Mark]) -> list[Mark]:
+    """The marks of the one inset of a field."""
+    (frame,) = [m for m in marks if isinstance(m, Polyline) and kind_of(m) == "panel"]
+    rect = shapely.Polygon(frame.points)
+    inside = [m for m in marks if isinstance(m, Text) and rect.contains(shapely.box(*reach(m)))]
+    return [frame, *(m for m in marks if "inset" in m.cls.split()), *inside]
+
+
+def frame_of(marks: Sequence[Mark]) -> tuple[float, float, float, float]:
+    """The edges of an inset."""
+    (frame,) = [m for m in marks if isinstance(m, Polyline) and kind_of(m) == "panel"]
+    return shapely.Polygon(frame.points).bounds
+
+
+def scale_of_inset(marks: Sequence[Mark]) -> int:
+    """How many times as small as the mechanism an inset says it is."""
+    (said,) = [m.markup for m in marks if isinstance(m, Text) and re.fullmatch(r"1:\d+", m.markup)]
+    return int(said.partition(":")[2])
 
 
 # --- turning arrows and the bar of the plan's scale ----------------------------------------------

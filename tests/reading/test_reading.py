@@ -754,7 +754,7 @@ def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) 
     for off, asked in ((1.0, False), (3.2, True)):
         key = ExpectedPlace(300 + off + 100j, np.eye(2) * 4.0)
         told = reader.told(number, key, own, read)
-        assert (told.verdict, told.ask) == ("right", asked)
+        assert (told.verdict, told.ask, told.off) == ("right", asked, 0.2)
     behind = reader.behind(number)
     for n in behind & {*sheet.points}:  # where all behind it is read and settled, none is unseen
         reader.readings[n] = msgspec.structs.replace(point(n, ask=False), verdict="right")

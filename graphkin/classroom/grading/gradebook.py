@@ -174,13 +174,13 @@ def students(
     """
     known = {
         line: who
-        for line, row in enumerate(book.rows[1:], 1)
-        if not is_possible(row) and (who := signs.who(text_at(row, where))) is not None
+        for line, row in rows_of(book)
+        if (who := signs.who(text_at(row, where))) is not None
     }
     yield from known.items()
-    for line, row in enumerate(book.rows[1:], 1) if match != "id" else ():
+    for line, row in rows_of(book) if match != "id" else ():
         found = {signs.emails.get(each.text.casefold()) for each in row} - {None}
-        if text_at(row, where) in EMPTY and len(found) == 1 and not is_possible(row):
+        if text_at(row, where) in EMPTY and len(found) == 1:
             (who,) = found
             if who is not None and who not in known.values():
                 yield line, who
@@ -190,11 +190,10 @@ def strangers(book: GradebookTable, where: int, ours: Collection[int]) -> dict[i
     """What those are called who have an id or an address, but are nobody of the class, by row."""
     names = [i for i, head in enumerate(book.rows[0]) if folded(head.text) in NAMED]
     found: dict[int, str] = {}
-    for line, row in enumerate(book.rows[1:], 1):
+    for line, row in rows_of(book):
         sign = text_at(row, where)
-        if line in ours or is_possible(row) or sign in EMPTY:
-            continue
-        found[line + 1] = " ".join(filter(None, (text_at(row, i) for i in names))) or sign
+        if line not in ours and sign not in EMPTY:
+            found[line + 1] = " ".join(filter(None, (text_at(row, i) for i in names))) or sign
     return found
 
 
@@ -218,11 +217,10 @@ def text_at(row: Sequence[Cell], column: int) -> str:
 
 def is_other(text: str, mark: Fraction) -> bool:
     """Whether a cell holds something else than the mark that is put there."""
-    return text not in EMPTY and text.replace(",", ".") not in (
-        mark_text(mark, comma=False),
-        f"{float(mark):.2f}",
-        f"{float(mark):.1f}",
-    )
+    number = text.replace(",", ".")
+    if DECIMAL.fullmatch(number):
+        return Fraction(number) != Fraction(mark_text(mark, comma=False))
+    return text not in EMPTY
 
 
 def worth_of(book: GradebookTable, column: int) -> Fraction | None:
@@ -240,6 +238,12 @@ def worth_of(book: GradebookTable, column: int) -> Fraction | None:
 def points_row(book: GradebookTable) -> Sequence[Cell]:
     """Canvas's row of what each column is worth; nothing where there is none."""
     return next((row for row in book.rows[1:4] if is_possible(row)), ())
+
+
+def rows_of(book: GradebookTable) -> Iterator[tuple[int, Sequence[Cell]]]:
+    """The rows below the head by their lines, but that of what each column is worth."""
+    every = enumerate(book.rows[1:], 1)
+    return ((line, row) for line, row in every if not is_possible(row))
 
 
 def is_possible(row: Sequence[Cell]) -> bool:
@@ -313,7 +317,7 @@ def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, i
 
 def of_students(book: GradebookTable, ids: int) -> list[Sequence[Cell]]:
     """The rows of students, who have something in the column of ids; not those of averages."""
-    return [row for row in book.rows[1:] if text_at(row, ids) and not is_possible(row)]
+    return [row for _, row in rows_of(book) if text_at(row, ids)]
 
 
 def is_comment(head: str) -> bool:

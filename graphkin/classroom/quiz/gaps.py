@@ -64,7 +64,7 @@ def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
     told = words("feedback.right")
     size = right if item.what == "place" else abs(right)
     yield Taken(size, allowed, WHOLE, told)
-    if item.beside("sense") in standard.key and size > allowed:
+    if item.beside("sense") in standard.key and size:
         yield Taken(-size, allowed, WHOLE, told)
 
 
@@ -92,9 +92,10 @@ def slipped(marker: Marker, item: Item, paid: set[str], words: Words) -> Iterato
         value = slip.values.get(field)
         if value is None or not differs(standard, field, value):
             continue
-        size = value if item.what == "place" else abs(value)
-        allowed = slip_error(standard, slip, field, value)
-        if abs(size) <= allowed or any(abs(size - other) <= near for other, near in seen):
+        is_place, allowed = item.what == "place", slip_error(standard, slip, field, value)
+        size = value if is_place else abs(value)
+        is_nought = not is_place and size <= allowed
+        if is_nought or any(abs(size - other) <= near for other, near in seen):
             continue
         seen.append((size, allowed))
         share = rubric.slips.get(slip.name, 0.0)

@@ -165,6 +165,48 @@ def test_a_row_that_is_the_key_of_the_neighbour_is_found(name, by):
     }
 
 
+def sizes(n: int) -> dict[str, float]:
+    """The numbers of a key, senses left out."""
+    key = marker_of("pump", n).standard.key
+    return {f: v for f, v in key.items() if not (isnan(v) or f.endswith("_sense"))}
+
+
+def half_way(percent: int):
+    """Six students, each with eight numbers so much of the way from the own to another's."""
+    for n in range(3, 27, 4):
+        other = sizes(shifted(n, 8))
+        own = [*sizes(n).items()][:8]
+        mixed = {f: v + percent / 100 * (other[f] - v) for f, v in own if f in other}
+        yield n, {f: written(f, value, 3) for f, value in mixed.items()}
+
+
+def alike(count: int):
+    """Two with other data who write so many of the same wrong numbers."""
+    n, factors = count + 1, (1.3, 2.6, 0.6, 1.9, 0.45, 3.1)
+    same = [(f, factors[i % 6] * v) for i, (f, v) in enumerate(sizes(n).items()) if i < count]
+    for own, off in ((n, 1.003), (shifted(n, 10), 0.997)):
+        every = {f: off * v for f, v in sizes(own).items()}
+        every |= {f: v for f, v in same if f in every}
+        yield own, {f: written(f, value, 2) for f, value in every.items()}
+
+
+@pytest.mark.parametrize(
+    ("suspect", "some", "amounts"),
+    [(wrong_variants, half_way, (60, 70, 80)), (copies, alike, range(3, 11))],
+    ids=["another's data", "another's digits"],
+)
+def test_who_is_named_has_odds_of_a_thousand(suspect, some, amounts, monkeypatch):
+    """All with such odds are named, and none of those with less, of whom there are some."""
+    rows = [row for amount in amounts for row in some(amount)]
+    graded = [marker_of("pump", n).mark(taker(n, f"{i}"), row) for i, (n, row) in enumerate(rows)]
+    own = [marker_of("pump", n).standard.expectation for n, _ in rows]
+    found = suspect(graded, own)
+    monkeypatch.setattr(f"{suspect.__module__}.STRONG", 1.0)
+    every = suspect(graded, own)
+    assert list(found) == [each for each in every if each.odds >= 1000]
+    assert 2 < len(found) < len(every) - 2
+
+
 def test_a_suspected_row_loses_what_follows_where_it_fits_and_guessed_slips():
     """Its slips explain it by chance: they are told to nobody, counted nowhere."""
     keys = {n: key_answers(marker_of("pump", shifted(n, 2)).standard) for n in NUMBERS}

@@ -65,6 +65,36 @@ def test_moodle_and_canvas_keep_all_but_the_marks_their_quotes_and_row_of_points
     assert with_marks(book(bare), MARKS).column == found.column
 
 
+def test_the_row_of_points_is_nobodys_whatever_stands_in_it(book):
+    """Neither by an address in it nor by an id, and nobody the class list lacks."""
+    text = "Student,SIS User ID,Mail,Lab 3\n    Points Possible,{},{},24\nAna,01003,,\n,,,\n"
+    for who in ("", "01004", "99"):
+        for mail in ("", "pat@example.org"):
+            found = filled(book(text.format(who, mail)), OWN, "Lab 3", SIGNS)
+            expected = text.format(who, mail).replace("01003,,", "01003,,9")
+            assert found.data.decode() == expected
+            assert (found.absent, found.worth, dict(found.strangers)) == (("01004",), 24, {})
+
+
+@pytest.mark.parametrize(
+    ("mark", "same", "others"),
+    [
+        (Fraction(17, 2), ("8.5", "8,5", "8.50", "8,500"), ("8", "9", "8.51", "85", "8.5?")),
+        (Fraction(12), ("12", "12.0", "12,00"), ("12.1", "11", "1", "absent")),
+        (Fraction(29, 4), ("7.25",), ("7.2", "7,3")),
+        (Fraction(22, 3), ("7.33",), ("7.3", "7.333")),
+    ],
+)
+def test_what_a_mark_takes_the_place_of_is_counted_unless_it_is_the_same_number(
+    book, mark, same, others
+):
+    texts = {**dict.fromkeys(("", "-", *same), 0), **dict.fromkeys(others, 1)}
+    for text, count in texts.items():
+        table = book(f'id;name;mark\n0001;Ana;"{text}"\n0002;Pat;3\n')
+        found = filled(table, {"0001": mark, "0002": Fraction(3)}, "mark")
+        assert found.replaced == count, text
+
+
 @pytest.mark.parametrize(
     ("text", "column", "words_found"),
     [

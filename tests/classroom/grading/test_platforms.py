@@ -90,6 +90,16 @@ def test_moodles_submissions_are_read_with_all_that_lies_beside(tmp_path):
         assert found.senders["01003"].back == "Ana Ștefănescu_12345_assignsubmission_file_/"
 
 
+def test_an_empty_table_is_no_table_that_was_not_handed_in(tmp_path):
+    """It is told by its name: its student may have saved it badly."""
+    empty = "Ion Popa_777_assignsubmission_file_/answers.csv"
+    files = MOODLE | {empty: ""}
+    for path in (packed(tmp_path / "all.zip", files), unpacked(tmp_path / "all", files)):
+        assert submissions(path).empty == ()
+        with pytest.raises(RosterError, match=f"{empty}: the table is empty"):
+            read_answers(path, book_of("pump").form, SIGNS)
+
+
 @pytest.mark.parametrize("match", ["", "email"])
 def test_a_row_without_an_id_is_that_of_the_folder_it_lies_in(tmp_path, match):
     """A table with one row, by whatever students are found in other tables."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from fractions import Fraction
 from math import asin, degrees
 from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from graphkin import load
 from graphkin.classroom.lab.fairness import judged, loader
@@ -89,6 +91,41 @@ def test_triangles_are_relative_velocity_over_bar_as_drawn(judgement):
                 break
         else:
             pytest.fail("no right triangle was found")
+
+
+def test_each_limit_that_is_broken_is_told_with_what_was_found_and_nothing_else(judgement):
+    """Limits so high that every kind of them is broken somewhere, and kept somewhere."""
+    found, seen = judgement[2], Counter[str]()
+    least = {
+        "crossing": float(np.median(found.flattest)),
+        "segment": float(np.median(found.shortest)),
+    }
+    ratios = np.concatenate([*found.triangles.values()])
+    low, high = (float(np.quantile(ratios, part)) for part in (0.25, 0.75))
+    strict = replace(found, limits=replace(found.limits, triangle=(low, high), **least))
+    for i in range(len(strict)):
+        assert strict.closes[i] and strict.fits[i]
+        expected = {
+            *(
+                ("crossing", n, a[i])
+                for n, a in found.crossings.items()
+                if a[i] < least["crossing"]
+            ),
+            *(("segment", n, mm[i]) for n, mm in found.lengths.items() if mm[i] < least["segment"]),
+            *(
+                ("triangle", n, v[i])
+                for n, v in found.triangles.items()
+                if v[i] < low or v[i] > high
+            ),
+        }
+        told = strict.faults(i)
+        assert {(each.limit, each.where, each.value) for each in told} == expected
+        assert strict.fair[i] == (not expected)
+        for each in told:
+            side = low if each.value < low else high
+            assert each.bound == least.get(each.limit, side)
+        seen.update({each.limit for each in told})
+    assert seen.keys() == {"crossing", "segment", *(["triangle"] if len(ratios) else [])}
 
 
 @pytest.fixture(scope="module")

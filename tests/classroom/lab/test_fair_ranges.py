@@ -104,6 +104,25 @@ def test_in_a_region_of_two_parameters_all_that_is_proposed_is_fair(lab, monkeyp
     assert len(every) > 0.4 * discs
 
 
+def test_of_a_fair_box_peeling_leaves_all_but_a_thin_slice_at_each_end():
+    """Patience: a slice has at most a twentieth of what is left, and at least one value; a few
+    dozen of them come from 300 values to a tenth; what was lost is grown again."""
+    whole, good = [(0, 299), (0, 59)], [(40, 99), (0, 44)]
+    places = np.array([*np.ndindex(300, 60)])
+    fair = module.within(good, places)
+    found = module.peel(whole, places, fair)
+    again = module.pasted([(60, 65), (20, 25)], whole, places, fair)
+    for box in (found, again):
+        for (low, high), (first, last) in zip(box, good, strict=True):
+            assert first <= low <= first + (last - first) // 20
+            assert last - (last - first) // 20 <= high <= last
+    for size in (2, 5, 40, 300):
+        ((low, _),), ((_, high),) = module.slices([(0, size - 1)])
+        assert low == size - 1 - high
+        assert size / 40 <= low <= max(size / 20, 1)
+    assert not [*module.slices([(3, 3)])]
+
+
 def test_ranges_keep_to_the_limit_of_a_pencil(lab, tmp_path, monkeypatch):
     """A slow piston is drawn less exactly: what is proposed has no draw in which it is too slow,
     and check, which counts the others, finds none in the proposal."""

@@ -16,7 +16,10 @@ from click.testing import CliRunner
 from moodle_xml_parser.parser import parse_bytes
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.graded import Answer, Status
+from graphkin.classroom.grading.graded import BLANK, Answer, Status
+from graphkin.classroom.grading.marking import Marker
+from graphkin.classroom.grading.slip_diagnosis import likelihood
+from graphkin.classroom.grading.slips import differs
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.quiz.gaps import Gap, Taken, gaps
@@ -77,6 +80,40 @@ def test_a_single_wrong_value_is_right_or_not_as_in_grading(name):
             mark = marker.mark(taker(7), {field: Answer(repr(value), value)}).mark(field)
             share, _ = gap.share(repr(value))
             assert (share == 1) == (mark.status is Status.RIGHT), (field, off)
+
+
+def test_a_rate_near_nought_is_right_with_either_sign_as_in_grading():
+    standard, field = replace(marker_of("pump", 7).standard), "omega_3"
+    allowed = marker_of("pump", 7).standard.tolerance
+    for part in (-0.9, -0.3, 0.0, 0.3, 0.9, 1.1):
+        key = {**marker_of("pump", 7).standard.key, field: part * allowed[field].value}
+        vars(standard).update(key=key, tolerance=allowed)
+        marker = Marker(standard)
+        (gap,) = gaps(marker, {field: Fraction(1)}, SAID)
+        (back,) = moodle.gaps(cloze(gap, 1))
+        for times in (-2.0, -1.35, -1.25, -0.5, 0.5, 1.25, 1.35, 2.0):
+            value = times * allowed[field].value
+            status = marker.mark(taker(7), {field: Answer(repr(value), value)}).mark(field).status
+            assert (back.share(repr(value))[0] == 1) == (status is Status.RIGHT), (part, times)
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_slips_are_named_of_the_values_of_which_grading_names_them(name):
+    """Of a size that is nought within what it may be off none is; of a place on an axis one is."""
+    marker = marker_of(name, 7)
+    standard = marker.standard
+    for field, gap in read(name).items():
+        what = standard.by_field[field].item.what
+        own = [slip for slip in marker.slips if what != "sense" and field in slip.values]
+        own = [slip for slip in own if differs(standard, field, slip.values[field])]
+        for value in [slip.values[field] for slip in own]:
+            size = value if what == "place" else abs(value)
+            blank = dict.fromkeys(standard.key, BLANK)
+            given = blank | {field: Answer(repr(size), size)}
+            fits = any(likelihood(standard, slip, field, given) for slip in own)
+            share, told = gap.share(repr(size))
+            assert share < 1
+            assert bool(told) == fits, (field, value)
 
 
 def test_a_slip_earns_its_share_once_and_then_what_follows():
