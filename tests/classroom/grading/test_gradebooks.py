@@ -70,7 +70,7 @@ def test_the_row_of_points_is_nobodys_whatever_stands_in_it(book):
     text = "Student,SIS User ID,Mail,Lab 3\n    Points Possible,{},{},24\nAna,01003,,\n,,,\n"
     for who in ("", "01004", "99"):
         for mail in ("", "pat@example.org"):
-            found = filled(book(text.format(who, mail)), OWN, "Lab 3", SIGNS)
+            found = with_marks(book(text.format(who, mail)), OWN, "Lab 3", SIGNS)
             expected = text.format(who, mail).replace("01003,,", "01003,,9")
             assert found.data.decode() == expected
             assert (found.absent, found.worth, dict(found.strangers)) == (("01004",), 24, {})
@@ -91,7 +91,7 @@ def test_what_a_mark_takes_the_place_of_is_counted_unless_it_is_the_same_number(
     texts = {**dict.fromkeys(("", "-", *same), 0), **dict.fromkeys(others, 1)}
     for text, count in texts.items():
         table = book(f'id;name;mark\n0001;Ana;"{text}"\n0002;Pat;3\n')
-        found = filled(table, {"0001": mark, "0002": Fraction(3)}, "mark")
+        found = with_marks(table, {"0001": mark, "0002": Fraction(3)}, "mark")
         assert found.replaced == count, text
 
 
