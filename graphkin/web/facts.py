@@ -27,7 +27,7 @@ class ResultTable(Struct, frozen=True):
     caption: str
     head: Sequence[str]
     rows: Sequence[tuple[str, tuple[str, ...]]]
-    asked_words: frozenset[str]
+    asked: frozenset[str]
 
 
 def results(drawing: Drawing) -> Iterator[ResultTable]:
