@@ -134,7 +134,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     tip: int
     pivot_name: str = ""
     pin_name: str = ""
-    corners: str = ""
+    own_letters: str = ""
     pivot: int | None = None
     pin: int | None = None
     velocity: int | None = None
@@ -155,7 +155,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def corner_letter(self, role: str) -> str:
         """One of two letters that no point bears."""
-        return dict(zip(("foot", "top"), self.corners, strict=False)).get(role, "")
+        return dict(zip(("foot", "top"), self.own_letters, strict=False)).get(role, "")
 
     def symbols(self) -> Mapping[str, str]:
         """The guide, and the point that slides on it."""
@@ -505,7 +505,7 @@ def similar_triangles(
     return {
         "pivot_name": letter(base.start),
         "pin_name": letter(base.end),
-        "corners": both,
+        "own_letters": both,
         "pivot": pivot,
         "pin": pin,
         "velocity": velocity,

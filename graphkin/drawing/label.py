@@ -91,8 +91,9 @@ class Label(Struct, frozen=True):
         """The label at its place, with its leader or circle."""
         leader = spot.leader or (self.short_leader(spot) if self.led else None)
         if leader:
-            own = self.name, self.step, self.part, self.shows
-            yield LineMark(*leader[0], *leader[1], self.leader_look, *own)
+            (x1, y1), (x2, y2) = leader
+            own = self.leader_look, self.name, self.step, self.part, self.shows
+            yield LineMark(x1, y1, x2, y2, *own)
         if self.ring:
             yield self.balloon(spot)
         yield self.text(spot)

@@ -127,7 +127,7 @@ def readings(drawing: Drawing) -> Iterator[SentencePart]:
     for (what, link), number in drawing.trace.program.targets.items():
         if what == rate.target:
             steps[symbol(f"{rate.letter}_{link}")] = number
-    how = drawing.words(f"step.read-{rate.target}")
+    how: str = drawing.words(f"step.read-{rate.target}")
     for relation in of_turning(drawing):
         if (step := steps.get(relation.left)) is not None:
             told = " ".join(relation.parts(solved=True))

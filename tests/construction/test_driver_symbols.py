@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.construction.core.given_data import given
 from graphkin.documents.sentences import sentences
-from graphkin.drawing.marks import Arc
+from graphkin.drawing.marks import Arc, Text
 from graphkin.drawing.richtext import plain
 from tests.documents.sheet_tools import drawings, drawn, kind_of
 
@@ -50,3 +50,16 @@ def test_no_velocity_crosses_the_arrow_of_a_turning(name):
                     for x, y in (low, high)
                 ]
                 assert sides[0] * sides[1] > 0 or max(ahead) < 0, vector.name
+
+
+@pytest.mark.parametrize("name", ["excavator-relative", "hoist-differential", "cylinders-two"])
+def test_what_shows_how_a_driver_stands_and_moves_says_so_of_its_link(name):
+    page = drawn(name, None, "velocity")
+    marks = [mark for mark in page.marks["mechanism"] if mark.shows is not None]
+    links = [driver.link for driver in drawings(name)[0].scene.drivers]
+    moved = {(m.shows.what, m.shows.link) for m in marks if m.shows.what != "guide"}
+    assert moved == {(what, link) for what in ("coordinate", "rate") for link in links}
+    senses = [m for m in page.marks["mechanism"] if m.cls in ("sense", "arrowhead sense")]
+    assert senses and all(mark in marks for mark in senses)
+    named = {m.shows.link for m in marks if isinstance(m, Text) and m.shows.what == "rate"}
+    assert named == {*links}
