@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.loops.branch_closures import closures, scattered, turned_side
+from graphkin.loops.branch_closures import ON_LINE, closures, scattered, turned_side
 from graphkin.loops.cam_laws import by_law
 from graphkin.loops.closing_groups import Group, counted_in_order, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, part_of, undriven
@@ -25,8 +25,6 @@ from graphkin.text.errors import GraphkinError, Problem, Sought, StructureError,
 
 TRIES = 64
 """Random starts from which some closed position is looked for."""
-LEVEL = 1e-9
-"""Sine within which a pin on the line between two others is on either side."""
 
 
 def assemble(scene: Scene, values: Mapping[str, Any] | None = None) -> LoopSolution:
@@ -174,7 +172,7 @@ def stated(
         if name not in mine - before or not told:
             return everything
         side = turned_side(motion, branch.first, branch.second, name)
-        return np.asarray(branch.side * side > -LEVEL)
+        return np.asarray(branch.side * side > -ON_LINE)
     if not speaks_of(name, branch, group, loops):
         return everything
     if isinstance(branch, Closure):
@@ -184,7 +182,7 @@ def stated(
         return everything
     slid = found[:, part.turning_count + j]
     end = slid.max() if branch.way > 0 else slid.min()
-    return np.asarray(np.abs(slid - end) <= LEVEL * part.size)
+    return np.asarray(np.abs(slid - end) <= ON_LINE * part.size)
 
 
 def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | None:

@@ -35,6 +35,8 @@ SAME = 1e-6
 """Distance, in radians or the sizes of slides, below which rounding may make two closures one."""
 LEVEL, EITHER = 1e-9, 8
 """Least such distance, and how many bounds of an error lie between two ways to one closure."""
+ON_LINE = 1e-9
+"""Sine within which a pin on the line between two others is on either side."""
 
 
 def other_closure(loops: Equations, motion: Motion, dyad: Group) -> tuple[Reals, Reals]:

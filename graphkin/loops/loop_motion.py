@@ -66,14 +66,11 @@ def unknowns_of(loops: Equations, pose: Pose) -> Reals:
 
 
 class PlaceMotion(NamedTuple):
-    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,).
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,)."""
 
-    Or the bounds of their errors.
-    """
-
-    place: Complexes | Reals
-    velocity: Complexes | Reals
-    acceleration: Complexes | Reals
+    place: Complexes
+    velocity: Complexes
+    acceleration: Complexes
 
 
 class SlideRates(NamedTuple):

@@ -122,6 +122,8 @@ def closed_from(
         report = Report(residual, remains, moved, iterations, closed, good)
         if loops.numbers.single:
             refuse_failure(loops, found, report)
+        if good.all():
+            return LoopSolution(loops, found, ratios, bounds.motion, bounds, report)
         unknowns, rates, seconds = (
             np.where(good[:, None], values, np.nan) for values in (found, rates, seconds)
         )

@@ -9,14 +9,14 @@ All sums are of magnitudes, so that no bound depends on errors that cancel.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.loops.equations import Equations
-from graphkin.loops.loop_motion import Motion, PlaceMotion, SlideRates
+from graphkin.loops.loop_motion import Motion, SlideRates
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.link_points import ends_of
 
@@ -26,6 +26,14 @@ AGAIN = 4
 """How many times the first-order error a position may be off where it is nearly singular."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
+
+
+class PlaceBound(NamedTuple):
+    """Bounds of the errors of a place (m), a velocity (m/s) and an acceleration (m/s²): (N, …)."""
+
+    place: Reals
+    velocity: Reals
+    acceleration: Reals
 
 
 class Loads(Struct, frozen=True, eq=False):
@@ -88,10 +96,10 @@ class Rounding(Struct, frozen=True, eq=False):
 
     motion: Motion
     angles: Reals
-    origin: PlaceMotion
+    origin: PlaceBound
     omega: Reals
     epsilon: Reals
-    points: PlaceMotion
+    points: PlaceBound
     slides: Reals
     regular: Flags
 
@@ -100,22 +108,22 @@ class Rounding(Struct, frozen=True, eq=False):
         """The equations of the motion."""
         return self.motion.loops
 
-    def point(self, name: str) -> PlaceMotion:
+    def point(self, name: str) -> PlaceBound:
         """Of a point; ``A@3`` is the point of link 3 under A."""
         point, carrier = ends_of(name)
         p = self.motion.names[point]
         if carrier:
             return self.carried(carrier, self.motion.points.place[:, p], self.points.place[:, p])
-        return PlaceMotion(*(row[:, p] for row in self.points))
+        return PlaceBound(*(row[:, p] for row in self.points))
 
-    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceMotion:
+    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceBound:
         """Of the point of a link that stands at a place, which has an error of its own."""
         i = self.motion.index[link]
         start, velocity, acceleration = (row[:, i] for row in self.origin)
         arm, off = abs(place - self.motion.origin.place[:, i]), start + error
         omega, epsilon = abs(self.motion.omega[:, i]), abs(self.motion.epsilon[:, i])
         turn, twist = self.omega[:, i], self.epsilon[:, i]
-        return PlaceMotion(
+        return PlaceBound(
             np.asarray(error),
             velocity + off * omega + (arm + off) * turn,
             acceleration
@@ -211,7 +219,7 @@ def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) ->
         linear = straight(loops, seconds) + touching(loops, carried, places)
         linear += lifted(loops, unknowns, found.off, (rates, seconds, less))
         later = split(found.led(acceleration, linear))
-        every = PlaceMotion(
+        every = PlaceBound(
             rows.moved(off, places).turned.sum(axis=-1) + places[:, :1],
             velocity + longer.sum(slower),
             acceleration + longer.sum(later),
@@ -220,10 +228,10 @@ def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) ->
     return Rounding(
         motion=motion,
         angles=off.turned,
-        origin=PlaceMotion(*(row[:, :links] for row in every)),
+        origin=PlaceBound(*(row[:, :links] for row in every)),
         omega=slower.turned[:, which],
         epsilon=later.turned[:, which],
-        points=PlaceMotion(*(row[:, points:] for row in every)),
+        points=PlaceBound(*(row[:, points:] for row in every)),
         slides=np.stack([off.slid + 2 * places[:, rows.carrier], slower.slid, later.slid]),
         regular=np.asarray(found.regular.all(axis=1)),
     )

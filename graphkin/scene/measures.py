@@ -84,7 +84,10 @@ class Measures:
 
     def knows_names(self, read: Quantity, law: bool) -> bool:
         """Whether each name in a quantity is a parameter, or ``t`` in a law of time."""
-        unknown = sorted(read.uses() - self.values.keys() - {TIME})
+        used = read.uses()
+        if not used:
+            return True
+        unknown = sorted(used - self.values.keys() - {TIME})
         known = listed(key for key in self.values if key != TIME)
         number = f"a number in {read.unit}" if read.unit else "a number"
         for name in unknown:
@@ -94,7 +97,7 @@ class Measures:
                 f"{number}, or an expression with {known}" if known else number,
                 nearest(name, self.values),
             )
-        if TIME not in read.uses():
+        if TIME not in used:
             return not unknown
         if not law:
             self.findings.add(

@@ -5,7 +5,7 @@ import pytest
 from graphkin.construction.core.drawn_scene import ROOMY
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import lay_out
-from graphkin.documents.scaling import drafts_of, scales
+from graphkin.documents.scaling import drafts_of, scales, sheet_targets
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.areas import ABOVE, HEIGHT, MARGIN, WIDTH
 from graphkin.drawing.marks import Text
@@ -65,7 +65,7 @@ def test_plans_are_drawn_as_many_times_as_large_as_vectors_on_the_mechanism(name
 def test_every_drawing_fits_and_the_next_larger_plan_would_not(name):
     mechanism = mechanism_named(name, 7) if name == "slotted-lever" else mechanism_named(name)
     found = scales(mechanism)
-    mm, drafts = 1000 / found.kL, drafts_of(mechanism, (), found)
+    mm, drafts = 1000 / found.kL, drafts_of(mechanism, sheet_targets(mechanism), (), found)
     boxes = [draft.mechanism_extent() for draft in drafts]
     width = max(box.right for box in boxes) - min(box.left for box in boxes)
     room = WIDTH - width * mm
@@ -165,7 +165,7 @@ def test_the_scale_factor_that_is_proposed_instead_of_a_dot_is_accepted(line):
 def longest(mechanism):
     """How large the mechanism is drawn on each sheet, and its longest vector, in mm."""
     found = scales(mechanism)
-    for trial in drafts_of(mechanism, (), found):
+    for trial in drafts_of(mechanism, sheet_targets(mechanism), (), found):
         yield 1000 * trial.reach / found.kL
         yield 1000 * abs(trial.at_scale(trial.plane, trial.largest)) / found.kL
 

@@ -6,7 +6,6 @@ from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import (
@@ -109,6 +108,8 @@ def falls(drawing: Drawing, number: int, start: str) -> str:
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
     """The rate by which a step lays off a vector; one that is tried is named by its link."""
+    from graphkin.construction.core.auxiliary_plan import auxiliary_plan
+
     plan = auxiliary_plan(drawing, number)
     if plan is not None and link:
         own, lead = symbol(f"{letter}_{link}"), turning_with(drawing, plan.turned_by(rate))

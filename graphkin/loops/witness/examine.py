@@ -18,8 +18,13 @@ from graphkin.construction.core.solution import (
     Solution,
     Verdict,
 )
-from graphkin.loops.assemble import LEVEL, completed_start, led_by
-from graphkin.loops.branch_closures import closure_numbers, closures, other_closure, turned_side
+from graphkin.loops.branch_closures import (
+    ON_LINE,
+    closure_numbers,
+    closures,
+    other_closure,
+    turned_side,
+)
 from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.closing_groups import Group, counted_in_order, groups, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, part_of
@@ -78,7 +83,7 @@ def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
         solved.motion.point(each).place for each in (branch.first, branch.second, name)
     )
     errors = sum(solved.rounding.point(each).place for each in (branch.first, branch.second, name))
-    return LEVEL + errors / np.minimum(abs(end - start), abs(place - start))
+    return ON_LINE + errors / np.minimum(abs(end - start), abs(place - start))
 
 
 def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
@@ -88,7 +93,7 @@ def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
         return np.ones(loops.numbers.count, dtype=np.bool_)
     stands, other = other_closure(loops, solved.motion, group)
     error = solved.rounding.slide(group.slides[0].slide).position
-    return np.asarray(branch.way * (stands - other) > -LEVEL * loops.size - 4 * error)
+    return np.asarray(branch.way * (stands - other) > -ON_LINE * loops.size - 4 * error)
 
 
 def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name: str) -> Flags:
@@ -109,6 +114,8 @@ def picked_rows(branch: Way | Closure, solved: LoopSolution, group: Group, name:
 
 def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int) -> bool:
     """Whether the coordinate of a group is the largest (or least) of all its closures."""
+    from graphkin.loops.assemble import led_by
+
     loops = solved.loops
     part = part_of(loops, group.known | set(group.links), setting_of(loops, n))
     stands = unknowns_of(part, pose_of(loops, solved.unknowns[n], n))
@@ -244,6 +251,10 @@ def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, 
     named = {name: place for name, place in places.items() if not is_under(name)}
     with np.errstate(all="ignore"):
         start = start_values(loops, named, slides)
+    if start.told.all():
+        return start.unknowns, ()
+    from graphkin.loops.assemble import completed_start
+
     return completed_start(scene, loops, start), untold(loops, start)
 
 
