@@ -186,3 +186,9 @@ def test_answers_in_a_spreadsheet(tmp_path):
     found = read_answers(tmp_path / "a.xlsx", FORM, signs(IDS))
     assert found.of["001"]["v_D_mm"].value == 19.75
     assert found.of["001"]["omega_3_sense"].value == -1
+
+
+def test_a_field_that_one_student_answers_twice_is_told(tmp_path):
+    (tmp_path / "001.csv").write_text("field;value\nv_D;3,8\nv_D;3,9\n", encoding="utf-8")
+    with pytest.raises(RosterError, match=r"001\.csv, row 3.*v_D is answered twice"):
+        read_answers(tmp_path, FORM, signs(IDS))

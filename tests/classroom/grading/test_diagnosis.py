@@ -25,6 +25,8 @@ from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import asked_fields
 from graphkin.classroom.lab.lab_model import Rubric
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
 from tests.chosen import FOLDER
 from tests.classroom.grading.students import LABS, drawn, given, marker_of, row, taker
 
@@ -247,3 +249,18 @@ def test_a_speed_in_the_wrong_unit_lengthens_a_plan_whose_scale_no_crank_says(sc
     assert told[f"v_{point}"] == pytest.approx(RPM * found.key[f"v_{point}"])
     segment = f"v_{point}_mm"
     assert told.get(segment, found.key[segment]) == pytest.approx(longer * found.key[segment])
+
+
+def test_a_driver_whose_acceleration_is_left_out_turns_evenly():
+    """Held against the same mechanism, written without that acceleration."""
+    text = (FOLDER / "four-bar-crank-rocker.toml").read_text(encoding="utf-8")
+    assert "\nacceleration = 20\n" in text
+    mechanism = Mechanism(read_text(text, "four-bar"))
+    even = Mechanism(read_text(text.replace("\nacceleration = 20\n", "\n"), "four-bar")).solve()
+    found = standard(mechanism, asked_fields(mechanism).values(), Rubric())
+    slips = [slip for slip in constructions(found) if slip.name == "driver_acceleration_missing"]
+    told = {field: value for slip in slips for field, value in slip.values.items()}
+    assert abs(told["a_C"]) == pytest.approx(abs(even.points["C"].acceleration))
+    for link in ("2", "3"):
+        assert told[f"epsilon_{link}"] == pytest.approx(even.links[link].epsilon)
+    assert not any(field.startswith(("v_", "omega_")) for field in told)

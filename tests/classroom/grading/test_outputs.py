@@ -19,7 +19,7 @@ from graphkin.classroom.grading.class_marking import Class, graded_class
 from graphkin.classroom.grading.class_pictures import pictures
 from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
-from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.graded import Answer, Suspicion
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import differences, marks_table, read_marks
 from graphkin.classroom.roster.student import Student
@@ -97,6 +97,16 @@ def test_marks_are_a_table_that_no_spreadsheet_runs():
     worth = lab_of("pump").rubric.points
     assert float(table[0]["of"]) == float(sum(worth.values()) - worth["v_D"])
     assert float(table[0]["pending"]) == float(worth["v_D"])
+
+
+def test_the_same_digits_are_evidence_with_whose_they_are():
+    found = small_class()
+    both = Suspicion(("=1+1", "0002"), ("v_D", "omega_3"), 5432.0)
+    made = files(replace(found, result=replace(found.result, copies=(both,))))
+    marks = read_marks(made["marks.csv"])
+    assert [marks[who]["evidence"] for who in ("'=1+1", "0002")] == ["same as 0002", "same as =1+1"]
+    (line,) = (each for each in made["class.html"].decode("utf-8").splitlines() if "5000" in each)
+    assert "Ana (0002)" in line and "v_D, omega_3" in line
 
 
 def test_a_new_marking_lists_what_changed_and_nothing_else():
