@@ -285,9 +285,11 @@ def alone(copy: Path, mutant: Mutant, tests: Sequence[str]) -> str:
     right = module.read_bytes()
     if not tests:
         return ""
+    names = copy.parent / "alone"  # more of them than a command line holds
+    names.write_text("\n".join(tests), encoding="utf-8")
     try:
         put(module, written(right, mutant, mutant.after))
-        return "alone" if run(copy, tests) not in (0, NOTHING) else ""
+        return "alone" if run(copy, [f"@{names}"]) not in (0, NOTHING) else ""
     finally:
         put(module, right)
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from graphkin.mechanism import load
+from graphkin.text.errors import StructureError
 from tests.documents.sheet_tools import FOLDER
 from tests.scene_files import scene_text
 from tests.textbook.book import RPM, answers
@@ -111,3 +112,20 @@ def test_a_wheel_on_a_fixed_pin_is_accelerated_without_the_crossing_of_the_stran
     where = wheels.trace([touching, ("position", "T2")])
     reach = where.value("position", "T2") - found.points["O3"].position
     assert where.value(*touching) == pytest.approx((10j * third - (6 * third) ** 2) * reach)
+
+
+@pytest.mark.parametrize(("size", "meets"), [(89, False), (90, True), (120, True)])
+def test_a_belt_needs_wheels_that_stand_apart(size, meets):
+    """Of 60 mm beside it, 150 mm from centre to centre."""
+    text = scene_text("construction/belt-on-an-arm").replace("radius = 24", f"radius = {size}")
+    if not meets:
+        assert answers(text).links["3"].omega
+        return
+    with pytest.raises(StructureError) as caught:
+        answers(text)
+    (problem,) = caught.value.problems
+    assert problem.found == (
+        f"the wheels of radius {size} mm and 60 mm (on link 1) overlap or touch: "
+        "link 2 keeps O-P = 150 mm"
+    )
+    assert problem.expected == f"more than the sum of the radii, {size + 60} mm"

@@ -314,3 +314,13 @@ def test_nothing_is_out_for_what_a_mutilated_program_still_has():
         for step in shipped(name).program.steps:
             assert effect_of(step) in Effect
             assert effect_of(replace(step, effect=None)) in Effect
+
+
+def test_what_keeps_an_effect_out_is_what_the_scene_lacks():
+    out = {row.name: row.reason for row in effects(shipped("pump")) if not row.included}
+    expected = {
+        Effect.ROLLING: "no wheel rolls along a track",
+        Effect.GEARS: "no wheels are in mesh",
+        Effect.CORIOLIS: "the guide of 5 does not turn",
+    }
+    assert {effect: out[effect.value] for effect in expected} == expected

@@ -15,8 +15,10 @@ from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out
 from graphkin.documents.step_pages import told
+from graphkin.documents.step_visibility import noted
 from graphkin.drawing.areas import AREA, BELOW
-from graphkin.drawing.marks import CircleMark, Mark, Text, reach
+from graphkin.drawing.marks import CircleMark, Mark, SharedLetter, Text, reach
+from graphkin.drawing.richtext import signs
 from graphkin.drawing.style import NOW, TINTS, style_of
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import FRAME, Ask
@@ -193,3 +195,21 @@ def asked_only(ask):
 )
 def test_a_scene_that_asks_for_one_thing_alone_has_all_its_views(ask, view):
     assert all(sheet.pages for sheet in hand_out(asked_only(ask), view, "en"))
+
+
+def test_notes_that_stand_already_stand_where_the_whole_line_has_them():
+    """Of four notes in a line any of them: to a twentieth of a millimetre, sign by sign."""
+    parts = ("v_BA = 0.31 mm", "v_C = 0.2 mm", "v_DC = 0.44 mm", "1) D = E")
+    letters = tuple(SharedLetter(f"n{i}", part, "; " if i else "") for i, part in enumerate(parts))
+    line = Text(20, 190, "; ".join(parts), "note", 2.5, name="note", letters=letters)
+    every = list(signs(line.markup, line.height))
+    for stand in itertools.product((True, False), repeat=4):
+        told_at = {letter.name: 0 if own else 9 for letter, own in zip(letters, stand, strict=True)}
+        found = list(noted(line, 5, told_at))
+        assert len(found) == sum(stand)
+        last = max((i for i, own in enumerate(stand) if own), default=0)
+        for mark, i in zip(found, (i for i, own in enumerate(stand) if own), strict=True):
+            assert mark.markup == parts[i] + ("" if i == last else ";")
+            before = len("; ".join((*parts[:i], "")).replace(" ", "").replace("_", ""))
+            for sign, same in zip(signs(mark.markup, mark.height), every[before:], strict=False):
+                assert mark.x + sign[0] == pytest.approx(line.x + same[0], abs=0.05)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import combinations, pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -332,3 +333,17 @@ def test_a_place_costs_its_distance_its_side_and_its_shift_along_a_segment():
     cost = distance_cost(found, np.full_like(found.x, 4.0), own)[0]
     share = np.abs(found.root_x[0] - 50) / 20 + np.abs(found.root_y[0] - 30) / 20
     assert cost == pytest.approx(4.0 - 1.0 + 1.5 * (1 - found.toward_x[0]) + 4 * share**2)
+
+
+def test_beside_the_middle_of_a_segment_is_as_dear_whichever_way_it_runs():
+    """By the share of its length; at its middle it costs nothing, either way the same."""
+    ways, shares = np.exp(1j * np.radians([0, 30, 90, 135, 270])), np.array([0.1, 0.3, 0.5, 0.9])
+    ends = np.array([[0, 0, 40 * way.real, 40 * way.imag] for way in ways])
+    roots = 40 * ways[:, None] * shares
+    none = np.zeros(roots.shape)
+    subjects = SimpleNamespace(lean=np.zeros((5, 2)), ends=ends, gap=np.zeros(5))
+    some = SimpleNamespace(root_x=roots.real, root_y=roots.imag, toward_x=none, toward_y=none)
+    cost = distance_cost(some, none, subjects)
+    assert cost == pytest.approx(np.tile(cost[0], (5, 1)))
+    assert cost[0, 2] == pytest.approx(0)
+    assert cost[0, 0] == pytest.approx(cost[0, 3]) and cost[0, 0] > cost[0, 1] > 0.01

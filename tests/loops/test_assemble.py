@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import mpmath
 import numpy as np
 import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.core.solution import PointMotion, Solution
-from graphkin.loops.assemble import assemble
+from graphkin.loops.assemble import assemble, led_by
 from graphkin.loops.freedom import true_mobility
 from graphkin.loops.rigid_bodies import half_angle
 from graphkin.loops.witness import compare, examine
@@ -155,3 +157,11 @@ def test_the_square_of_half_an_angle_is_the_direction_of_a_side(near, far, side)
     with np.errstate(invalid="ignore"):
         assert np.isnan(half_angle(near, near + 5.1, 5.0, side))
         assert np.isnan(half_angle(near, abs(near - 5) - 0.1, 5.0, side))
+
+
+def test_forward_is_told_by_the_guide_of_the_link_that_is_named():
+    """Of a group with two guides; where none is the link's, by the first."""
+    four, five = (SimpleNamespace(block=name, number=0, moved_by=None) for name in "45")
+    group = SimpleNamespace(slides=[SimpleNamespace(slide=0), SimpleNamespace(slide=1)])
+    loops, part = SimpleNamespace(guides=[four, five]), SimpleNamespace(guides=[five, four])
+    assert [led_by(link, group, loops, part) for link in "549"] == [0, 1, 1]

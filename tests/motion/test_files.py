@@ -24,7 +24,7 @@ from graphkin.motion.curves.plane_paths import box_of, breadth_of, dotted, near_
 from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
-from graphkin.writers.plot_style import look
+from graphkin.writers.plot_style import look, span_of
 from tests.motion.linkages import five_bar, four_bar, slider_crank
 from tests.running import Run
 from tests.scene_files import scene_text
@@ -223,3 +223,15 @@ def test_what_is_followed_runs_between_places_as_the_polynomial_through_the_near
     found = interpolated(at, np.array([row(at) for row in rows]).T, wanted, after)
     expected = np.array([row(wanted) for row in rows]).T
     assert np.allclose(found, expected, atol=1e-6 * max(1.0, abs(expected).max()) * 100)
+
+
+def test_curves_that_run_to_infinity_leave_the_axes_and_the_rest_of_them_stays_in_sight():
+    """Five sixths of 1/x at least; what runs nowhere, and a peak on nought, are shown whole."""
+    at = np.linspace(-1, 1, 400)
+    low, high = span_of(at, [1 / at, np.sin(at)])
+    inside = (low <= 1 / at) & (1 / at <= high)
+    assert 5 / 6 < inside.mean() < 1
+    assert high < 0.1 * max(1 / at)
+    assert low <= np.sin(at).min() and np.sin(at).max() <= high
+    assert span_of(at, [np.sin(at)]) is None
+    assert span_of(at, [np.where(abs(at) < 0.01, 9.0, 0.0)]) is None

@@ -219,7 +219,7 @@ def is_other(text: str, mark: Fraction) -> bool:
     """Whether a cell holds something else than the mark that is put there."""
     number = text.replace(",", ".")
     if DECIMAL.fullmatch(number):
-        return Fraction(number) != Fraction(mark_text(mark, comma=False))
+        return float(number) != float(mark_text(mark, comma=False))
     return text not in EMPTY
 
 
