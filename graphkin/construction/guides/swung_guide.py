@@ -178,7 +178,6 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         **SwungGuide.lines,
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
     }
-    laid_at: ClassVar[str] = "large"
 
     height: int
     small: int | None = None
