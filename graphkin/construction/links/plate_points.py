@@ -163,7 +163,7 @@ class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
     def by_hand(self, drawing: Drawing) -> str:
         """Where they meet, and on which side of the base."""
         assert self.corner is not None
-        side = side_words(drawing, self.corner, (self.start, self.end))
+        side = side_words(drawing, self.corner, self.name, (self.start, self.end))
         return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
 
 
