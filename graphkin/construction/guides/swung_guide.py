@@ -178,6 +178,8 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         **SwungGuide.lines,
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
     }
+    laid_at: ClassVar[str] = "large"
+    lays_half: ClassVar[bool] = True
 
     height: int
     small: int | None = None
