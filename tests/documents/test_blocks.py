@@ -6,6 +6,7 @@ import pytest
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
+from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
@@ -161,3 +162,41 @@ def test_a_cylinder_turns_by_the_vector_that_the_plan_shows():
     (turning,) = {plain(r.symbols) for r in found if plain(r.left) in ("ω2", "ω3") and r.over}
     vector, over = turning.split("/")
     assert vector in names and over == "G3H"
+
+
+ROCKER = """graphkin = 1
+title = "Rocker produced"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+Q = [120, 0]
+[links.1]
+O-A = 40
+[links.2]
+A-B = 110
+A-D = 30
+D = "on A-B"
+[links.3]
+Q-B = 80
+Q-C = 60
+C = "beyond Q on Q-B"
+Q-E = 70
+B-E = 60
+E = "left of Q-B"
+[[drivers]]
+turn = 1
+angle = 60
+speed = 4
+[branches]
+B = "left of A-Q"
+[ask]
+velocity = ["C", "D", "E"]
+"""
+
+
+def test_images_on_one_ray_of_a_rocker_are_not_joined():
+    """Nobody needs v_CB beside v_C and v_B; v_EB is needed, and on the coupler both move."""
+    drawing = velocities(ROCKER)
+    found = (plan_vector(step) for _, step, _ in drawing.steps(drawing.plane))
+    symbols = {vector.symbol for vector in found if vector}
+    assert {"v_B", "v_C", "v_D", "v_DA", "v_E", "v_EB"} <= symbols and "v_CB" not in symbols
