@@ -164,7 +164,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     @classmethod
     def cause(cls, scene: Scene) -> str:
         """The guides that turn."""
-        return f"{guides_words(moving_guides(scene))} with its link"
+        return guides_words(moving_guides(scene))
 
     @classmethod
     def absence(cls, scene: Scene) -> str:
@@ -413,14 +413,14 @@ def drawn(drawing: Drawing) -> Iterator[CoriolisComponent]:
 
 
 def guides_words(blocks: list[str]) -> str:
-    """The guide of 2 turns, or the guides of 2, 3 turn."""
+    """The guide of 2, or the guides of 2, 3: on what may turn."""
     if len(blocks) > 1:
-        return f"the guides of {', '.join(blocks)} turn, each"
-    return f"the guide of {''.join(blocks)} turns"
+        return f"the guides of {', '.join(blocks)} are on links that may turn"
+    return f"the guide of {''.join(blocks)} is on a link that may turn"
 
 
 def moving_guides(scene: Scene) -> list[str]:
-    """Blocks whose guide is on a link that turns."""
+    """Blocks whose guide is on a link that may turn."""
     return [
         link.name
         for link in scene.links.values()

@@ -156,7 +156,8 @@ class GroupImages(Struct, frozen=True):
                 for bar, end in zip(bars, ends, strict=False):
                     bar.rest(pen, end, found)
             plan.settle(pen, point, found, base.start)
-            if base.end in pen.scene.link(base.link).points:
+            swings = pen.the(plan.quantity, base.start) == pen.pole(plan.plane)
+            if base.end in pen.scene.link(base.link).points and (hand is not None or not swings):
                 plan.arrows(pen, point, base.end)
 
     def two_lines(

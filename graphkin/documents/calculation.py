@@ -10,7 +10,7 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.parameter_words import parameters
 from graphkin.construction.core.relation import Relation, VectorEquation
-from graphkin.documents.equation_marks import DEPTH, equation_lines, equation_marks
+from graphkin.documents.equation_marks import depth, equation_lines, equation_marks
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
@@ -98,7 +98,7 @@ def all_rows(
 def of_equation(equation: VectorEquation, *, solved: bool) -> Iterator[CalculationRow]:
     """A vector equation in as many lines as it needs."""
     for line in equation_lines(equation, RIGHT - LEFT - 3, solved=solved):
-        yield CalculationRow(line.markup, equation=line, depth=DEPTH if solved else 0.0)
+        yield CalculationRow(line.markup, equation=line, depth=depth(line, solved=solved))
 
 
 def broken(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from graphkin.construction.core.relation import Term, VectorEquation
 from graphkin.drawing.glyphs import advance
@@ -20,8 +21,16 @@ OVER, RAISED, BEYOND, HEAD = 3.2, 4.0, 0.35, 0.5
 how far it reaches beyond its letter, its head, in mm."""
 APART, SPACE = 1.6, 1.2
 """Least room between notes, and what stands between signs besides, in mm."""
-DEPTH = 5.2
-"""How much deeper a line with notes is than one without, in mm."""
+DEPTH, UNDERLINED = 5.2, 2.0
+"""How much deeper than others a line with notes is, and one that is underlined alone, in mm."""
+
+
+def depth(equation: VectorEquation, *, solved: bool) -> float:
+    """How much deeper than others the line of an equation is, in mm."""
+    terms = (equation.whole, *chain(*equation.sums))
+    if not solved:
+        return 0.0
+    return DEPTH if any(term.note for term in terms) else UNDERLINED
 
 
 def equation_lines(equation: VectorEquation, room: float, *, solved: bool) -> list[VectorEquation]:

@@ -30,7 +30,7 @@ from graphkin.construction.core.relation import (
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
-from graphkin.construction.drivers.driver_relations import KA, of_driver, of_scales
+from graphkin.construction.drivers.driver_relations import KA, laid_bars, of_driver, of_scales
 from graphkin.construction.higher_class.divided_point import SHARE
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.rate_relations import of_slides, of_sum, of_turning
@@ -40,8 +40,9 @@ from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.structure_relations import of_structure
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.plane import Ratio, Vector
-from graphkin.scene.model import lengths_of
+from graphkin.scene.model import Scene, lengths_of
 
+Bar = tuple[str, str]
 Section = tuple[str, list[Relation]]
 ROOM = ". . . . . . . ."
 """Room to write a coordinate in."""
@@ -71,27 +72,51 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
         ("cams", cams + driven),
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
-    lengths = (of_length(first, p, q) for p, q in used)
-    measured = [each for each in lengths if each is not None and each not in cams]
-    return [*sections, ("lengths", measured), *own]
+    measured = of_lengths(first, [ends for ends in used if ends not in after])
+    return [*sections, ("lengths", list(measured)), *own]
 
 
-def of_length(drawing: Drawing, p: str, q: str) -> Relation | None:
-    """A length that is measured on the mechanism; None for one that the data tell."""
-    scene = drawing.scene.bare
-    links = (scene.frame, *scene.links.values())
-    lengths = (each for link in links for how in link.placings for each in lengths_of(how))
-    if {p, q} in ({start, end} for start, end, _ in lengths):
-        return None
-    mm = drawing.on_paper(length_of(drawing, p, q))
-    return Relation(
-        bar(p, q),
-        "",
-        *as_read(drawing, mm, drawing.scales.kL / 1000),
-        "m",
-        drawing.words("calculation.measured"),
-        over=((p, q),),
-    )
+def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> Iterator[Relation]:
+    """The lengths that are measured on the mechanism, bars that lie on one another together.
+
+    What the data tell, or is laid off when the mechanism is drawn, is known.
+    """
+    told = (*told_bars(drawing.scene.bare), *laid_bars(drawing))
+    known = {ends_on(drawing, *ends) for ends in told}
+    alike: dict[frozenset[complex], list[Bar]] = {}
+    for ends in bars:
+        alike.setdefault(ends_on(drawing, *ends), []).append(ends)
+    for places, some in alike.items():
+        if places in known:
+            continue
+        mm = drawing.on_paper(length_of(drawing, *some[0]))
+        yield Relation(
+            " = ".join(bar(*ends) for ends in some),
+            "",
+            *as_read(drawing, mm, drawing.scales.kL / 1000),
+            "m",
+            drawing.words("calculation.measured"),
+            over=tuple(some),
+        )
+
+
+def told_bars(scene: Scene) -> Iterator[Bar]:
+    """The ends of the bars whose lengths the data tell, cylinders that are driven too."""
+    for link in scene.every_link:
+        for placing in link.placings:
+            yield from ((p, q) for p, q, _ in lengths_of(placing))
+    for driver in scene.drivers:
+        if driver.kind == "slide":
+            link = scene.link(driver.link)
+            slide = link.slides[0]
+            start = slide.along[0] if slide.along else slide.through
+            if isinstance(start, str) and slide.offset.is_zero():
+                yield start, link.points[0]
+
+
+def ends_on(drawing: Drawing, p: str, q: str) -> frozenset[complex]:
+    """Where the ends of a bar stand: as those of every bar that lies on it."""
+    return frozenset((drawing.standing.spot(p), drawing.standing.spot(q)))
 
 
 def sections_of(drawing: Drawing) -> list[Section]:

@@ -29,6 +29,7 @@ from graphkin.drawing.areas import A3_TITLE_BLOCK, BELOW, MARKED
 from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import flowed, words_of
+from graphkin.drawing.style import NOW
 from graphkin.drawing.symbol_markup import symbol
 
 LEADING, SMALL_LEADING = 6.2, 4.6
@@ -40,8 +41,9 @@ LEFT_OUT = "…"
 def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     """A page for each sentence of the construction: what it draws stands out, the rest follows.
 
-    ``number`` is that of the sheet; each page adds which step it is, of how many. Every mark and
-    letter has on each page the place that it has on the finished sheet.
+    One that draws nothing, as of what is computed, is told with the next that does. ``number`` is
+    that of the sheet; each page adds which step it is, of how many. Every mark and letter has on
+    each page the place that it has on the finished sheet.
     """
     head, _, more = sheet_heading(drawing)
     layout = lowered(lay_out(drawing), more)
@@ -67,6 +69,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
         if not is_gap(drawing, each)
     ]
     title = page_title(drawing)
+    fields = [tuple(marks_at_stage(timed, stage, telling)) for stage in range(len(said))]
     return tuple(
         Page(
             420,
@@ -74,16 +77,25 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             (
                 *sheet_frame(replace(block, sheet=numbered(drawing, number, stage, len(said)))),
                 *same,
-                *marks_at_stage(timed, stage, telling),
+                *fields[stage],
                 *(last if stage == len(said) - 1 else ()),
-                *told(drawing, said, stage),
-                *crossed(drawing, [line for at, line in lines if at == stage]),
+                *told(drawing, said, first, stage),
+                *crossed(drawing, [line for at, line in lines if first <= at <= stage]),
             ),
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
         )
-        for stage in range(len(said))
+        for first, stage in spans(fields)
     )
+
+
+def spans(fields: Sequence[Sequence[Mark]]) -> Iterator[tuple[int, int]]:
+    """The first and the last sentence of each page: the last draws what is new on it."""
+    first = 0
+    for stage, field in enumerate(fields):
+        if stage == len(fields) - 1 or any(NOW in mark.cls.split() for mark in field):
+            yield first, stage
+            first = stage + 1
 
 
 def numbered(drawing: Drawing, number: str, stage: int, total: int) -> str:
@@ -112,21 +124,26 @@ def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int,
     return staged[group.closing if group is not None and group.locus else crossing.number]
 
 
-def told(drawing: Drawing, said: Sequence[Sentence], stage: int) -> Iterator[Mark]:
-    """The sentence to do in large lettering, and below it the last of those that are done."""
+def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> Iterator[Mark]:
+    """The sentences to do in large lettering, and below them the last of those that are done."""
     words = drawing.words
     left, top, right = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
-    caption = words("page.step_of", number=stage + 1, all=len(said))
+    key, several = (
+        ("page.steps_of", {"first": first + 1}) if first < stage else ("page.step_of", {})
+    )
+    caption = words(key, number=stage + 1, all=len(said), **several)
     yield Text(left, top, caption, "caption", 3.5, name="step")
     y = top + 8
-    for line in flowed(words_of(said[stage].markup), " ", right - left, 3.5):
-        yield Text(left, y, line, "caption", 3.5, name="sentence")
-        y += LEADING
+    for number, sentence in enumerate(said[first : stage + 1], first + 1):
+        markup = f"{number}. {sentence.markup}" if several else sentence.markup
+        for line in flowed(words_of(markup), " ", right - left, 3.5):
+            yield Text(left, y, line, "caption", 3.5, name="sentence")
+            y += LEADING
     yield LineMark(left, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
     width = MARKED[0] - left - 7
     done = [
         (f"{number}." if i == 0 else "", line)
-        for number, sentence in enumerate(said[:stage], 1)
+        for number, sentence in enumerate(said[:first], 1)
         for i, line in enumerate(flowed(words_of(sentence.markup), " ", width, 2.5))
     ]
     room = max(int((BELOW[3] - y - 3.5) // SMALL_LEADING) + 1, 0)

@@ -79,6 +79,7 @@ class OnLine(Struct, frozen=True):
     """``P = "on A-B"`` or ``"beyond B on A-B"``: at a distance from ``start`` along A to B.
 
     sense +1 steps from ``start`` the way from ``first`` to ``second``, -1 the other way.
+    ``by_parts``: the scene says that ``second`` lies on the bar from ``first`` to ``point``.
     """
 
     point: str
@@ -87,6 +88,7 @@ class OnLine(Struct, frozen=True):
     start: str
     length: Quantity
     sense: int
+    by_parts: bool = False
 
 
 class Angled(Struct, frozen=True):

@@ -37,11 +37,15 @@ def line(text: str) -> tuple[str, str] | None:
 
 
 class OnWords(Struct, frozen=True):
-    """``"on A-B"``, or ``"beyond B on A-B"`` with ``beyond`` one of the two ends."""
+    """``"on A-B"``, or ``"beyond B on A-B"`` with ``beyond`` one of the two ends.
+
+    ``by_parts``: what is written is that this end lies on the bar whose parts are given.
+    """
 
     first: str
     second: str
     beyond: str | None = None
+    by_parts: bool = False
 
 
 def point_name(place: str, name: object, findings: Findings) -> str | None:

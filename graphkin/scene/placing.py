@@ -50,7 +50,7 @@ def lay_end_to_end(sketch: LinkKeys) -> None:
         if sketch.points[0] not in (near, middle):
             continue
         del sketch.words[middle]
-        sketch.words[far] = OnWords(near, middle, middle)
+        sketch.words[far] = OnWords(near, middle, middle, by_parts=True)
         second = near if sketch.points[0] == middle else middle
         sketch.points.remove(second)
         sketch.points.insert(1, second)
@@ -172,7 +172,7 @@ class Placer:
             assert length is not None
             self.layout.reach(point, words, start, length, self.sketch.between)
             sense = 1 if (words.beyond or other) == words.second else -1
-            return OnLine(point, *ends, start, length, sense)
+            return OnLine(point, *ends, start, length, sense, words.by_parts)
         return None
 
     def apart(self, point: str) -> Placing | None:

@@ -464,8 +464,8 @@ class MoveFinder:
         role = self.steps[number].role
         ends = kind.laid_length(role) if kind is not None else None
         drawing = self.drawing(number)
-        if ends:
-            name = "".join(map(symbol, ends))
+        if kind is not None and ends:
+            name = "".join(map(symbol, ends)) + ("/2" if kind.lays_half else "")
         else:
             name = drawing.words("turn.length", name=self.letter(number))
         pick = Pick("length", name, Plane.NUMBERS, self.needs([length]), self.values[length])

@@ -78,3 +78,9 @@ def test_a_position_that_does_not_close_is_explained_without_times(
     found = told(run, four_bar(coupler=9))
     assert found["time_asked"] is None
     assert found["steps_asked"] > 0
+
+
+def test_a_guide_that_never_turns_is_not_said_to() -> None:
+    """The cylinder of the locomotive is carried by its frame, which two wheels keep level."""
+    reason = of(SCENES / "locomotive.toml")["Coriolis"].reason
+    assert reason.startswith("the guide of 6 is on a link that may turn; ")

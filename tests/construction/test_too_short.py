@@ -21,6 +21,8 @@ TOGGLE = scene_text("construction/toggle")
 """A four-bar linkage within a degree of a dead point."""
 GEARS = scene_text("construction/fast-gears")
 """Gears that turn fast and speed up slowly."""
+GUIDED = scene_text("construction/swinging-guide")
+"""A bar in a swinging block that hardly turns, and a dyad after it."""
 SHIFTED = scene_text("construction/shifting-bar")
 """A bar between blocks on parallel guides: it shifts steadily, all else is rounding."""
 
@@ -50,6 +52,15 @@ def test_what_is_asked_beside_a_dead_point_has_its_value_however_short_it_is_dra
     said = [plain(sentence.markup) for sentence in sentences(then)]
     assert any("aA ∥ O1A, from A to O1" in text and "<\xa00.01 mm" in text for text in said)
     assert "aA = ω12·O1A = 6.283192·0.06 = 2.369 m/s2 (from A to O1)" in lines_of(found)
+
+
+def test_what_is_left_out_is_told_before_the_plan_is_drawn_without_it():
+    """The bar's normal component is too short; the first right triangle is one of a later dyad."""
+    said = [plain(sentence.markup) for sentence in sentences(scene_of("guided", GUIDED)[1])]
+    (left_out,) = (n for n, text in enumerate(said) if "is left out: aQ2Aν" in text)
+    (without,) = (n for n, text in enumerate(said) if "through a′ the perpendicular to AQ2" in text)
+    (triangle,) = (n for n, text in enumerate(said) if "by the right triangle" in text)
+    assert left_out < without < triangle
 
 
 def test_wheels_that_hardly_speed_up_have_their_values_and_senses():

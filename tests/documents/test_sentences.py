@@ -15,15 +15,15 @@ from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.segments import TINY
-from graphkin.construction.drivers.driver_relations import drawn_bars
+from graphkin.construction.drivers.driver_relations import drawn_bars, laid_bars
 from graphkin.construction.result_tables import slide_rows, vectors
-from graphkin.documents.relations import relations
+from graphkin.documents.relations import ends_on, relations, told_bars
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
@@ -57,18 +57,33 @@ def all_said(found: tuple[Drawing, ...]) -> list[str]:
     return said + [r.remark for _, section in relations(found) for r in section]
 
 
-def test_every_length_of_the_calculation_is_given_or_measured_before(both):
-    told = set(re.findall(r"(?:\*[A-Z]\*(?:_\{[^}]*\})?){2}(?= =)", " ".join(given(both[0]))))
+def test_every_length_of_the_calculation_is_known_or_measured_before_and_once(both):
+    """A bar from A to B is no longer than one from A1 to B2 that lies on it."""
+    first = both[0]
+    told = (*told_bars(first.scene.bare), *laid_bars(first))
+    known = {ends_on(first, *ends) for ends in told}
+    said = " ".join([*given(first), *(names for names, _ in drawn_bars(first))])
     drawn_before = False
     for section, found in relations(both):
         drawn_before |= section == "lengths"
         for relation in found:
-            told.add(relation.left)
-            bar = BAR.search(relation.symbols)
-            if bar and drawn_before:
-                turned = "".join(reversed(re.findall(r"\*[A-Z]\*(?:_\{[^}]*\})?", bar[1])))
-                assert {bar[1], turned} & told, relation
+            bars = [ends_on(first, *ends) for ends in relation.over]
+            if section == "lengths":
+                assert len(set(bars)) == 1 and bars[0] not in known, relation
+                known.add(bars[0])
+            elif drawn_before:
+                assert set(bars) <= known, relation
+                last = BAR.search(relation.symbols)
+                names = {bar(p, q) for p, q in relation.over}
+                assert not last or last[1] in names or last[1] in said, relation
     assert drawn_before
+
+
+def test_what_a_driver_tells_is_not_measured():
+    """The cylinder's length is told by its driver, and the arcs that find B and E are known."""
+    for name in ("platform-3rpr", "cylinders-two"):
+        found = dict(relations(drawings(name)))
+        assert found["lengths"] == [], name
 
 
 def test_every_bar_that_is_laid_off_is_told_as_long_as_it_is_drawn(both):

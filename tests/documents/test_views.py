@@ -1,6 +1,7 @@
 """Pages that grow and overlays: every mark at its place on the key, each at its own sentence."""
 
 import itertools
+import re
 from collections import Counter
 from functools import cache
 
@@ -115,20 +116,38 @@ def test_guides_and_tracks_stand_no_earlier_than_what_they_are_drawn_about(name)
 def test_each_page_says_its_sentence_and_draws_it(name):
     for drawing in material(name):
         steps = pages(name, "steps")[drawing.kind]
-        names = [said.name for said in sentences(drawing)]
-        for number, (page, of) in enumerate(zip(steps, names, strict=True), 1):
-            (step,) = (mark.markup for mark in page.marks if mark.name == "step")
-            assert step == f"Step {number} of {len(steps)}"
+        said, done = sentences(drawing), 0
+        for page in steps:
+            first, last, all_ = spanned(page)
+            assert (first, all_) == (done + 1, len(said))
             words = " ".join(mark.markup for mark in page.marks if mark.name == "sentence")
-            assert words
-            assert new_on(page) or of in UNDRAWN, (of, words)
+            assert all(f"{n}. " in words for n in range(first, last + 1)) or first == last
+            assert new_on(page) or last == all_, words
+            assert {each.name for each in said[first - 1 : last - 1]} <= UNDRAWN, words
+            done = last
+        assert done == len(said)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_no_page_but_the_last_has_nothing_new(name):
+    """What is computed alone is told with what is drawn next."""
+    for steps in pages(name, "steps").values():
+        assert all(new_on(page) for page in steps[:-1])
+
+
+def spanned(page):
+    """The first and the last sentence of a page, and how many there are."""
+    (step,) = (mark.markup for mark in page.marks if mark.name == "step")
+    first, last, all_ = re.fullmatch(r"Steps? (?:(\d+)–)?(\d+) of (\d+)", step).groups()
+    assert (first is None) is step.startswith("Step ")
+    return int(first or last), int(last), int(all_)
 
 
 def test_however_long_a_sentence_is_nothing_that_is_done_stands_below_the_field():
     drawing, *_ = material("pump")
     done, lowest = Sentence(1, "", "join A with B"), 0.0
     for long in range(1, 2400, 50):
-        marks = [*told(drawing, [*[done] * 20, Sentence(2, "", "mm " * long)], 20)]
+        marks = [*told(drawing, [*[done] * 20, Sentence(2, "", "mm " * long)], 20, 20)]
         words = [mark for mark in marks if isinstance(mark, Text)]
         below = [mark.y for mark in words if mark.name not in ("step", "sentence")]
         assert max(below, default=0.0) <= BELOW[3]
@@ -171,7 +190,8 @@ def test_the_overlay_is_the_key_at_the_places_of_the_task(name):
 @pytest.mark.parametrize("name", ALL)
 def test_where_sentences_that_are_done_are_left_out_a_page_says_so(name):
     for steps in pages(name, "steps").values():
-        for done, page in enumerate(steps):
+        for page in steps:
+            done = spanned(page)[0] - 1
             texts = [m for m in page.marks if isinstance(m, Text) and m.cls == "caption"]
             told = [m for m in texts if m.height == 2.5 and m.y > BELOW[1] + 12]
             numbers = [int(m.markup[:-1]) for m in told if m.anchor == "end"]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from cmath import phase, rect
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from math import ceil, floor, pi
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct, field
@@ -156,6 +158,7 @@ class Drawing(Struct, frozen=True, dict=True):
             yield disc.centre - disc.outer * (1 + 1j)
         if self.scene.cams:
             yield from self.cam_corners()
+        yield from self.profile_corners()
         yield from (touch.at for touch in self.standing.touches)
         ways = self.standing.guideways
         yield from (self.standing.beside_wheels(way) for way in ways if way.slide.on == FRAME)
@@ -172,6 +175,18 @@ class Drawing(Struct, frozen=True, dict=True):
             elif cam.pivot in self.positions:
                 reach = max(each.reach for each in profiles_of(self.scene, follower, DRAWN))
                 yield from (self.positions[cam.pivot] + reach * way for way in (1 + 1j, -1 - 1j))
+
+    def profile_corners(self) -> Iterator[complex]:
+        """The ends of the profiles with stated arcs, and where these reach farthest."""
+        for profile in (each for link in self.scene.every_link for each in link.profiles):
+            if profile.arc is None or not {profile.about, profile.through} <= set(self.positions):
+                continue
+            centre = self.positions[profile.about]
+            arm = self.positions[profile.through] - centre
+            half, middle = float(profile.arc.si(self.scene.values)) / 2, phase(arm)
+            first, last = ceil((middle - half) / (pi / 2)), floor((middle + half) / (pi / 2))
+            angles = middle - half, middle + half, *(pi / 2 * n for n in range(first, last + 1))
+            yield from (centre + rect(abs(arm), angle) for angle in angles)
 
     def guide(self, slide: Slide) -> tuple[complex, complex] | None:
         """A point and the unit direction of the line that a guide of the frame keeps a block on.

@@ -320,6 +320,9 @@ def sides(scene: Scene, words: Words) -> Iterator[str]:
         for placing in link.placings:
             if isinstance(placing, Triangle):
                 yield side(words, placing.point, placing.first, placing.second, placing.side)
+            elif isinstance(placing, OnLine) and placing.by_parts:
+                parted = bar(placing.first, placing.point)
+                yield words("page.on_line", point=symbol(placing.second), bar=parted)
             elif isinstance(placing, OnLine):
                 key = "page.on_line" if lies_between(placing) else "page.beyond"
                 fields = {"point": symbol(placing.point), "start": symbol(placing.start)}

@@ -10,7 +10,7 @@ from graphkin.construction.core.naming import axis_of, nearest_side, straight
 from graphkin.construction.core.parameter_words import after_parameter
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.quantities import quantity_text
-from graphkin.construction.guides.dyad_by_arc_and_guide import centres_about
+from graphkin.construction.guides.dyad_by_arc_and_guide import arcs_finding
 from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
@@ -73,10 +73,13 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
     words, branch, line = drawing.words, drawing.scene.branches.get(link.name), drawing.guide(slide)
     if not isinstance(branch, Way) or slide is not link.slides[0]:
         return ""
-    centres = tuple(centres_about(drawing, link.points))
-    if line and centres:
-        side = words(f"page.{nearest_side(line[1] * branch.way)}")
-        return words("page.way", side=side, pivot=symbol(centres[-1]))
+    dyads = tuple(arcs_finding(drawing, link.points))
+    if line and dyads:
+        found = dyads[-1]
+        fields = {"side": words(f"page.{nearest_side(line[1] * branch.way)}")}
+        if found.name == link.points[0]:
+            return words("page.way", pivot=symbol(found.centre), **fields)
+        return words("page.way_of", pin=symbol(found.name), pivot=symbol(found.centre), **fields)
     if is_led(drawing, link, slide):
         p, q = (symbol(point) for point in slide.along or ())
         key = "half_line" if branch.way > 0 else "half_line_back"

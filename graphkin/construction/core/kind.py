@@ -29,7 +29,8 @@ class Construction(Roles, frozen=True):
 
     ``told_after`` are the roles of the lines that are told before its step, ``between`` those of
     the names of the points that it joins: ``laid_at`` is the role of the step that lays off the
-    distance of the first and the last. ``guided`` is the role of the block or wheel along whose
+    distance of the first and the last, or half of it, as of two points that stand already, where
+    it ``lays_half``. ``guided`` is the role of the block or wheel along whose
     guide its line lies, ``imaged`` are those of points marked in a plan with their letters,
     ``titled`` is what a report calls what it finds.
     """
@@ -46,6 +47,7 @@ class Construction(Roles, frozen=True):
     told_after: ClassVar[tuple[str, ...]] = ()
     between: ClassVar[tuple[str, ...]] = ()
     laid_at: ClassVar[str] = ""
+    lays_half: ClassVar[bool] = False
     guided: ClassVar[str] = ""
     imaged: ClassVar[frozenset[str]] = frozenset()
     titled: ClassVar[str] = ""

@@ -210,16 +210,22 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
         yield Relation(name, f"*ω*{index}{power}·*k*_L{less}", numbers, result, unit)
 
 
+def laid_bars(drawing: Drawing) -> Iterator[tuple[str, str]]:
+    """The ends of the bars that are laid off on the mechanism, in the order of drawing."""
+    for _, step, _ in drawing.steps(Plane.MECHANISM):
+        kind = construction(step)
+        if kind is None or kind.lays_half:
+            continue
+        if laid := kind.laid_length(step.role):
+            yield laid
+
+
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
     """The bars that are laid off on the mechanism, those of one length together, in metres."""
     found: dict[float, list[str]] = {}
-    for _, step, _ in drawing.steps(Plane.MECHANISM):
-        kind = construction(step)
-        laid = kind.laid_length(step.role) if kind is not None else None
-        if laid is not None:
-            p, q = laid
-            length = round(length_of(drawing, p, q), 12)
-            if bar(p, q) not in found.setdefault(length, []):
-                found[length].append(bar(p, q))
+    for p, q in laid_bars(drawing):
+        length = round(length_of(drawing, p, q), 12)
+        if bar(p, q) not in found.setdefault(length, []):
+            found[length].append(bar(p, q))
     for length, bars in found.items():
         yield " = ".join(f"{name}/*k*_L" for name in bars), length

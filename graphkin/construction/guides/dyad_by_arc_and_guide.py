@@ -96,8 +96,8 @@ def cut_line(
     return pin
 
 
-def centres_about(drawing: Drawing, points: Sequence[str]) -> Iterator[str]:
-    """The centres of the arcs that find some points on their guides."""
+def arcs_finding(drawing: Drawing, points: Sequence[str]) -> Iterator[DyadByArcAndGuide]:
+    """The dyads whose arcs find some points on their guides."""
     for _, step, _ in drawing.on_mechanism:
         if isinstance(step.of, DyadByArcAndGuide) and step.of.name in points:
-            yield step.of.centre
+            yield step.of

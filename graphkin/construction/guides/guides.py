@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import ClassVar
 
 from graphkin.construction.core.kind import Construction
@@ -25,7 +26,7 @@ from graphkin.construction.guides.guide_line import (
 )
 from graphkin.construction.links.link_shapes import LinkShapes, polar
 from graphkin.scene.link_points import is_under
-from graphkin.scene.model import FRAME, GuideOrTrack, Slide
+from graphkin.scene.model import FRAME, Apart, At, GuideOrTrack, OnLine, Slide
 from graphkin.structure.pairs import Sliding
 
 
@@ -160,7 +161,7 @@ def path_of_block(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point:
             pen.want("axis", block, pen.draw(axis_along, line))
     if pair.slide.offset.number(pen.scene.values) != 0:
         line = shift_guide(pen, block, line, pen.given("length", pair.slide.offset))
-    if point != first:
+    if not is_level(pen, block, point):
         ends = shapes.local(block, first), shapes.local(block, point)
         line = shift_guide(pen, block, line, pen.draw(across, *ends))
     return line
@@ -192,6 +193,24 @@ def lies_on(slide: Slide, point: str) -> bool:
     return point == slide.through or point in (slide.along or ())
 
 
+def is_level(pen: Pen, block: str, point: str) -> bool:
+    """Whether a block is written to have a point as far from its guide as its first one."""
+    values, link = pen.scene.values, pen.scene.link(block)
+    heights: dict[str, Fraction | None] = {}
+    for placing in link.placings:
+        match placing:
+            case At(place, _, y):
+                heights[place] = y.number(values)
+            case Apart(place, start, _):
+                heights[place] = heights[start]
+            case OnLine(place, start, end, _, _) if heights[start] == heights[end]:
+                heights[place] = heights[start]
+            case _:
+                heights[placing.point] = None
+    first = heights[link.points[0]]
+    return point == link.points[0] or (first is not None and heights[point] == first)
+
+
 def height_of(pen: Pen, shapes: LinkShapes, pair: Sliding, pins: dict[str, str]) -> int | None:
     """How far the block's pin stands to the left of the guide's own pin, across the guide.
 
@@ -200,7 +219,7 @@ def height_of(pen: Pen, shapes: LinkShapes, pair: Sliding, pins: dict[str, str])
     block, carrier = pair.links
     on_block, on_carrier = pins[block], pins[carrier]
     first = pen.scene.link(block).points[0]
-    straight = pair.slide.offset.number(pen.scene.values) == 0 and on_block == first
+    straight = pair.slide.offset.number(pen.scene.values) == 0 and is_level(pen, block, on_block)
     if straight and lies_on(pair.slide, on_carrier):
         return None
     with pen.on(Part.SHAPE, Plane.NUMBERS):

@@ -179,6 +179,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
     }
     laid_at: ClassVar[str] = "large"
+    lays_half: ClassVar[bool] = True
 
     height: int
     small: int | None = None

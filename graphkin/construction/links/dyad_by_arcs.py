@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -17,6 +17,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Circle, circle_meets_circle, circles_sine
 from graphkin.scene.link_points import lettered
+from graphkin.scene.model import Side, Triangle
 from graphkin.text.errors import Problem, Sought
 
 
@@ -124,7 +125,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
 
     def place(self, drawing: Drawing) -> Mapping[str, str]:
         """Its letter, and its side."""
-        side = side_words(drawing, self.pin, (self.left, self.right))
+        side = side_words(drawing, self.pin, self.name, (self.left, self.right))
         return {"name": symbol(self.name), "side": side}
 
     @property
@@ -163,10 +164,24 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
         return self.name, f"{self.left}, {self.name} and {self.right} in line"
 
 
-def side_words(drawing: Drawing, number: int, centres: tuple[str, str]) -> str:
-    """On which side of the way from one centre to the other two arcs meet."""
+def side_words(drawing: Drawing, number: int, name: str, centres: tuple[str, str]) -> str:
+    """On which side of the way between the centres two arcs meet in a point: as the scene says."""
+    side = which_side(drawing, number)
+    if centres[::-1] in stated_ways(drawing, name):
+        centres, side = centres[::-1], -side
     fields = {"p": symbol(centres[0]), "q": symbol(centres[1])}
-    return drawing.words(f"step.arcs-meet.side{which_side(drawing, number):+d}", **fields)
+    return drawing.words(f"step.arcs-meet.side{side:+d}", **fields)
+
+
+def stated_ways(drawing: Drawing, name: str) -> Iterator[tuple[str, str]]:
+    """The ways of which the scene says on which side a point lies."""
+    branch = drawing.scene.branches.get(name)
+    if isinstance(branch, Side):
+        yield branch.first, branch.second
+    for link in drawing.scene.every_link:
+        for placing in link.placings:
+            if isinstance(placing, Triangle) and placing.point == name:
+                yield placing.first, placing.second
 
 
 def meet_arcs(

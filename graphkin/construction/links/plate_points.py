@@ -10,8 +10,9 @@ from typing import Any, ClassVar
 from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, Sentence, construction, together
+from graphkin.construction.core.naming import nearest_side
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import similar_point
@@ -21,7 +22,7 @@ from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
 from graphkin.construction.links.link_shapes import LinkShapes, step_along
 from graphkin.drawing.symbol_markup import bar, escape, symbol
-from graphkin.numbers.plane import Line, crossing_sine, dot
+from graphkin.numbers.plane import Line, cross, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.model import FRAME, OnLine
 
@@ -66,7 +67,11 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
         if self.link in drawing.scene.unseen:
             wheel, _ = drawing.scene.keepers[self.link]
             return words("step.beside-led", **fields | {"g": escape(wheel)})
-        if drawing.scene.links[self.link].slides:
+        if slides := drawing.scene.links[self.link].slides:
+            way, guide = spot(self.name) - spot(self.start), drawing.standing.direction(slides[0])
+            if guide and abs(cross(guide, way)) < NOISE * drawing.reach:
+                way_words = words(f"page.to_{nearest_side(way)}")
+                return words("step.beside-along", way=way_words, **fields)
             return words("step.beside", **fields)
         if turned is None:
             return words("step.beside-turned", **fields)
@@ -158,7 +163,7 @@ class PlatePointByArcs(PlatePoint, frozen=True, kw_only=True):
     def by_hand(self, drawing: Drawing) -> str:
         """Where they meet, and on which side of the base."""
         assert self.corner is not None
-        side = side_words(drawing, self.corner, (self.start, self.end))
+        side = side_words(drawing, self.corner, self.name, (self.start, self.end))
         return drawing.words("step.arcs-meet.say", name=symbol(self.name), side=side)
 
 

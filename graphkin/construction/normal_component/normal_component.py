@@ -374,12 +374,14 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
 def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
     """The other right triangles said in one sentence, after the one that is said in full.
 
-    It names what is left out too; without it the first one does, or a sentence of its own.
+    It names what is left out too; without it the first one does, or a sentence of its own: always
+    before the plan is drawn without that.
     """
     short = [sentence for sentence in found if sentence.name == "short"]
     if short:
         told = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))
-        before = [said for said in found if said.name in ("ν", "ν1")][-1:]
+        ahead = found[: found.index(short[0])]
+        before = [said for said in ahead if said.name in ("ν", "ν1")][-1:]
         if not before:
             found = together(found, short, told)
         else:

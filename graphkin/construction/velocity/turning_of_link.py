@@ -64,24 +64,33 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
         """It is read off the bar and its image, as each sheet says."""
         return self.turns[drawing.kind]
 
+    def relative(self, drawing: Drawing) -> tuple[str, tuple[str, str]]:
+        """The symbol of the relative vector that is drawn, and the bar from its end at rest.
+
+        It is that of ``q`` about ``p``; where the plan draws the other alone, of ``p`` about ``q``.
+        """
+        found = (plan_vector(step) for _, step, _ in drawing.steps(drawing.plane))
+        drawn = {vector.symbol for vector in found if vector}
+        one, other = (self.vector(index) for index in (self.index, self.p + self.q))
+        if one not in drawn and other in drawn:
+            return symbol(other), (self.q, self.p)
+        return symbol(one), (self.p, self.q)
+
     def source_of_rate(self, drawing: Drawing) -> str:
         """The relative vector over the bar."""
-        return f" = {symbol(self.vector(self.index))}/{bar(self.p, self.q)}"
+        vector, ends = self.relative(drawing)
+        return f" = {vector}/{bar(*ends)}"
 
     def relation(self, drawing: Drawing, tail: tuple[str, str, str]) -> Relation:
         """The same as it is computed; ``tail`` is the result with its unit and sense."""
-        drawn = {
-            v.symbol for _, step, _ in drawing.steps(drawing.plane) if (v := plan_vector(step))
-        }
-        vectors = [self.vector(index) for index in (self.index, self.p + self.q)]
-        relative = symbol(next((vector for vector in vectors if vector in drawn), vectors[0]))
-        length = length_of(drawing, self.p, self.q)
+        vector, ends = self.relative(drawing)
+        length = length_of(drawing, *ends)
         size = abs(float(drawing.trace.values[self.rate])) * length
         size = 0.0 if drawing.turning(self.link) == 0 else size
         figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
         name = symbol(f"{drawing.rate.letter}_{turning_with(drawing, self.link)}")
-        whole = f"{relative}/{bar(self.p, self.q)}"
-        return Relation(name, whole, figures, *tail, over=((self.p, self.q),), takes=relative)
+        whole = f"{vector}/{bar(*ends)}"
+        return Relation(name, whole, figures, *tail, over=(ends,), takes=vector)
 
 
 def turning_of_link(
