@@ -7,7 +7,13 @@ from typing import ClassVar
 
 from graphkin.construction.core.component import end_before
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import driver_index, driver_of_rate, has_no_length, vector_of
+from graphkin.construction.core.naming import (
+    driver_index,
+    driver_of_rate,
+    has_no_length,
+    heading,
+    vector_of,
+)
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
@@ -59,7 +65,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     # --- saying it -------------------------------------------------------------------------------
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
-        """Its ends, its guide, and its drawn length."""
+        """Its ends, its guide, its drawn length and its sense."""
         return {
             **self.symbols(),
             "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
@@ -67,7 +73,13 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
             "drawn": length_drawn(drawing, self.start, self.image),
+            "way": self.side(drawing),
         }
+
+    def side(self, drawing: Drawing) -> str:
+        """The side to which it is laid off along its guide."""
+        values = drawing.trace.values
+        return drawing.words(f"page.to_{heading(values[self.image] - values[self.start])}")
 
     def relative(self, drawing: Drawing) -> str:
         """The motion of the point against the guide, where no vector of the plan has its name."""
