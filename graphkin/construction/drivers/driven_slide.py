@@ -107,6 +107,23 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     # --- marks and relations ---------------------------------------------------------------------
 
+    def laid_by_driver(self, drawing: Drawing, size: float) -> Relation:
+        """What a driver gives along the guide, and how long each trial plan lays it off."""
+        drawn = length_drawn(drawing, self.start, self.image)
+        return Relation(
+            self.vector_along(drawing, self.image) or self.relative(drawing),
+            self.rate_given(drawing),
+            "",
+            answer(drawing, size),
+            drawing.vector.caret_unit,
+            drawing.words("calculation.guide_drawn", guide=self.way(drawing), drawn=drawn),
+        )
+
+    def rate_given(self, drawing: Drawing) -> str:
+        """Its speed or acceleration as among the data; of what is tried by the guide."""
+        driver, letter = driver_of_rate(drawing, self.speed), drawing.vector.letter
+        return f"*{letter}*_{{{driver_index(driver)}}}" if driver else symbol(f"{letter}_{self.guide}")
+
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """A foot of a cylinder, which is lettered as a point under another, slides at that one."""
         scene = drawing.scene
@@ -120,15 +137,14 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """What is given along the guide; of what is tried the motion along it, by that."""
+        rate = self.rate_given(drawing)
         if self.image in drawing.auxiliary:
-            tried = symbol(f"{drawing.vector.letter}_{self.guide}")
-            yield self.motion_of(drawing, self.point, tried)
+            yield self.motion_of(drawing, self.point, rate)
             return
-        letter = drawing.vector.letter
-        default = symbol(f"{letter}_{self.point}")
+        default = symbol(f"{drawing.vector.letter}_{self.point}")
         yield Relation(
             vector_of(drawing, self.start, self.image, default),
-            symbol(f"{letter}_{self.guide}"),
+            rate,
             "",
             answer(drawing, abs(float(drawing.trace.values[self.speed]))),
             drawing.vector.caret_unit,

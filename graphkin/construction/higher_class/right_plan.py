@@ -137,12 +137,17 @@ def finish(pen: Pen, plan: Plan, point: str, closing: tuple[str, ...]) -> None:
 def relative_arrows(pen: Pen, name: str) -> None:
     """The arrows of the right plan about the point of a link under a sliding one (name P@2).
 
-    One is its velocity about the base of its link, the other that of the sliding point against it.
+    One is its velocity about the base of its link, the other that of the sliding point against it;
+    at a fixed pivot its own.
     """
     point, link = ends_of(name)
     here, start = pen.the("velocity", name), pen.bases[link].start
     if pen.has("velocity", point):
-        arrow_between(pen, here, pen.the("velocity", point), point, letter(name))
+        above = pen.the("velocity", point)
+        if above == pen.pole(Plane.VELOCITIES):
+            arrow_between(pen, above, here, name, "")
+        else:
+            arrow_between(pen, here, above, point, letter(name))
     if pen.has("velocity", start):
         fixed = start in pen.scene.frame.points
         about_which = "" if fixed else letter(start)
