@@ -121,8 +121,9 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     def rate_given(self, drawing: Drawing) -> str:
         """Its speed or acceleration as among the data; of what is tried by the guide."""
-        driver, letter = driver_of_rate(drawing, self.speed), drawing.vector.letter
-        return f"*{letter}*_{{{driver_index(driver)}}}" if driver else symbol(f"{letter}_{self.guide}")
+        driver = driver_of_rate(drawing, self.speed)
+        index = driver_index(driver) if driver else escape(self.guide)
+        return f"*{drawing.vector.letter}*_{{{index}}}"
 
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """A foot of a cylinder, which is lettered as a point under another, slides at that one."""
