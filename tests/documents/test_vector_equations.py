@@ -177,3 +177,10 @@ def test_what_a_driver_gives_along_a_guide_is_told_once_and_as_given(name):
                 continue
             found = [r for r in told if r.symbols == f"*{letter}*_{{{driver_index(driver)}}}"]
             assert [float(r.result) for r in found] == [pytest.approx(size, rel=1e-3)], found
+
+
+@pytest.mark.parametrize("name", ["platform-3rpr", "platform-six"])
+def test_about_the_foot_of_a_cylinder_one_vector_is_drawn(name):
+    """v_EB4, of which ω and the normal component come; v_B4E beside it would be the same again."""
+    for drawing in drawings(name):
+        assert not any((tip, tail) in drawing.joins for tail, tip in drawing.joins)

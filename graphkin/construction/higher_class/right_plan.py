@@ -137,17 +137,18 @@ def finish(pen: Pen, plan: Plan, point: str, closing: tuple[str, ...]) -> None:
 def relative_arrows(pen: Pen, name: str) -> None:
     """The arrows of the right plan about the point of a link under a sliding one (name P@2).
 
-    One is its velocity about the base of its link, the other that of the sliding point against it;
-    at a fixed pivot its own.
+    One is its velocity about the base of its link, the other that of the sliding point against it.
+    At a fixed pivot it is known first: one is its own, the other that of the base about it.
     """
     point, link = ends_of(name)
     here, start = pen.the("velocity", name), pen.bases[link].start
+    if point in pen.scene.frame.points:
+        arrow_between(pen, pen.pole(Plane.VELOCITIES), here, name, "")
+        if pen.has("velocity", start):
+            relative_arrow(pen, start, name)
+        return
     if pen.has("velocity", point):
-        above = pen.the("velocity", point)
-        if above == pen.pole(Plane.VELOCITIES):
-            arrow_between(pen, above, here, name, "")
-        else:
-            arrow_between(pen, here, above, point, letter(name))
+        arrow_between(pen, here, pen.the("velocity", point), point, letter(name))
     if pen.has("velocity", start):
         fixed = start in pen.scene.frame.points
         about_which = "" if fixed else letter(start)
