@@ -19,6 +19,7 @@ from graphkin.documents.calculation import (
     laid_out,
 )
 from graphkin.documents.relations import relations
+from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page
 from graphkin.drawing.symbol_markup import symbol
@@ -99,6 +100,17 @@ def test_the_figures_of_every_relation_give_its_result_to_the_last_digit(which):
         if abs(value_of(figures) - printed) > 1.000001 * unit:
             wrong.append(f"({number}) {figures} = {value_of(figures):.7g}, not {result}")
     assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("name", ["stephenson-3-crank", "stephenson-2-binary", "crank-rocker"])
+def test_every_bar_for_which_the_compass_is_opened_has_its_drawn_length(name):
+    """That by which a locus is cut as well."""
+    drawing = drawings(name)[0]
+    said = " ".join(sentence.markup for sentence in sentences(drawing))
+    opened = {*re.findall(r"arc of radius (\S+) about", said)}
+    told = {r.left for _, found in relations([drawing]) for r in found if r.unit == "mm"}
+    told = {each.removesuffix("/*k*_L") for left in told for each in left.split(" = ")}
+    assert opened and opened <= told, opened - told
 
 
 BY_BAR = re.compile(r"\*[va]\*_\{[^}]*\}(?:\^\{τ\}|\^2)?/\*?[A-Z].*|2·\*ω\*.*")

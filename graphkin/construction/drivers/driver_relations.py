@@ -209,7 +209,7 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
     """The bars that are laid off on the mechanism, those of one length together, in metres."""
     found: dict[float, list[str]] = {}
-    for _, step, _ in drawing.steps(Plane.MECHANISM):
+    for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS):
         kind = construction(step)
         laid = kind.laid_length(step.role) if kind is not None else None
         if laid is not None:
