@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from matplotlib.axes import Axes
+    from numpy.typing import NDArray
 
     from graphkin.construction.tape.batch_runner import BatchRunner
 
@@ -235,7 +236,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         kind: str = "float64",
         **parameters: Any,
     ) -> Solution:
-        """The motion of many variants at once, each parameter an array of equal length.
+        """The motion of many variants at once, each parameter a number or an array of one length.
 
         What cannot be drawn is NaN, and so is a variant in which two loci touch, with a smallest
         sine of crossing below 8·sqrt(eps), for there no digit of a velocity is right. Of float64
@@ -243,8 +244,8 @@ class Mechanism(Struct, frozen=True, dict=True):
         as in ``witness``. Values between a parameter's steps are allowed, to sweep it. ``kind``
         names the numbers: float32, float64 or longdouble.
 
-        Raises SceneError for a name that is no parameter of the scene, and for values outside a
-        parameter's range.
+        Raises SceneError for a name that is no parameter of the scene, for values outside a
+        parameter's range, and for arrays of several dimensions or lengths.
         """
         return self.run_many(self.entered(parameters), asked, kind)
 
@@ -279,13 +280,15 @@ class Mechanism(Struct, frozen=True, dict=True):
         if strangers:
             known = ", ".join(self.scene.values) or "none: the scene has no parameters"
             raise SceneError([Problem(name, "is no parameter", known) for name in strangers])
-        arrays = np.broadcast_arrays(*(np.atleast_1d(p) for p in parameters.values()))
-        strange = [n for n, a in zip(parameters, arrays, strict=True) if a.dtype.kind not in "biuf"]
+        arrays = {name: np.atleast_1d(value) for name, value in parameters.items()}
+        refuse_shapes(arrays)
+        strange = [name for name, array in arrays.items() if array.dtype.kind not in "iuf"]
         if strange:
             raise SceneError(
                 [Problem(name, "holds what is no number", "real numbers") for name in strange]
             )
-        floats = [np.asarray(array, dtype=float) for array in arrays]
+        alike = np.broadcast_arrays(*arrays.values())
+        floats = [np.asarray(array, dtype=float) for array in alike]
         given = dict(zip(parameters, floats, strict=True))
         refuse_out_of_range(self.scene, given)
         return given
@@ -357,6 +360,24 @@ def point_of(scene: Scene, name: str) -> str:
     """The name under which a point's motion is found: A for A@3 where link 3 owns A."""
     point, link = ends_of(name)
     return point if link and point in scene.link(link).points else name
+
+
+def refuse_shapes(arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Raise SceneError for arrays that do not hold one number for each variant."""
+    problems = [
+        Problem(name, f"an array of {array.ndim} dimensions", "one number for each variant")
+        for name, array in arrays.items()
+        if array.ndim > 1
+    ]
+    sizes = {n: len(array) for n, array in arrays.items() if array.ndim == 1 and array.size != 1}
+    longest = max(sizes, key=lambda name: sizes[name], default="")
+    problems += [
+        Problem(name, f"{size} values beside {sizes[longest]} of {longest}", "as many, or one")
+        for name, size in sizes.items()
+        if size != sizes[longest]
+    ]
+    if problems:
+        raise SceneError(problems)
 
 
 def refuse_out_of_range(scene: Scene, given: Mapping[str, Any]) -> None:

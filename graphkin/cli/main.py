@@ -228,14 +228,15 @@ def traced(
 
     try:
         return mechanism.trace(targets), True
-    except ClosureError:
+    except ClosureError as error:
         if digits is None:
             raise
         from graphkin.accuracy.certified import trace_by_balls
+        from graphkin.diagnosis.assembly_failure import to_balls_too
 
         trace = trace_by_balls(mechanism, digits, targets)
         if trace is None:
-            raise
+            raise ClosureError([to_balls_too(each) for each in error.problems]) from error
         return trace, False
 
 

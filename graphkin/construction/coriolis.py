@@ -32,6 +32,7 @@ from graphkin.construction.core.relation import (
     figure,
     inverse,
     laid_times,
+    put_in,
     set_length,
     twice_set,
 )
@@ -371,11 +372,13 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         speed = abs(values[self.tip] - values[self.tail])
         rate, v = rate_symbol(drawing, self.omega), symbol(self.speed)
         size = drawing.settled(2 * omega * speed)
+        result = answer(drawing, size)
+        figures = put_in(drawing, result, lambda w, v: 2 * w * v, omega, speed)
         return Relation(
             self.symbol,
             f"2·{rate}·{v}",
-            f"2·{figure(drawing, omega)}·{figure(drawing, speed)}",
-            answer(drawing, size),
+            f"2·{'·'.join(figures)}",
+            result,
             "m/s^2",
             laid_off(drawing, "quarter", size, v=v, omega=rate),
         )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from msgspec.structs import replace
+
 from graphkin.construction.core.crossings import LOCI, Determined
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part, Program, Step
@@ -35,6 +37,8 @@ DEAD = (
     "at this dead point, or so near to one that doubles cannot tell (solve --digits can), the "
     "driver's speed determines no other: change the driver's position"
 )
+
+AT_DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
 
 MERGE = f"merge here, or so near that balls of {BITS[-1]} bits do not tell"
 ALONE = "it closes at this dead point alone: change the lengths"
@@ -67,6 +71,11 @@ def does_not_close(
     reason = why(scene, program, failed)
     hint = where_it_closes(scene) if early else DEAD
     return ClosureError(not_found(program, failed.number, reason, hint))
+
+
+def to_balls_too(problem: Problem) -> Problem:
+    """The problem where balls of many bits do not find the position either: nobody can tell it."""
+    return replace(problem, hint=AT_DEAD) if problem.hint == DEAD else problem
 
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:

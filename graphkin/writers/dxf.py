@@ -39,6 +39,8 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
         drawn = Drawer(document, page.height, ink, TextEntityAlignment.FIT)
         drawn.all(page.marks)
         document.set_modelspace_vport(page.height, (page.width / 2, page.height / 2))
+        for kind in sorted(document.entitydb.dxf_types_in_use()):  # else in the order of a set
+            document.classes.add_class(kind)
         text = StringIO()
         document.write(text)
     finally:

@@ -181,3 +181,39 @@ def test_every_setting_that_is_none_is_told(run: Run) -> None:
     assert result.exit_code == 2
     for told in ("--set m: write NAME=VALUE", "--set n: is set twice", "--set q=: write NAME"):
         assert told in result.stderr
+
+
+AT_DEAD_POINT = """
+graphkin = 1
+title = "Rhombus"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 60
+[links.2]
+A-B = 60
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = [0, 0], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 90
+speed = 10
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+"""
+
+
+def test_at_a_dead_point_proved_digits_do_not_advise_themselves(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "rhombus.toml"
+    file.write_text(AT_DEAD_POINT)
+    told = run("solve", file)
+    assert (told.exit_code, told.stdout) == (2, "")
+    assert "(solve --digits can)" in told.stderr
+    proved = run("solve", file, "--digits", "20")
+    assert (proved.exit_code, proved.stdout) == (2, "")
+    assert "--digits" not in proved.stderr
+    assert "the driver's speed determines no other: change the driver's position" in proved.stderr

@@ -310,8 +310,11 @@ class Hand:
         item = self.told_of(rf"(?:inner )?(?:gear|wheel|ring) {link}: centre")
         return self.at(re.search(rf"centre ({NAME})", item)[1])
 
-    def driven_way(self, of: str, symbol: str) -> complex:
-        """The sense in which a block or wheel is driven along its guide or track."""
+    def driven_way(self, of: str, symbol: str, said: str) -> complex:
+        """The sense in which a block or wheel is driven along its guide or track.
+
+        It is as it is ``said``, and so do the data tell it.
+        """
         kind, _, link = of.partition(" ")
         if kind == "guide":
             point = self.sliding_point(link)
@@ -323,7 +326,10 @@ class Hand:
         of = re.escape(f"{symbol}_{{{link}") + r"(/\w+)?\} = "
         size = re.match(NUMBER, self.given(self.told_of(of).partition(" = ")[0]))
         assert size
-        return line.along * math.copysign(1, number(size[0]))
+        way = line.along * math.copysign(1, number(size[0]))
+        if dot(WAYS[said], way) <= 0:
+            raise DefectError(f"{of} is laid off {said}, against the data")
+        return way
 
     def guide(self, link: str) -> Line:
         """The guide of a block by the number of its link."""

@@ -736,17 +736,17 @@ class Reader(Trials):
 
     @says(
         "from ⟨s⟩ lay off ⟨s2⟩⟨name⟩ = (?P<kind>[av])_\\{[^}]*\\}(?:\\^\\{r\\})? ∥ "
-        "(?P<of>(?:guide|track) [^,]*), ⟨drawn:number⟩ mm"
+        "(?P<of>(?:guide|track) [^,]*), ⟨drawn:number⟩ mm (?P<way>[^,;]*)"
     )
-    def driven_slide(self, s: str, s2: str, name: str, kind: str, of: str, drawn: str) -> None:
-        self.put(name, self.at(s) + self.driven_way(of, kind) * number(drawn))
+    def driven_slide(self, s: str, name: str, kind: str, of: str, drawn: str, way: str, **_: str):
+        self.put(name, self.at(s) + self.driven_way(of, kind, way) * number(drawn))
 
     @says(
         "from its end lay off (?P<kind>[av])_\\{[^}]*\\}(?:\\^\\{r\\})? ∥ "
-        "(?P<of>guide [^,]*), ⟨drawn:number⟩ mm: ⟨name⟩"
+        "(?P<of>guide [^,]*), ⟨drawn:number⟩ mm (?P<way>[^,;:]*): ⟨name⟩"
     )
-    def driven_slide_on(self, kind: str, of: str, drawn: str, name: str) -> None:
-        self.put(name, self.its_end() + self.driven_way(of, kind) * number(drawn))
+    def driven_slide_on(self, kind: str, of: str, drawn: str, way: str, name: str) -> None:
+        self.put(name, self.its_end() + self.driven_way(of, kind, way) * number(drawn))
 
     @says(
         "⟨name⟩, the instantaneous centre of link ⟨k:number⟩, is (?:its fixed pin )?⟨p⟩(?:, "

@@ -6,6 +6,7 @@ from itertools import pairwise
 import pytest
 
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.naming import driver_index
 from graphkin.construction.core.relation import Term, VectorEquation
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.rolling.rolling_normal import RollingNormal
@@ -136,3 +137,50 @@ def test_lines_stand_below_their_vectors_on_keys_and_nowhere_on_tasks():
     assert doubled == sum(term.known == 2 for term in known)
     assert not [mark for mark in task if mark.name == "known"]
     assert [mark for mark in task if mark.name == "vector"]
+
+
+LED = (
+    *("platform-3rpr", "platform-six", "cylinders-two", "slider-crank-slider", "two-loops"),
+    *("rod-and-wheel", "roller-plates"),
+)
+"""Scenes whose drivers slide: alone, in a tube that turns, within a group that is tried."""
+
+
+@pytest.mark.parametrize("name", LED)
+def test_a_vector_that_is_laid_off_is_drawn_from_where_it_begins(name):
+    """Its name is that of the arrow there, so one that leads back would have the other sense."""
+    (drawing, *_) = drawings(name)
+    seen = 0
+    for number, step, _ in drawing.steps(drawing.plane):
+        kind = construction(step)
+        if not isinstance(kind, DrivenSlide):
+            continue
+        tips = [number, *drawing.children.get(number, ())]
+        assert not any((tip, kind.start) in drawing.joins for tip in tips), kind
+        seen += 1
+    assert seen
+
+
+@pytest.mark.parametrize("name", LED)
+def test_what_a_driver_gives_along_a_guide_is_told_once_and_as_given(name):
+    """By its name among the data, with its size: nobody chooses it for a trial plan."""
+    both = drawings(name)
+    told = [r for _, found in relations(both) for r in found if r.equation is None]
+    scene = both[0].scene
+    tried = {scene.drivers[-1].link} if name.startswith("platform") else set()
+    for driver in scene.drivers:
+        if driver.kind == "turn" or driver.link in tried:
+            continue
+        for letter, rate in (("v", driver.speed), ("a", driver.acceleration)):
+            size = abs(float(rate.si(scene.values)))
+            if not size:
+                continue
+            found = [r for r in told if r.symbols == f"*{letter}*_{{{driver_index(driver)}}}"]
+            assert [float(r.result) for r in found] == [pytest.approx(size, rel=1e-3)], found
+
+
+@pytest.mark.parametrize("name", ["platform-3rpr", "platform-six"])
+def test_about_the_foot_of_a_cylinder_one_vector_is_drawn(name):
+    """v_EB4, of which ω and the normal component come; v_B4E beside it would be the same again."""
+    for drawing in drawings(name):
+        assert not any((tip, tail) in drawing.joins for tail, tip in drawing.joins)

@@ -431,8 +431,20 @@ def test_a_file_that_is_not_there_is_held_against_those_beside_it(tmp_path: Path
     assert f"did you mean {tmp_path / 'slider-crank.toml'}?" in str(raised.value)
 
 
-@pytest.mark.parametrize("strange", ["a", 1 + 2j, [None]])
+@pytest.mark.parametrize("strange", ["a", 1 + 2j, [None], [True]])
 def test_a_batch_wants_real_numbers(strange: object) -> None:
     with pytest.raises(SceneError) as raised:
         load("pump").batch(n=strange)
     assert str(raised.value) == "n: holds what is no number; expected real numbers"
+
+
+@pytest.mark.parametrize("run", ["batch", "stream"])
+def test_a_batch_wants_one_number_for_each_variant(run: str) -> None:
+    slider = load("offset-slider-crank")
+    with pytest.raises(SceneError) as raised:
+        getattr(slider, run)(n=[[1, 2], [3, 4]], r=[50, 51, 52])
+    told = "n: an array of 2 dimensions; expected one number for each variant"
+    assert str(raised.value) == told
+    with pytest.raises(SceneError) as raised:
+        getattr(slider, run)(n=[1, 2, 3], r=[50, 51])
+    assert str(raised.value) == "r: 2 values beside 3 of n; expected as many, or one"

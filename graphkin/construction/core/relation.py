@@ -4,6 +4,7 @@ vector equations as the school writes them, with what is known of each vector be
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from math import floor, isclose, log10
 
@@ -55,6 +56,8 @@ class VectorEquation(Struct, frozen=True):
 
 DIGITS = 5
 """Significant digits of figures put in, so that results of four digits follow from them."""
+MORE = 4
+"""How many digits more than those are tried where the result does not follow from them."""
 FINE = 6
 """The same of rates put into sums, whose digits may cancel."""
 
@@ -107,6 +110,20 @@ def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
     text = drawing.words.significant(value, digits)
     mark = drawing.words("decimal_mark")
     return text.rstrip("0").rstrip(mark) if mark in text and "·" not in text else text
+
+
+def put_in(
+    drawing: Drawing, result: str, worth: Callable[..., float], *values: float
+) -> tuple[str, ...]:
+    """Numbers as they are put into a relation: so many digits that its result follows from them.
+
+    ``worth`` is what a pocket calculator makes of them.
+    """
+    for digits in range(DIGITS, DIGITS + MORE):
+        rounded_off = (float(f"{value:.{digits - 1}e}") for value in values)
+        if answer(drawing, worth(*rounded_off)) == result:
+            break
+    return tuple(figure(drawing, value, digits) for value in values)
 
 
 def within(drawing: Drawing, value: float) -> str:

@@ -7,7 +7,13 @@ from typing import ClassVar
 
 from graphkin.construction.core.component import end_before
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import driver_index, driver_of_rate, has_no_length, vector_of
+from graphkin.construction.core.naming import (
+    driver_index,
+    driver_of_rate,
+    has_no_length,
+    nearest_side,
+    vector_of,
+)
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
@@ -59,7 +65,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     # --- saying it -------------------------------------------------------------------------------
 
     def fields(self, drawing: Drawing, role: str) -> dict[str, str]:
-        """Its ends, its guide, and its drawn length."""
+        """Its ends, its guide, its drawn length and its sense."""
         return {
             **self.symbols(),
             "s": symbol(letter_at(drawing, end_before(drawing, self.start))),
@@ -67,7 +73,13 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
             "guide": self.way(drawing),
             "vector": self.vector_along(drawing, self.image) or self.relative(drawing),
             "drawn": length_drawn(drawing, self.start, self.image),
+            "way": self.side(drawing),
         }
+
+    def side(self, drawing: Drawing) -> str:
+        """The side to which it is laid off along its guide."""
+        values = drawing.trace.values
+        return drawing.words(f"page.to_{nearest_side(values[self.image] - values[self.start])}")
 
     def relative(self, drawing: Drawing) -> str:
         """The motion of the point against the guide, where no vector of the plan has its name."""
@@ -95,6 +107,24 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     # --- marks and relations ---------------------------------------------------------------------
 
+    def laid_by_driver(self, drawing: Drawing, size: float) -> Relation:
+        """What a driver gives along the guide, and how long each trial plan lays it off."""
+        drawn = length_drawn(drawing, self.start, self.image)
+        return Relation(
+            self.vector_along(drawing, self.image) or self.relative(drawing),
+            self.rate_given(drawing),
+            "",
+            answer(drawing, size),
+            drawing.vector.caret_unit,
+            drawing.words("calculation.guide_drawn", guide=self.way(drawing), drawn=drawn),
+        )
+
+    def rate_given(self, drawing: Drawing) -> str:
+        """Its speed or acceleration as among the data; of what is tried by the guide."""
+        driver = driver_of_rate(drawing, self.speed)
+        index = driver_index(driver) if driver else escape(self.guide)
+        return f"*{drawing.vector.letter}*_{{{index}}}"
+
     def slider(self, drawing: Drawing, sought: str) -> tuple[str, str]:
         """A foot of a cylinder, which is lettered as a point under another, slides at that one."""
         scene = drawing.scene
@@ -108,15 +138,14 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """What is given along the guide; of what is tried the motion along it, by that."""
+        rate = self.rate_given(drawing)
         if self.image in drawing.auxiliary:
-            tried = symbol(f"{drawing.vector.letter}_{self.guide}")
-            yield self.motion_of(drawing, self.point, tried)
+            yield self.motion_of(drawing, self.point, rate)
             return
-        letter = drawing.vector.letter
-        default = symbol(f"{letter}_{self.point}")
+        default = symbol(f"{drawing.vector.letter}_{self.point}")
         yield Relation(
             vector_of(drawing, self.start, self.image, default),
-            symbol(f"{letter}_{self.guide}"),
+            rate,
             "",
             answer(drawing, abs(float(drawing.trace.values[self.speed]))),
             drawing.vector.caret_unit,

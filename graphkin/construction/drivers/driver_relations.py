@@ -212,7 +212,7 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
 
 def laid_bars(drawing: Drawing) -> Iterator[tuple[str, str]]:
     """The ends of the bars that are laid off on the mechanism, in the order of drawing."""
-    for _, step, _ in drawing.steps(Plane.MECHANISM):
+    for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS):
         kind = construction(step)
         if kind is None or kind.lays_half:
             continue

@@ -78,6 +78,10 @@ class ClosedGroup(Construction, frozen=True):
         """The points of which its sentence speaks."""
         return self.pins
 
+    def laid_length(self, role: str) -> tuple[str, str] | None:
+        """The bar that is cut off: the compass is opened as far, or the loci are so far apart."""
+        return (self.pins[0], self.pins[1]) if role == "closing" and len(self.pins) > 1 else None
+
     @property
     def locus(self) -> str:
         """The point whose locus closes the group; nothing where a driver does."""

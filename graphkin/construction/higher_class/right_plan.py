@@ -138,9 +138,15 @@ def relative_arrows(pen: Pen, name: str) -> None:
     """The arrows of the right plan about the point of a link under a sliding one (name P@2).
 
     One is its velocity about the base of its link, the other that of the sliding point against it.
+    At a fixed pivot it is known first: one is its own, the other that of the base about it.
     """
     point, link = ends_of(name)
     here, start = pen.the("velocity", name), pen.bases[link].start
+    if point in pen.scene.frame.points:
+        arrow_between(pen, pen.pole(Plane.VELOCITIES), here, name, "")
+        if pen.has("velocity", start):
+            relative_arrow(pen, start, name)
+        return
     if pen.has("velocity", point):
         arrow_between(pen, here, pen.the("velocity", point), point, letter(name))
     if pen.has("velocity", start):

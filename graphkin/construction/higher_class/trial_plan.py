@@ -19,6 +19,7 @@ from graphkin.construction.core.naming import (
     NAUGHT,
     drawn_between,
     drawn_in,
+    driver_of_rate,
     has_no_length,
     nearest_side,
     sense,
@@ -276,14 +277,22 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
 
 def trial_lengths(drawing: Drawing) -> Iterator[Relation]:
-    """Each vector that an assumed rate gives, in the order of drawing; none where that is zero."""
+    """Each vector that an assumed rate gives, in the order of drawing; none where that is zero.
+
+    What a driver gives along a guide is told of the first trial alone, for both lay off the same.
+    """
+    told: set[int] = set()
     for number, step, _ in drawing.steps(drawing.plane):
         plan, kind, rate = auxiliary_plan(drawing, number), construction(step), begun_by(step)
         if not isinstance(plan, TrialPlan) or rate is None or has_no_length(drawing, number):
             continue
         size = abs(float(drawing.trace.values[rate]))
-        if isinstance(kind, DrivenSlide):
+        if isinstance(kind, DrivenSlide) and driver_of_rate(drawing, rate) is None:
             yield plan.slid(drawing, kind, size)
+        elif isinstance(kind, DrivenSlide):
+            if rate not in told:
+                yield kind.laid_by_driver(drawing, size)
+            told.add(rate)
         elif isinstance(kind, LaidOffAboutPivot):
             link = turning_with(drawing, plan.turned_by(rate) or kind.link)
             yield plan.turned(drawing, kind, link, size)

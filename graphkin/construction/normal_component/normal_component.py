@@ -29,9 +29,9 @@ from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import (
     Relation,
     answer,
-    figure,
     laid_times,
     length_of,
+    put_in,
     set_length,
     squared,
 )
@@ -255,12 +255,13 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     def relation(self, drawing: Drawing) -> Relation:
         """Square of the relative velocity over the bar, and its drawn length."""
         length, size = length_of(drawing, self.p, self.q), drawing.settled(self.size(drawing))
-        speed = (size * length) ** 0.5
+        speed, result = (size * length) ** 0.5, answer(drawing, size)
+        v, over = put_in(drawing, result, lambda v, over: v * v / over, speed, length)
         return Relation(
             self.symbol,
             f"{symbol(self.speed)}^2/{bar(self.p, self.q)}",
-            f"{squared(figure(drawing, speed))}/{figure(drawing, length)}",
-            answer(drawing, size),
+            f"{squared(v)}/{over}",
+            result,
             "m/s^2",
             laid_off(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q)),
             over=((self.p, self.q),),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from operator import truediv
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -11,7 +12,7 @@ from graphkin.construction.core.naming import turning_with
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import EPSILON, OMEGA
-from graphkin.construction.core.relation import Relation, figure, length_of
+from graphkin.construction.core.relation import Relation, length_of, put_in
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -87,7 +88,7 @@ class TurningOfLink(Construction, frozen=True, kw_only=True):
         length = length_of(drawing, *ends)
         size = abs(float(drawing.trace.values[self.rate])) * length
         size = 0.0 if drawing.turning(self.link) == 0 else size
-        figures = f"{figure(drawing, size)}/{figure(drawing, length)}"
+        figures = "/".join(put_in(drawing, tail[0], truediv, size, length))
         name = symbol(f"{drawing.rate.letter}_{turning_with(drawing, self.link)}")
         whole = f"{vector}/{bar(*ends)}"
         return Relation(name, whole, figures, *tail, over=(ends,), takes=vector)
