@@ -424,9 +424,11 @@ CUT = """() => [...document.querySelectorAll(
 """The labels that the edge of their field cuts, but for the air above and below letters."""
 
 
-@pytest.mark.parametrize("name", ["bar-on-roller", "centrodes-knee", "locomotive"])
+@pytest.mark.parametrize(
+    "name", ["bar-on-roller", "centrodes-knee", "instant-centres", "locomotive"]
+)
 def test_no_label_is_cut_by_the_edge_of_a_narrow_field(opened: Opened, tmp_path: Path, name: str):
-    """Labels that are drawn larger than on paper, one on another side, a long note."""
+    """Labels that are drawn larger than on paper, one on another side, long notes."""
     path = tmp_path / f"{name}.html"
     path.write_text(step_page(mechanism_of(name), "en"), encoding="utf-8")
     narrow = DESKTOP | {"viewport": {"width": 1000, "height": 720}}

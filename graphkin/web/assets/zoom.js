@@ -25,8 +25,8 @@ function look(glides = false) {
   const times = sheet.fields.map((one, i) => kept(one, sizes[i], rooms[i], i)), before = sheet.fields.map(one => one.lettering);
   const grows = (one, i, box) => legible(one, dots(sizes[i], box), (near ? 2 : 1.3) * times[i], LARGEST * times[i]);
   const boxes = sheet.fields.map((one, i) => {
-    const letters = near ? label_boxes(done ? one.svg : one.halo, ".later,.void,[visibility],.hushed") : one.letters;
-    return one.view || !letters.length ? rooms[i] : around(letters, rooms[i], box => grows(one, i, box));
+    const labels = (near ? labels_in(done ? one.svg : one.halo, ".later,.void,[visibility],.hushed") : one.labels).filter(({ note }) => !note);
+    return one.view || !labels.length ? rooms[i] : around(labels, rooms[i], box => grows(one, i, box));
   });
   keep_size(sheets.map(one => one === sheet ? times : [1, 1]));
   sheet.fields.forEach((one, i) => {
@@ -47,21 +47,26 @@ function legible({ least }, scale, most, largest) {
 }
 
 /** A box with room for all labels, as large as they are drawn in it. */
-function around(letters, base, grows) {
+function around(labels, base, grows) {
   let box = base;
   const within = ([low, size], k) => [Math.max(low, base[k] - GROWS * base[k + 2]), Math.min(low + size, base[k] + (1 + GROWS) * base[k + 2])];
   for (let trial = 0; trial < TRIALS; trial += 1) {
-    const reach = labels_reach(letters, Math.max(grows(box), 1));
+    const reach = labels_reach(labels, Math.max(grows(box), 1));
     const [[left, right], [top, bottom]] = [0, 1].map(k => within([reach[k], reach[k + 2]], k));
     box = about([left, top, right - left, bottom - top], base, HEM);
   }
   return box;
 }
 
-/** How many times larger notes are drawn, which grow to the right and upwards: as other letters, as far as there is room. */
-function notes_grow({ notes, edges }, lettering) {
-  const room = edges ? notes.map(({ x, width }) => (edges[0] + edges[2] - HEM - x) / width) : [];
-  return Math.max(Math.min(lettering, ...room), 1);
+/** Let a label for which there is no room as large as the others grow as far as there is. */
+function crowd({ labels, edges }, lettering) {
+  for (const { mark, box, note } of labels) {
+    const shell = mark.closest(".lettering");
+    if (!shell) continue;
+    const [left, right] = edges && !moved() ? [box.x - edges[0], edges[0] + edges[2] - box.x - box.width] : [Infinity, Infinity];
+    const room = 1 + ((note ? right : 2 * Math.min(left, right)) - HEM) / box.width;
+    style(shell, "--t", room < lettering ? Math.max(room, 1).toFixed(2) : "");
+  }
 }
 
 /** Show every field as it is on paper. */
@@ -84,7 +89,7 @@ function frame(one, box, times, lettering, glides = false) {
   one.svg.classList.toggle("larger", lettering > 1.02);
   style(one.svg, "--g", times.toFixed(2));
   style(one.svg, "--t", lettering.toFixed(2));
-  style(one.svg, "--note", notes_grow(one, lettering).toFixed(2));
+  crowd(one, lettering);
   cancelAnimationFrame(one.gliding);
   if (glides && one.box && !STILL.matches) glide(one, one.box, box, performance.now());
   else framed(one, box);
