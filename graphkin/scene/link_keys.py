@@ -9,7 +9,15 @@ from msgspec import Struct, field
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.measures import Measures, Pair
 from graphkin.scene.model import KEYWORDS, Polar, Side
-from graphkin.scene.phrases import OnWords, key_points, on_words, point_name, side_words
+from graphkin.scene.phrases import (
+    PLACES,
+    OnWords,
+    key_points,
+    on_words,
+    phrase_hint,
+    point_name,
+    side_words,
+)
 from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import Hint
 
@@ -98,9 +106,8 @@ def read_point(sketch: LinkKeys, point: str, raw: object, place: str, measures: 
     else:
         words = (side_words(raw) or on_words(raw)) if isinstance(raw, str) else None
         if words is None:
-            measures.findings.add(
-                place, shown(raw), f"coordinates [x, y], {{from, length, angle}}, {PHRASES}"
-            )
+            expected = f"coordinates [x, y], {{from, length, angle}}, {PHRASES}"
+            measures.findings.add(place, shown(raw), expected, phrase_hint(raw, PLACES))
             sketch.broken = True
         else:
             sketch.words[point] = words

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.scene.expression import FARTHEST, TIME, Number, UnreadableError, decimal, integer
 from graphkin.scene.findings import Findings, listed, nearest, shown
 from graphkin.scene.quantity import Quantity, exact, expression
-from graphkin.text.errors import Hint, SceneError
+from graphkin.text.errors import Hint, Mend, SceneError
 
 Pair = tuple[Quantity, Quantity]
 LARGEST = 10**FARTHEST
@@ -88,14 +88,15 @@ class Measures:
         if not used:
             return True
         unknown = sorted(used - self.values.keys() - {TIME})
-        known = listed(key for key in self.values if key != TIME)
+        names = [key for key in self.values if key != TIME]
+        known = listed(names)
         number = f"a number in {read.unit}" if read.unit else "a number"
         for name in unknown:
             self.findings.add(
                 read.place,
                 f"{shown(read.text)} uses {name}, which is no parameter",
                 f"{number}, or an expression with {known}" if known else number,
-                nearest(name, self.values),
+                Mend(name, *names) if len(names) == 1 else nearest(name, names),
             )
         if TIME not in used:
             return not unknown

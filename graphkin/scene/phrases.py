@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from msgspec import Struct
 
@@ -138,8 +139,15 @@ def branch_words(text: str) -> Branch | None:
     return side_words(text)
 
 
-def branch_hint(raw: object) -> Hint:
-    """How a phrase that is no branch may have been meant; empty where that cannot be told."""
+BEGINS = (*SIDES, *WAYS, "closure")
+"""The first words of the branches."""
+PLACES = (*SIDES, "on", "beyond")
+"""Those of what says where a point of a link lies."""
+
+
+def phrase_hint(raw: object, begins: Collection[str]) -> Hint:
+    """How a phrase that should begin with one of some words may have been meant; empty where that
+    cannot be told."""
     words = phrase(raw) if isinstance(raw, str) else []
     if not words:
         return ""
@@ -149,8 +157,7 @@ def branch_hint(raw: object) -> Hint:
             meant = f"O{end[1:]}"
             told = f"{end} begins with a zero: did you mean {meant}, with the letter?"
             return Mend(end, meant, told)
-    close = nearest(words[0], (*SIDES, *WAYS, "closure"))
-    return close if words[0] not in (*SIDES, *WAYS, "closure") else ""
+    return "" if words[0] in begins else nearest(words[0], begins)
 
 
 def key_points(place: str, key: str, findings: Findings) -> tuple[str, ...] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from datetime import date, datetime
 from fractions import Fraction
 from itertools import combinations
@@ -12,7 +12,14 @@ from graphkin.scene.known_names import known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Ask, Branch, Scene, Sheet
-from graphkin.scene.phrases import asked_point, branch_hint, branch_words, link_name, point_name
+from graphkin.scene.phrases import (
+    BEGINS,
+    asked_point,
+    branch_words,
+    link_name,
+    phrase_hint,
+    point_name,
+)
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text.errors import Written
 
@@ -39,14 +46,16 @@ RULES = ("largest", "lab")
 MOST = 500
 
 
-def read_branches(table: Table, findings: Findings) -> dict[str, Branch]:
+def read_branches(table: Table, links: Collection[str], findings: Findings) -> dict[str, Branch]:
     """The chosen closures, by the name of a pin or of a link."""
     branches: dict[str, Branch] = {}
     for key, raw in table.raw.items():
         branch = branch_words(raw) if isinstance(raw, str) else None
         name = link_name(table.at(key), key, findings)
         if branch is None:
-            findings.add(table.at(key), shown(raw), BRANCH_WORDS, branch_hint(raw), ANY_LINK)
+            ways = ANY_LINK if key in links else ()  # the side of a pin needs the names of others
+            hint = phrase_hint(raw, BEGINS)
+            findings.add(table.at(key), shown(raw), BRANCH_WORDS, hint, ways)
         elif name == FRAME:
             findings.add(
                 table.at(key), "a branch of the frame, which is at rest", "a pin or a link"

@@ -177,11 +177,10 @@ def too_few_hint(scene: Scene) -> tuple[str, tuple[Change, ...]]:
 
 
 def too_many_changes(scene: Scene, freedoms: int) -> tuple[Change, ...]:
-    """The driver to take away, where it is clear which one."""
-    drivers = spare_drivers(scene) or scene.drivers
-    if freedoms <= 0 or not len(scene.drivers) - freedoms == len(drivers) == 1:
+    """Each of the drivers without which all links still follow, where one is too many."""
+    if freedoms <= 0 or len(scene.drivers) - freedoms != 1:
         return ()
-    return (DriverTaken(drivers[0].kind, quoted(drivers[0].link)),)
+    return tuple(DriverTaken(each.kind, quoted(each.link)) for each in spare_drivers(scene))
 
 
 def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:

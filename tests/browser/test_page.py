@@ -411,6 +411,47 @@ def test_letters_can_be_read_on_a_phone_and_those_of_pins_are_there(
     assert page.evaluate(PINS) == []
 
 
+CUT = """() => [...document.querySelectorAll(
+    '.sheet:not([hidden]) .view > svg .lettering > text:not(.later,.void,[visibility],.hushed)')]
+  .filter(text => {
+    const { x, y, width, height } = text.getBBox(), to = text.getScreenCTM();
+    const field = text.ownerSVGElement.getBoundingClientRect();
+    const ends = [[x, y], [x + width, y + height]].map(end => new DOMPoint(...end));
+    const [low, high] = ends.map(end => end.matrixTransform(to));
+    return low.x < field.left - 1 || high.x > field.right + 1 ||
+      low.y < field.top - 4 || high.y > field.bottom + 4;
+  }).map(text => text.dataset.name)"""
+"""The labels that the edge of their field cuts, but for the air above and below letters."""
+
+
+@pytest.mark.parametrize(
+    "name", ["bar-on-roller", "centrodes-knee", "instant-centres", "locomotive"]
+)
+def test_no_label_is_cut_by_the_edge_of_a_narrow_field(opened: Opened, tmp_path: Path, name: str):
+    """Labels that are drawn larger than on paper, one on another side, long notes."""
+    path = tmp_path / f"{name}.html"
+    path.write_text(step_page(mechanism_of(name), "en"), encoding="utf-8")
+    narrow = DESKTOP | {"viewport": {"width": 1000, "height": 720}}
+    page = opened(path, "", **narrow)
+    cut = {}
+    for step in range(1, page.evaluate(STEPS) + 1):
+        page.evaluate(f"location.hash = '#step={step}'")
+        page.wait_for_function(f"document.getElementById('step').value === '{step}'")
+        if found := page.evaluate(CUT):
+            cut[step] = found
+    assert not cut
+
+
+def test_what_is_read_off_on_a_phone_has_room_before_it_is_found(opened: Opened, pages: Path):
+    """The keys stay as tall as they were measured, and cover nothing of the drawing."""
+    page = opened(pages / "pump.html", "#step=1", **PHONE)
+    tall = page.evaluate("document.getElementById('dock').offsetHeight")
+    page.evaluate("location.hash = '#step=16'")
+    page.wait_for_function("document.getElementById('step').value === '16'")
+    assert "ω4 = " in page.inner_text("#values") and "?" not in page.inner_text("#values")
+    assert page.evaluate("document.getElementById('dock').offsetHeight") == tall
+
+
 # --- every reader --------------------------------------------------------------------------------
 
 

@@ -93,8 +93,10 @@ def speed_of_d(page: Any) -> float:
 def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     page = studio()
     assert page.inner_text("#count") == "No mistakes."
+    top = page.locator("#drawings").bounding_box()["y"]
     write(page, "A-B = 40", "A-B = forty")
     assert page.inner_text("#count") == "1 mistake"
+    assert page.locator("#drawings").bounding_box()["y"] == top  # nothing jumps while one writes
     assert page.locator("#scene-part .gutter .wrong").all_inner_texts() == ["24"]
     assert page.inner_text("#scene-part .under mark") == "forty"
     assert page.is_visible("#old")

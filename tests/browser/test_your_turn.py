@@ -210,6 +210,9 @@ def test_a_wrong_choice_is_told_why_in_one_line(kept: Opened, pages: Path):
         "The parallel to guide 5 is drawn through o, not through a."
     )
     assert why(page) == "relative to guide 5 its block can move only along it"
+    page.locator("#inputs select").first.select_option(label="o")
+    assert said(page) == "Parallel: through o, to …"
+    assert why(page) == ""
     by_lists(page, "perpendicular", "a", "AB")
     assert by_lists(page, "perpendicular", "a", "AB") == "⊥ AB (a) is drawn already."
     assert why(page) == ""

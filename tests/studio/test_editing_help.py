@@ -60,7 +60,9 @@ WRONG = [
     ("O1-A = 30", 'O1-A = "30,5"'),
     ('"30 + 2*n"', '"30 + 2*n^2"'),
     ('"30 + 2*n"', '"30 + 2*nn"'),
+    ('"30 + 2*n"', '"30 + 2*m"'),
     ('"30 + 2*n"', "30 + 2*n"),
+    ('"left of A-B"', '"lft of A-B"'),
     ('"right of A-O2"', '"rigth of A-O2"'),
     ('"right of A-O2"', '"right of A-02"'),
     ('"cm"', '"centimetres"'),
@@ -91,6 +93,8 @@ def test_a_mend_leaves_its_mistake_behind(right, wrong):
         ("a-closure-number-that-there-is-not", 4),
         ("a-driver-on-a-coupler-that-the-crank-moves", 1),
         ("a-driver-too-few", 1),
+        ("a-driver-too-many", 2),
+        ("a-driver-too-many-for-the-truth-though-not-for-the-count", 2),
         ("a-digit-less", 1),
         ("a-group-of-class-three-needs-its-number", 1),
         ("branches-that-name-nothing-1-forward", 1),
@@ -123,6 +127,15 @@ def test_no_change_is_offered_where_it_is_not_clear_which_piece_is_meant():
     (mark,) = mistakes(PUMP.replace('"30 + 2*n"', '"nn + 2*nn"'))
     assert isinstance(mark.problem.hint, Mend)
     assert not mark.mends
+
+
+def test_no_way_is_offered_for_a_pin():
+    """The side of a pin names two others; a way would be refused there."""
+    (mark,) = mistakes(PUMP.replace('"right of A-O2"', '"above"'))
+    assert mark.problem.place == "branches.B"
+    assert not mark.mends
+    (mark,) = mistakes(PUMP.replace('5 = "forward"', '5 = "up"'))
+    assert [edit.text for edit in mark.mends][:2] == ['5 = "forward"', '5 = "backward"']
 
 
 def test_names_are_found_where_they_are_written():

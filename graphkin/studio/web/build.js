@@ -15,6 +15,8 @@ const ROOM = 0.2; // of the mechanism's size around it
 const PIN = 6; // px
 const BAR = 120; // px of the bar that tells the size, at most
 const LETTER = 15; // px
+const BESIDE = 17; // px from a pin to the middle of its letters
+const SIDES = [1, 3, 7, 5, 0, 2, 6, 4].map((part) => (part * Math.PI) / 4); // where they may stand, best ones first
 const SMALL = [180, 110]; // px of a small picture
 const stood = new Map(); // where points stood, by the text
 let sketch = null;
@@ -96,6 +98,19 @@ function onGuide(sketch, { point, along: [u, v], fixed }, [x, y]) {
   return fixed ? [a + part * u, b + part * v] : [x, y];
 }
 
+/** The direction, of eight, that turns farthest from the bars and guides that meet at a point. */
+function freeSide(sketch, points, name) {
+  const bars = Object.values(sketch.links).filter((held) => held.includes(name));
+  const others = bars.flat().filter((point) => point !== name && points[point]);
+  const ways = others.map((point) => points[point].map((part, k) => part - points[name][k]));
+  for (const { point, along } of sketch.blocks) {
+    if (point === name) ways.push(along, along.map((part) => -part));
+  }
+  const turns = ways.map(([x, y]) => Math.atan2(y, x));
+  const clear = (side) => Math.min(...turns.map((turn) => Math.acos(Math.cos(turn - side))));
+  return SIDES.reduce((best, side) => (clear(side) > clear(best) + 1e-6 ? side : best));
+}
+
 /** The marks of a sketch whose points stand so, where a pixel is so much of the scene; `named`
  * with the letters of its points. */
 function marksOf(sketch, points, one, named = true) {
@@ -132,8 +147,9 @@ function marksOf(sketch, points, one, named = true) {
     const look = `pin${sketch.fixed.includes(name) ? " fixed" : ""}`;
     marks.push(element("circle", look, { cx: x, cy: -y, r: PIN * one, "data-point": name }));
     if (!named) continue;
-    const letter = { x: x + 9 * one, y: -y - 9 * one, "font-size": LETTER * one };
-    marks.push(element("text", "letter", letter, name));
+    const side = freeSide(sketch, points, name);
+    const at = { x: x + BESIDE * Math.cos(side) * one, y: -y - BESIDE * Math.sin(side) * one };
+    marks.push(element("text", "letter", { ...at, "font-size": LETTER * one }, name));
   }
   return marks;
 }

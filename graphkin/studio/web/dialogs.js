@@ -74,7 +74,11 @@ export async function choose(go) {
     const shown = opener(key, name, title ? `${name} – ${title}` : name);
     Object.assign(shown.dataset, { key, name });
     item.append(shown);
-    if (key === "scene") item.append(opener("like", name, say("studio.like")));
+    if (key === "scene") {
+      const like = opener("like", name, say("studio.like"));
+      like.setAttribute("aria-label", `${like.textContent}: ${name}`);
+      item.append(like);
+    }
     return item;
   };
   find("scenes").replaceChildren(...scenes.map((name) => entry("scene", name)));

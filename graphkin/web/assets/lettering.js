@@ -36,10 +36,11 @@ function letter(one, labels, gone, found) {
     }
     const ring = ring_of(mark), box = [Math.max(half[0], ring), Math.max(half[1] + (state.going ? AIRY : HANGS), ring)].map(size => size * one.lettering), off = off_middle(mark, records[0]).map(way => way * (1 - one.lettering));
     const middles = spots.map(([u, v]) => [u + off[0], v + off[1]]), at = middles[was.side];
+    const fits = spot => !one.edges || [0, 1].every(k => Math.abs(spot[k] - one.edges[k] - one.edges[k + 2] / 2) <= one.edges[k + 2] / 2 - half[k] * one.lettering);
     const leapt = state.going && was.spot && Math.hypot(at[0] - was.spot[0], at[1] - was.spot[1]) > far;
-    if (leapt || was.seen && !free(at, box, APART)) Object.assign(was, { seen: false, since: now });
+    if (leapt || was.seen && !(fits(at) && free(at, box, APART))) Object.assign(was, { seen: false, since: now });
     if (!was.seen && (!state.going || now - was.since >= HUSH)) {
-      const side = clearest(one, middles, box, spot => free(spot, box, state.going ? CLEAR : APART));
+      const side = clearest(one, middles, box, spot => fits(spot) && free(spot, box, state.going ? CLEAR : APART));
       if (side >= 0) Object.assign(was, { seen: true, side });
     }
     was.spot = middles[was.side];

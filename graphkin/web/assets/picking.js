@@ -18,6 +18,7 @@ const slot_words = (action = turn.action) => byId("palette").querySelector(`[dat
 /** Say what the action still needs, or what has been hinted at. */
 function ask_inputs() {
   if (turn.hinted && moves[turn.hinted].action === turn.action) return tell_hint();
+  if (turn.wrong) byId("turn-sentence").replaceChildren(); // the reason of a choice that is past
   const list = slot_words().map((word, i) => `${word} ${turn.inputs[i] ? picks[turn.inputs[i]].name : "…"}`).join(", ");
   tell_turn(worded("hint", { action: action_name(turn.action), list }));
 }
@@ -44,7 +45,14 @@ function show_inputs() {
     list.append(...options);
     list.value = turn.inputs[i] ?? "";
     list.dataset.slot = i;
-    list.addEventListener("change", () => { turn.inputs[i] = list.value; turn.asked = null; byId("which").hidden = true; light_up(); show_ready(); });
+    list.addEventListener("change", () => {
+      turn.inputs[i] = list.value;
+      turn.asked = null;
+      byId("which").hidden = true;
+      light_up();
+      show_ready();
+      ask_inputs();
+    });
     label.append(words[i] ?? "", list);
     return label;
   }));

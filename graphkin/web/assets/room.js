@@ -21,7 +21,7 @@ function fit() {
   if (values) {
     values.querySelector("#place").textContent = byId("place").dataset.dead;
     tallest(values, "read", sheets.map(({ element }) => element.dataset.kind), kind => {
-      values.querySelector("#values").replaceChildren(...all_asked(kind));
+      values.querySelector("#values").replaceChildren(...all_asked(kind, true));
     });
   }
   const below = innerHeight < LOW ? byId("help").offsetHeight : 0; // there the drawing needs the room more

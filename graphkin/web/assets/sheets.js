@@ -15,7 +15,7 @@ const sheets = [...document.querySelectorAll(".sheet")].map(element => {
   return { element, marks, parts, of, fields: [...element.querySelectorAll(".view svg")].map(field) };
 });
 
-/** A field: its picture, the groups beneath and above what is marked, its box, and that of all that is drawn. */
+/** A field: its picture, the groups beneath and above what is marked, its box, those of all that is drawn, and its labels. */
 function field(svg) {
   const above = [...svg.children].find(mark => !mark.matches(".plate,.disc,.gear-disc")) ?? null; // not beneath what is filled
   const halo = svg.insertBefore(document.createElementNS(SVG, "g"), above);
@@ -24,7 +24,22 @@ function field(svg) {
   const { x, y, width, height } = svg.viewBox.baseVal;
   svg.style.aspectRatio = `${width} / ${height}`; // whatever part of it is shown
   const sizes = [...svg.querySelectorAll(".lettering :is([font-size])")].map(run => Number(run.getAttribute("font-size")));
-  return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED), least: Math.min(...sizes, 3), view: null };
+  return { svg, halo, front, whole: [x, y, width, height], drawn: extent(svg, PLACED), labels: labels_in(svg, ".void,[visibility]"), least: Math.min(...sizes, 3), view: null, edges: null };
+}
+
+/** The labels of a picture or a part of it, but for some, with their boxes; whether they are notes, which grow to the right and upwards. */
+function labels_in(part, gone) {
+  return [...part.querySelectorAll(`:is(.lettering>text,.number):not(${gone})`)].map(mark => ({ mark, box: mark.getBBox(), note: mark.matches("[data-name=note]") }));
+}
+
+/** The box of labels that are so many times larger about their middles. */
+function labels_reach(labels, times) {
+  const ends = labels.map(({ box: { x, y, width, height } }) => {
+    const [across, down] = [width, height].map(size => (times - 1) * size / 2);
+    return [x - across, y - down, x + width + across, y + height + down];
+  });
+  const [left, top, right, bottom] = [0, 1, 2, 3].map(k => Math[k < 2 ? "min" : "max"](...ends.map(end => end[k])));
+  return [left, top, right - left, bottom - top];
 }
 
 /** The box of what is drawn in a picture or a part of it. */

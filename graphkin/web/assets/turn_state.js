@@ -135,7 +135,7 @@ function told_found(rows) {
   return rows.filter(row => !row.matches(".unknown")).map(row => {
     const line = document.createElement("p"), cells = [...row.cells], table = row.closest("table"), vector = table.matches(".vectors");
     line.className = "found";
-    line.append(asked(cells));
+    line.append(asked(cells, true));
     if (vector) line.append(" (", ...copies(cells[1]), " = ", ...copies(cells[2]), " ", ...copies(table.tHead.rows[0].cells[2]), ")");
     return line;
   });

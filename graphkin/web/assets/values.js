@@ -59,21 +59,16 @@ function read_out() {
 
 const found = [...document.querySelectorAll("#results [data-found]")];
 
-/** All that is asked on a sheet, each in one line. */
-function all_asked(kind) {
+/** All that is asked on a sheet, each in one line; told or not, as it is known there or as is said. */
+function all_asked(kind, told) {
   const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
-  return [...rows].map(row => asked([...row.cells]));
+  return [...rows].map(row => asked([...row.cells], told ?? !row.matches(".unknown")));
 }
 
-/** A value that is asked, in one line: its name, its size and unit. */
-function asked(cells) {
+/** A value that is asked, in one line: its name, its size and unit, or that it is not yet told. */
+function asked(cells, told) {
   const value = document.createElement("span");
-  value.append(...copies(cells[0]), " = ");
-  if (cells[0].parentElement.matches(".unknown")) {
-    value.append("?");
-    return value;
-  }
-  value.append(...size_read(cells));
+  value.append(...copies(cells[0]), " = ", ...told ? size_read(cells) : ["?"]);
   return value;
 }
 

@@ -2,6 +2,7 @@
 const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can be read
 const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
 const AIR = 3, MOST = 0.12, PIN = 6; // mm about what a field is shifted or grows for; the part of a field beyond its edges that is shown; mm about a pin
+const HEM = 0.5, GROWS = 0.15, TRIALS = 4; // mm about letters at the edge of a field; the part of it by which it grows for them at most, to each side; times that they grow with it
 const PLACES = 72, NEARLY = 0.75; // of a motion that are looked at, and the part of them whose drawing is in the frame
 const LEGIBLE = 9.1, LARGEST = 6, GLIDE = 250; // dots of the height of the smallest lettering, times that it grows at most; milliseconds from one frame to another
 const KEPT = [2, Infinity]; // how many times smaller than as drawn a field can be and lettering keep its size
@@ -16,23 +17,56 @@ function look(glides = false) {
   const near = wanted ?? SMALL.matches;
   const done = !sheet.element.classList.contains("growing");
   follow.setAttribute("aria-pressed", near);
-  const boxes = sheet.fields.map((one, i) => {
+  const rooms = sheet.fields.map((one, i) => {
     const room = roomy(one, sizes[i], here(), i);
     if (one.view) return viewed(one.view, sizes[i]);
     return near ? closer(sizes[i], room, extent(done ? one.svg : one.halo, SEEN)) : room;
   });
-  const times = sheet.fields.map((one, i) => kept(one, sizes[i], boxes[i], i)), before = sheet.fields.map(one => one.lettering);
+  const times = sheet.fields.map((one, i) => kept(one, sizes[i], rooms[i], i)), before = sheet.fields.map(one => one.lettering);
+  const grows = (one, i, box) => legible(one, dots(sizes[i], box), (near ? 2 : 1.3) * times[i], LARGEST * times[i]);
+  const boxes = sheet.fields.map((one, i) => {
+    const labels = (near ? labels_in(done ? one.svg : one.halo, ".later,.void,[visibility],.hushed") : one.labels).filter(({ note }) => !note);
+    return one.view || !labels.length ? rooms[i] : around(labels, rooms[i], box => grows(one, i, box));
+  });
   keep_size(sheets.map(one => one === sheet ? times : [1, 1]));
   sheet.fields.forEach((one, i) => {
-    const scale = dots(sizes[i], boxes[i]), most = (near ? 2 : 1.3) * times[i];
-    style(one.svg, "--dot", (1 / scale).toFixed(3));
-    frame(one, boxes[i], times[i], Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * one.least), LARGEST * times[i])), glides);
+    style(one.svg, "--dot", (1 / dots(sizes[i], boxes[i])).toFixed(3));
+    one.edges = one.view || near ? null : in_sight(boxes[i], sizes[i]); // of a part that is looked at, labels go on beyond
+    frame(one, boxes[i], times[i], grows(one, i, boxes[i]), glides);
   });
   if (motion && !state.going && sheet.fields.some((one, i) => one.lettering !== before[i])) { // letters of another size stand elsewhere
     put();
     halos();
   }
   bars(sheet, sizes, boxes);
+}
+
+/** How many times larger lettering is drawn at so many dots to the millimetre, `most` times where it could be read; at most `largest` times. */
+function legible({ least }, scale, most, largest) {
+  return Math.max(Math.min(READABLE / scale, most), Math.min(LEGIBLE / (scale * least), largest));
+}
+
+/** A box with room for all labels, as large as they are drawn in it. */
+function around(labels, base, grows) {
+  let box = base;
+  const within = ([low, size], k) => [Math.max(low, base[k] - GROWS * base[k + 2]), Math.min(low + size, base[k] + (1 + GROWS) * base[k + 2])];
+  for (let trial = 0; trial < TRIALS; trial += 1) {
+    const reach = labels_reach(labels, Math.max(grows(box), 1));
+    const [[left, right], [top, bottom]] = [0, 1].map(k => within([reach[k], reach[k + 2]], k));
+    box = about([left, top, right - left, bottom - top], base, HEM);
+  }
+  return box;
+}
+
+/** Let a label for which there is no room as large as the others grow as far as there is. */
+function crowd({ labels, edges }, lettering) {
+  for (const { mark, box, note } of labels) {
+    const shell = mark.closest(".lettering");
+    if (!shell) continue;
+    const [left, right] = edges && !moved() ? [box.x - edges[0], edges[0] + edges[2] - box.x - box.width] : [Infinity, Infinity];
+    const room = 1 + ((note ? right : 2 * Math.min(left, right)) - HEM) / box.width;
+    style(shell, "--t", room < lettering ? Math.max(room, 1).toFixed(2) : "");
+  }
 }
 
 /** Show every field as it is on paper. */
@@ -42,7 +76,10 @@ function whole() {
     return [one, box, kept(one, one.whole.slice(2), box, side)];
   }));
   keep_size(paper.map(fields => fields.map(([, , times]) => times)));
-  for (const [one, box, times] of paper.flat()) frame(one, box, times, times);
+  for (const [one, box, times] of paper.flat()) {
+    one.edges = null;
+    frame(one, box, times, times);
+  }
   sheets.forEach((sheet, i) => bars(sheet, sheet.fields.map(({ whole }) => whole.slice(2)), paper[i].map(([, box]) => box)));
 }
 
@@ -52,6 +89,7 @@ function frame(one, box, times, lettering, glides = false) {
   one.svg.classList.toggle("larger", lettering > 1.02);
   style(one.svg, "--g", times.toFixed(2));
   style(one.svg, "--t", lettering.toFixed(2));
+  crowd(one, lettering);
   cancelAnimationFrame(one.gliding);
   if (glides && one.box && !STILL.matches) glide(one, one.box, box, performance.now());
   else framed(one, box);
@@ -102,6 +140,12 @@ function dots([across, high], [, , width, height]) {
   return Math.min(across / width, high / height) || READABLE;
 }
 
+/** What a picture shows of a field where it is to show a box of it. */
+function in_sight(box, picture) {
+  const [x, y, width, height] = box, size = picture.map(each => each / dots(picture, box));
+  return [x - (size[0] - width) / 2, y - (size[1] - height) / 2, ...size];
+}
+
 /** The part of a field in which all is drawn; of one that moves it is that of the whole motion. */
 function roomy(one, picture, sheet, side) {
   const { whole, drawn } = one, base = closer(picture, whole, drawn);
@@ -130,10 +174,10 @@ function all_the_way(sheet, side) {
 }
 
 /** A box so shifted, and if need be so much larger, that another lies in it with some air about it. */
-function about(found, base) {
+function about(found, base, air = AIR) {
   const [starts, sizes] = [[], []];
   for (const axis of [0, 1]) {
-    const low = found[axis] - AIR, high = found[axis] + found[axis + 2] + AIR;
+    const low = found[axis] - air, high = found[axis] + found[axis + 2] + air;
     const size = Math.max(base[axis + 2], high - low);
     starts.push(Math.min(Math.max(base[axis], high - size), low));
     sizes.push(size);
