@@ -26,8 +26,8 @@ from graphkin.scene.model import FRAME, Ask
 from graphkin.text import words as words_of
 from tests.chosen import FOLDER, HALVES
 
-ALL = ["pump", *(str(FOLDER / f"{name}.toml") for name in HALVES[0])]
-SOME = ["pump", *(str(FOLDER / f"{name}.toml") for name in ("rapid-return", "oscillating-slide"))]
+ALL = ["pump", *HALVES[0]]
+SOME = ["pump", "rapid-return", "oscillating-slide"]
 SOME += [name for name in ALL if "centrodes" in name or "stephenson" in name]
 
 UNDRAWN = {"closing", "share", "c", "ν none", "ν by number", "short"}
@@ -39,7 +39,8 @@ too short to be drawn."""
 def material(name):
     """The drawings of a scene."""
     verdict = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
-    return drawings_of(load(name, **({"n": 7} if name == "pump" else {})), verdict, words_of("en"))
+    made = load("pump", n=7) if name == "pump" else load(FOLDER / f"{name}.toml")
+    return drawings_of(made, verdict, words_of("en"))
 
 
 @cache
