@@ -468,6 +468,12 @@ class Reader(Trials):
             return
         self.put(name, self.at(p) + along * self.length(s, t))
 
+    @says("from ⟨p⟩ lay off ⟨s⟩⟨t⟩ along the guide of block ⟨k:number⟩, (?P<way>[^,;:]*): ⟨name⟩")
+    def along_guide(self, p: str, s: str, t: str, k: str, way: str, name: str) -> None:
+        along = self.guide(k).along
+        along = math.copysign(1, dot(WAYS[way], along)) * along / abs(along)
+        self.put(name, self.at(p) + along * self.length(s, t))
+
     def drawn_at(self, p: str, along: complex, name: str) -> None:
         """Raises DefectError where a bar that was found does not lie as the page tells."""
         off = math.degrees(cmath.phase((self.at(name) - self.at(p)) / along))

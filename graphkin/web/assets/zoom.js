@@ -26,7 +26,7 @@ function look(glides = false) {
   const grows = (one, i, box) => legible(one, dots(sizes[i], box), (near ? 2 : 1.3) * times[i], LARGEST * times[i]);
   const boxes = sheet.fields.map((one, i) => {
     const labels = (near ? labels_in(done ? one.svg : one.halo, ".later,.void,[visibility],.hushed") : one.labels).filter(({ note }) => !note);
-    return one.view || !labels.length ? rooms[i] : around(labels, rooms[i], box => grows(one, i, box));
+    return one.view || moved() || !labels.length ? rooms[i] : around(labels, rooms[i], box => grows(one, i, box));
   });
   keep_size(sheets.map(one => one === sheet ? times : [1, 1]));
   sheet.fields.forEach((one, i) => {
