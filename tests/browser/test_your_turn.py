@@ -14,7 +14,7 @@ from graphkin.web.palette_moves import your_turn
 from graphkin.web.protocol import telling
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page
-from tests.browser.opening import Opened, barred
+from tests.browser.opening import PAINTED, Opened, barred
 from tests.browser.test_page import DESKTOP, PHONE
 from tests.browser.turning_hand import TurningHand
 from tests.chosen import EVERY
@@ -122,7 +122,7 @@ def why(page: Any) -> str:
 def point(page: Any, at: tuple[float, float]) -> None:
     """Point at a place of the window, until the page has shown what it shows there."""
     page.mouse.move(*at)
-    page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    page.evaluate(PAINTED)
 
 
 def take(page: Any, action: str) -> None:
@@ -388,6 +388,7 @@ def test_the_names_of_open_lines_lie_on_nothing(
     names = page.locator(".sheet:not([hidden]) text.open")
     while names.count() < len(lines):
         page.locator("#draw-it").click()
+        page.evaluate(PAINTED)
     assert page.evaluate(COVERED) == [[one, 0, 0] for one in lines]
 
 
