@@ -104,6 +104,8 @@ def begun(opened: Opened, pages: Path, name: str, step: int | str, **options: An
     """A page on which the reader draws from a step on."""
     page = opened(pages / f"{name}.html", f"#step={step}", **(options or DESKTOP))
     page.locator("#turn").click()
+    page.locator("#turn-panel").wait_for()
+    page.evaluate(PAINTED)
     if (again := page.locator("#turn-again")).is_visible():
         again.click()
     return page
