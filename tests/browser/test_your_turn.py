@@ -108,6 +108,7 @@ def begun(opened: Opened, pages: Path, name: str, step: int | str, **options: An
     page.evaluate(PAINTED)
     if (again := page.locator("#turn-again")).is_visible():
         again.click()
+        page.evaluate(PAINTED)
     return page
 
 
@@ -384,9 +385,9 @@ def test_the_palette_stays_where_it_is(kept: Opened, pages: Path, shape: str):
     ][: 4 if EVERY else 2],
 )
 def test_the_names_of_open_lines_lie_on_nothing(
-    kept: Opened, pages: Path, name: str, step: int, lines: list[str]
+    opened: Opened, pages: Path, name: str, step: int, lines: list[str]
 ):
-    page = begun(kept, pages, name, step)
+    page = begun(opened, pages, name, step)
     names = page.locator(".sheet:not([hidden]) text.open")
     while names.count() < len(lines):
         page.locator("#draw-it").click()

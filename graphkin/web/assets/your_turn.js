@@ -69,5 +69,9 @@ if (byId("turn")) {
     draw_move();
   });
   for (const button of byId("palette").children) button.addEventListener("click", () => choose_action(button.dataset.action));
-  addEventListener("hashchange", () => { if (turn) end_turn(); });
+  addEventListener("hashchange", () => {
+    if (!turn) return;
+    end_turn();
+    follow_address(); // a turn ends where it was begun
+  });
 }
