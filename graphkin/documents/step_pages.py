@@ -34,6 +34,10 @@ from graphkin.drawing.symbol_markup import symbol
 
 LEADING, SMALL_LEADING = 6.2, 4.6
 """Distance of lines of the sentence to do, and of those that are done, in mm."""
+LEFT, TOP, RIGHT = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
+"""Where these begin and end, in mm."""
+ROOM = int((A3_TITLE_BLOCK[1] - TOP - 8) // LEADING)
+"""Lines to do that have room above the title block."""
 LEFT_OUT = "…"
 """What stands for the sentences that are done and have no room."""
 
@@ -85,15 +89,19 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
             f"{title}, {stage + 1}/{len(said)}",
             drawing.words.language,
         )
-        for first, stage in spans(fields)
+        for first, stage in spans(fields, [len(to_do(each)) for each in said])
     )
 
 
-def spans(fields: Sequence[Sequence[Mark]]) -> Iterator[tuple[int, int]]:
-    """The first and the last sentence of each page: the last draws what is new on it."""
+def spans(fields: Sequence[Sequence[Mark]], lines: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """The first and the last sentence of each page, of so many ``lines`` each.
+
+    The last draws what is new on the page, or is followed by one for which there is no room.
+    """
     first = 0
     for stage, field in enumerate(fields):
-        if stage == len(fields) - 1 or any(NOW in mark.cls.split() for mark in field):
+        is_full = sum(lines[first : stage + 2]) > ROOM
+        if stage == len(fields) - 1 or is_full or any(NOW in mark.cls.split() for mark in field):
             yield first, stage
             first = stage + 1
 
@@ -124,23 +132,26 @@ def stage_of_crossing(drawing: Drawing, crossing: Crossing, staged: Mapping[int,
     return staged[group.closing if group is not None and group.locus else crossing.number]
 
 
+def to_do(sentence: Sentence, number: str = "") -> list[str]:
+    """The lines of a sentence to do."""
+    return list(flowed(words_of(number + sentence.markup), " ", RIGHT - LEFT, 3.5))
+
+
 def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> Iterator[Mark]:
     """The sentences to do in large lettering, and below them the last of those that are done."""
     words = drawing.words
-    left, top, right = BELOW[0] + 2, BELOW[1] + 4.5, BELOW[2] - 4
     key, several = (
         ("page.steps_of", {"first": first + 1}) if first < stage else ("page.step_of", {})
     )
     caption = words(key, number=stage + 1, all=len(said), **several)
-    yield Text(left, top, caption, "caption", 3.5, name="step")
-    y = top + 8
+    yield Text(LEFT, TOP, caption, "caption", 3.5, name="step")
+    y = TOP + 8
     for number, sentence in enumerate(said[first : stage + 1], first + 1):
-        markup = f"{number}. {sentence.markup}" if several else sentence.markup
-        for line in flowed(words_of(markup), " ", right - left, 3.5):
-            yield Text(left, y, line, "caption", 3.5, name="sentence")
+        for line in to_do(sentence, f"{number}. " if several else ""):
+            yield Text(LEFT, y, line, "caption", 3.5, name="sentence")
             y += LEADING
-    yield LineMark(left, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
-    width = MARKED[0] - left - 7
+    yield LineMark(LEFT, y - 2.5, A3_TITLE_BLOCK[0] - 5, y - 2.5, "panel")
+    width = MARKED[0] - LEFT - 7
     done = [
         (f"{number}." if i == 0 else "", line)
         for number, sentence in enumerate(said[:first], 1)
@@ -156,5 +167,5 @@ def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> 
     for i, (mark, line) in enumerate(shown):
         base = y + 2.5 + i * SMALL_LEADING
         if mark:
-            yield Text(left + 5, base, mark, "caption", 2.5, "end")
-        yield Text(left + 7, base, line, "caption", 2.5)
+            yield Text(LEFT + 5, base, mark, "caption", 2.5, "end")
+        yield Text(LEFT + 7, base, line, "caption", 2.5)
