@@ -20,7 +20,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import step_page, task_page
-from tests.browser.opening import Opened, barred, heard
+from tests.browser.opening import PAINTED, Opened, barred, heard
 from tests.chosen import EVERY, SCENES
 from tests.documents.sheet_tools import mechanism_named
 from tests.web.test_page import NASTY
@@ -60,7 +60,8 @@ def pages(tmp_path_factory) -> Path:
 
 
 def step_of(page: Any) -> int:
-    """The step that is shown; 0 for the beginning."""
+    """The step that is shown, once a link has led there; 0 for the beginning."""
+    page.evaluate(PAINTED)
     count = page.locator("#count").inner_text()
     return 0 if count == "The task" else int(count.split()[1])
 
@@ -464,6 +465,21 @@ def test_axe_finds_nothing_against_the_page(opened: Opened, pages: Path, name, s
     page.keyboard.press("2")
     page.evaluate("Promise.allSettled(document.getAnimations().map((each) => each.finished))")
     assert not barred(page)
+
+
+def test_words_that_have_no_room_are_scrolled_by_keys(opened: Opened, pages: Path):
+    """A sentence is reached by Tab where it is longer than its box, on a phone held sideways."""
+    page = opened(pages / "pump.html", viewport={"width": 844, "height": 390})
+    reached = set()
+    for step in (0, 3, 9, 15):
+        page.evaluate(f"location.hash = '#step={step}'")
+        page.evaluate(PAINTED)
+        scrolls, tab = page.locator("#told").evaluate(
+            "box => [box.scrollHeight > box.clientHeight + 1, box.tabIndex]"
+        )
+        assert tab == (0 if scrolls else -1), step
+        reached.add(tab)
+    assert reached == {0, -1}
 
 
 def test_without_a_script_it_is_the_finished_drawing_with_its_list(opened: Opened, pages: Path):

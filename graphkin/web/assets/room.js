@@ -10,6 +10,12 @@ function seat_words() {
   if (told.parentElement !== place) place.prepend(told);
 }
 
+/** What is told can be scrolled by keys where it has less room than it needs. */
+function told_by_keys() {
+  const told = byId("told");
+  told.tabIndex = told.scrollHeight > told.clientHeight + 1 ? 0 : -1;
+}
+
 /** Keep it. */
 function fit() {
   seat_words();
@@ -28,8 +34,7 @@ function fit() {
   style(page, "--dock", `${byId("dock").offsetHeight - below}px`);
   const seen = sheets[here()].element.querySelector(".view");
   style(page, "--above", `${Math.ceil(seen.getBoundingClientRect().top + scrollY + (below ? FOLD : ROOM))}px`);
-  const box = byId("told");
-  box.tabIndex = told.scrollHeight > box.clientHeight + 1 ? 0 : -1;
+  told_by_keys();
   sheets.forEach(share);
   look();
   list_in_sight();

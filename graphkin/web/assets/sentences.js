@@ -16,6 +16,7 @@ function say() {
   tell(byId("told"), state.step);
   tell_rates();
   byId("told").scrollTop = 0;
+  told_by_keys();
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
   list_in_sight();
   stops.forEach(({ dataset }, i) => {
