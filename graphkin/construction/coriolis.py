@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from itertools import takewhile
 from typing import Any, ClassVar
 
+from graphkin.construction.core.arrows import has_arrow
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
@@ -331,18 +332,19 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         w = set_length(drawing, vector_of(drawing, start, end, symbol(f"v_{self.pin_name}")))
         if not all(each.is_along(drawing) for each in drawn(drawing)):
             return drawing.words("step.coriolis-line", w=w, **fields)
-        right = self.triangle_along(drawing)
+        right = self.triangle_before(drawing)
         if right is None:
             return drawing.words("step.coriolis-line-tip", w=w, **fields)
         tip = right.corner_symbols(drawing, "tip")
         return drawing.words("step.coriolis-line-letter", **tip, **fields)
 
-    def triangle_along(self, drawing: Drawing) -> TriangleComponent | None:
-        """The triangle of another kind whose tip its leaning line leads to, on the guide itself."""
-        if not all(each.is_along(drawing) for each in drawn(drawing)):
-            return None
-        kinds = (kind for _, kind in self.same_velocity(drawing))
-        return next((kind for kind in kinds if not isinstance(kind, CoriolisComponent)), None)
+    def triangle_before(self, drawing: Drawing) -> TriangleComponent | None:
+        """The triangle of another kind, drawn before, whose tip its leaning line leads to."""
+        assert self.velocity is not None
+        for number, kind in self.same_velocity(drawing):
+            if number < self.velocity and not isinstance(kind, CoriolisComponent):
+                return kind
+        return None
 
     def is_along(self, drawing: Drawing) -> bool:
         """Whether twice its relative velocity, set at the pivot, lies on the line of the guide."""
@@ -490,8 +492,11 @@ def similar_triangles(
         return {}
     base = pen.bases[owner]
     assert base.end is not None
-    pivot, pin = (pen.the("position", name) for name in (base.start, base.end))
-    images = pen.the("velocity", base.start), pen.the("velocity", base.end)
+    ends = base.start, base.end
+    if has_arrow(pen, pen.the("velocity", base.end), pen.the("velocity", base.start)):
+        ends = base.end, base.start  # the plan draws the velocity of the other about this
+    pivot, pin = (pen.the("position", name) for name in ends)
+    images = [pen.the("velocity", name) for name in ends]
     seconds = pen.seconds()
     both = corners(pen.scene)
     first, second = (f"{corner}_{index}" for corner in both)
@@ -506,8 +511,8 @@ def similar_triangles(
         with pen.on(Part.NORMAL, Plane.NUMBERS):
             read = pen.draw(coriolis_by_hand, foot, top, seconds)
     return {
-        "pivot_name": letter(base.start),
-        "pin_name": letter(base.end),
+        "pivot_name": letter(ends[0]),
+        "pin_name": letter(ends[1]),
         "own_letters": both,
         "pivot": pivot,
         "pin": pin,

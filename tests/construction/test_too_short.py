@@ -14,7 +14,7 @@ from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from tests.documents.sheet_tools import HEAD, drawings
+from tests.documents.sheet_tools import HEAD, drawings, mechanism_named
 from tests.scene_files import scene_text
 
 TOGGLE = scene_text("construction/toggle")
@@ -61,6 +61,17 @@ def test_what_is_left_out_is_told_before_the_plan_is_drawn_without_it():
     (without,) = (n for n, text in enumerate(said) if "through a′ the perpendicular to AQ2" in text)
     (triangle,) = (n for n, text in enumerate(said) if "by the right triangle" in text)
     assert left_out < without < triangle
+
+
+def test_what_is_left_out_ends_its_sentence():
+    """The next triangle of the plan is drawn, so nothing may be read as left out with the rest."""
+    mechanism = mechanism_named("mobility-watt")
+    proof = proved(mechanism, sheet_motion(mechanism))
+    (_, drawing) = drawings_of(mechanism, proof, words("en"))
+    (said,) = (plain(s.markup) for s in sentences(drawing) if "left out" in s.markup)
+    drawn, left_out = said.split("what is too short to be drawn is left out: ")
+    assert "aCν at C on O3C" in drawn
+    assert left_out.startswith("aCBν") and "aCν" not in left_out
 
 
 def test_wheels_that_hardly_speed_up_have_their_values_and_senses():

@@ -736,6 +736,10 @@ class Reader(Trials):
         way = (touched - centre) * 1j * math.copysign(1, turned)
         self.put(name, touched + way / abs(way) * number(arc))
 
+    @says("join the places of ⟨name⟩ in further positions of the mechanism: its path")
+    def path(self, name: str) -> None:
+        self.at(name)  # the other positions are drawn on other sheets
+
     @says("⟨name⟩ falls on ⟨s⟩(?:, (?:for|because) .*? is (?:constant|zero))?")
     def falls(self, name: str, s: str) -> None:
         self.put(name, self.at(s))

@@ -40,6 +40,7 @@ SOME = {
     *("engine", "excavator-relative", "gears-rack", "hoist-differential", "inflection-cardan"),
     *("instant-centres", "jumper", "klein-engine", "oldham", "platform-3rpr", "rapid-return"),
     *("roller-plates", "stephenson-2-binary", "stephenson-2-ternary", "watt-2", "wheel-in-ring"),
+    *("mobility-watt", "platform-six", "trammel"),
 }
 """Those that have every form of every sentence that any has."""
 READ = tuple(name for name in KNOWN if EVERY or name in SOME)

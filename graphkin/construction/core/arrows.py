@@ -30,11 +30,20 @@ def relative_arrow(pen: Pen, pin: str, pivot: str) -> None:
 
 def arrow_between(pen: Pen, tail: int, tip: int, pin: str, about: str) -> None:
     """The arrow of the velocity of a point, against another if that is named; drawn once."""
-    name = step_name(pen, tail) + step_name(pen, tip)
-    if name not in pen.arrows:
+    if not has_arrow(pen, tail, tip):
         with pen.on(Part.VELOCITY, Plane.VELOCITIES):
             vector = PlanVector("v", letter(pin) + about, letter(pin), about)
-            pen.vector(join, tail, tip, of=vector, name=name)
+            pen.vector(join, tail, tip, of=vector, name=arrow_name(pen, tail, tip))
+
+
+def has_arrow(pen: Pen, tail: int, tip: int) -> bool:
+    """Whether the plan has an arrow from one of its points to another."""
+    return arrow_name(pen, tail, tip) in pen.arrows
+
+
+def arrow_name(pen: Pen, tail: int, tip: int) -> str:
+    """The letters of both ends."""
+    return step_name(pen, tail) + step_name(pen, tip)
 
 
 def acceleration_arrow(pen: Pen, pin: str) -> None:

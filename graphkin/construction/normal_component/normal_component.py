@@ -375,27 +375,23 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
 def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:
     """The other right triangles said in one sentence, after the one that is said in full.
 
-    It names what is left out too; without it the first one does, or a sentence of its own: always
-    before the plan is drawn without that.
+    It ends with what is left out, or the only one does; what is left out before any of them has a
+    sentence of its own, for there the plan is drawn without it.
     """
     short = [sentence for sentence in found if sentence.name == "short"]
-    if short:
-        told = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))
-        ahead = found[: found.index(short[0])]
-        before = [said for said in ahead if said.name in ("ν", "ν1")][-1:]
-        if not before:
-            found = together(found, short, told)
-        else:
-            found = [said for said in found if said not in short]
-            one = in_one([*before, *short], before[0].name, AND.join((before[0].markup, told)))
-            found[found.index(before[0])] = one
+    told = drawing.words("step.too-short", list=COMMA.join(s.markup for s in short))
+    first = next((said for said in found if said.name in ("ν", "ν1", "short")), None)
+    if first in short:
+        found, short = together(found, short, told), []
+    found = [sentence for sentence in found if sentence not in short]
     rest = [sentence for sentence in found if sentence.name == "ν"]
-    if not rest:
-        return found
     kept = [sentence for sentence in found if sentence.name != "ν"]
-    tail = drawing.words("step.normals-again", list=COMMA.join(s.markup for s in rest))
-    firsts = [i for i, sentence in enumerate(kept) if sentence.name == "ν1"]
-    if not firsts:
-        return together(found, rest, tail)
-    place = firsts[0] + 1
-    return [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]
+    place = next((i for i, sentence in enumerate(kept) if sentence.name == "ν1"), None)
+    if rest:
+        place = found.index(rest[0]) if place is None else place + 1
+        tail = drawing.words("step.normals-again", list=COMMA.join(s.markup for s in rest))
+        found = [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]
+    if short and place is not None:
+        said = found[place]
+        found[place] = in_one([said, *short], said.name, AND.join((said.markup, told)))
+    return found
