@@ -27,7 +27,7 @@ def impossible(scene: Scene) -> list[Problem]:
 
 
 def wheels_alone(scene: Scene) -> Iterator[Problem]:
-    """Wheels that roll on nothing; what looks for them is loaded for a scene that has some."""
+    """Wheels by themselves; what looks for them is loaded for a scene that has some."""
     if any(link.wheels for link in scene.every_link):
         from graphkin.structure.touching_wheels import lone_wheels
 

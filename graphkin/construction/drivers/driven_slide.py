@@ -108,7 +108,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     # --- marks and relations ---------------------------------------------------------------------
 
     def laid_by_driver(self, drawing: Drawing, size: float) -> Relation:
-        """What a driver gives along the guide, and how long each trial plan lays it off."""
+        """What a driver gives along the guide, and how long it is laid off in each plan."""
         drawn = length_drawn(drawing, self.start, self.image)
         return Relation(
             self.vector_along(drawing, self.image) or self.relative(drawing),

@@ -2,7 +2,7 @@
 const READABLE = 3.2; // dots to the millimetre at which lettering of 2.5 mm can be read
 const EDGE = 7, LEAST = 60; // mm about what is looked at, and its least width
 const AIR = 3, MOST = 0.12, PIN = 6; // mm about what a field is shifted or grows for; the part of a field beyond its edges that is shown; mm about a pin
-const HEM = 0.5, GROWS = 0.15, TRIALS = 4; // mm about letters at the edge of a field; the part of it by which it grows for them at most, to each side; times that they grow with it
+const HEM = 0.5, GROWS = 0.15, ROUNDS = 4; // mm about letters at the edge of a field; the part of it by which it grows for them at most, to each side; rounds in which they grow with it
 const PLACES = 72, NEARLY = 0.75; // of a motion that are looked at, and the part of them whose drawing is in the frame
 const LEGIBLE = 9.1, LARGEST = 6, GLIDE = 250; // dots of the height of the smallest lettering, times that it grows at most; milliseconds from one frame to another
 const KEPT = [2, Infinity]; // how many times smaller than as drawn a field can be and lettering keep its size
@@ -50,7 +50,7 @@ function legible({ least }, scale, most, largest) {
 function around(labels, base, grows) {
   let box = base;
   const within = ([low, size], k) => [Math.max(low, base[k] - GROWS * base[k + 2]), Math.min(low + size, base[k] + (1 + GROWS) * base[k + 2])];
-  for (let trial = 0; trial < TRIALS; trial += 1) {
+  for (let round = 0; round < ROUNDS; round += 1) {
     const reach = labels_reach(labels, Math.max(grows(box), 1));
     const [[left, right], [top, bottom]] = [0, 1].map(k => within([reach[k], reach[k + 2]], k));
     box = about([left, top, right - left, bottom - top], base, HEM);
