@@ -9,6 +9,7 @@ from hypothesis import given, settings
 
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.solution import gathered
+from graphkin.mechanism import load
 from graphkin.numbers.plane import Ratio
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 from tests.scene_files import scene_text
@@ -146,3 +147,14 @@ def test_a_flat_crossing_that_only_the_hand_uses_does_not_count_for_the_margin(n
         assert gathered(trace, ()).margin == mechanism.solve().margin
         flatter += min(trace.margins.values()) < mechanism.solve().margin
     assert flatter
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_what_was_run_before_changes_nothing(name):
+    """For other targets, and at another scale at which velocities are set on the mechanism."""
+    mechanism, other = load(name, n=7), load(name, n=7)
+    mechanism.trace(mechanism.asked())
+    mechanism.trace(by_hand=True, seconds=0.02)
+    again, fresh = (each.trace(by_hand=True, seconds=0.3) for each in (mechanism, other))
+    assert again.values == fresh.values
+    assert again.margins == fresh.margins

@@ -15,7 +15,7 @@ from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out
-from graphkin.documents.step_pages import told
+from graphkin.documents.step_pages import ROOM, spans, told
 from graphkin.documents.step_visibility import noted
 from graphkin.drawing.areas import AREA, BELOW
 from graphkin.drawing.marks import CircleMark, Mark, SharedLetter, Text, reach
@@ -234,3 +234,14 @@ def test_notes_that_stand_already_stand_where_the_whole_line_has_them():
             before = len("; ".join((*parts[:i], "")).replace(" ", "").replace("_", ""))
             for sign, same in zip(signs(mark.markup, mark.height), every[before:], strict=False):
                 assert mark.x + sign[0] == pytest.approx(line.x + same[0], abs=0.05)
+
+
+def test_sentences_that_draw_nothing_share_a_page_as_far_as_they_have_room():
+    """Each stands on one page, and none but the last of a page draws; no page is too full."""
+    new, none = (CircleMark(0, 0, 1, f"point {NOW}"),), (CircleMark(0, 0, 1, "point"),)
+    assert list(spans([none, none, new, none, new], [1] * 5)) == [(0, 2), (3, 4)]
+    lines = [ROOM // 2] * 5
+    found = list(spans([none] * 5, lines))
+    assert [n for first, last in found for n in range(first, last + 1)] == list(range(5))
+    assert len(found) > 1
+    assert all(sum(lines[first : last + 1]) <= ROOM for first, last in found)
