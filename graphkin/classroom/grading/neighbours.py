@@ -22,7 +22,6 @@ from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import exact_text
-from graphkin.mechanism import Mechanism
 
 Array = Any
 Asked = tuple[Mapping[str, Fraction], tuple[str, ...]]
@@ -50,14 +49,14 @@ class Neighbours(Struct, frozen=True):
         return int(own), int(other)
 
 
-def standards_of(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> list[Standard]:
+def standards_of(lab: Lab, many: Sequence[Asked]) -> list[Standard]:
     """What the answers to some variants are held against."""
     text = lab.scene.read_text(encoding="utf-8")
     named = [
         ({name: exact_text(value) for name, value in settings.items()}, computed)
         for settings, computed in many
     ]
-    return standards(mechanism, text, items(mechanism, lab), lab.rubric, named)
+    return standards(lab.mechanism, text, items(lab.mechanism, lab), lab.rubric, named)
 
 
 def compared(found: Sequence[Standard]) -> Neighbours | None:
@@ -186,9 +185,9 @@ def pencil_fault(lab: Lab, standard: Standard) -> Fault | None:
     return Fault("pencil", field, error, limit) if limit is not None and error > limit else None
 
 
-def pencil_faults(lab: Lab, mechanism: Mechanism, many: Sequence[Asked]) -> list[Fault | None]:
+def pencil_faults(lab: Lab, many: Sequence[Asked]) -> list[Fault | None]:
     """The same of some variants that can be drawn."""
-    found = standards_of(lab, mechanism, many) if many else []
+    found = standards_of(lab, many) if many else []
     return [pencil_fault(lab, standard) for standard in found]
 
 

@@ -20,10 +20,8 @@ from graphkin.classroom.grading.neighbours import pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.lab_model import Lab, Range, ValueList
 from graphkin.classroom.lab.rules import Settings
-from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import plain
-from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
 
 Array = Any
@@ -117,27 +115,26 @@ def fair_ranges(lab: Lab) -> FairRanges:
 
     Raises SceneError where no parameter of the scene has both ends.
     """
-    mechanism = Mechanism(read_scene(lab.scene))
-    space = space_of(mechanism.scene)
-    tried = drawn_within(mechanism, lab, space, whole_box(space))
-    alone = tuple(name for name in mechanism.scene.parameters if name not in space)
+    space = space_of(lab.mechanism.scene)
+    tried = drawn_within(lab, space, whole_box(space))
+    alone = tuple(name for name in lab.mechanism.scene.parameters if name not in space)
     limited = lab.fair.pencil is not None
     fair = tried.places[tried.fairness.fair]
     if tried.complete and len(space) == 1:
         good = tried.fairness.fair.copy()
-        exact = drawn_exactly(mechanism, lab, space, fair) if limited else ()
+        exact = drawn_exactly(lab, space, fair) if limited else ()
         good[good] = exact if limited else True
         ((name, values),) = space.items()
         runs = runs_of(values, good)
         return FairRanges(tried, {name: runs} if runs else None, alone, tuple(exact))
-    exact = drawn_exactly(mechanism, lab, space, fair[:PENCILLED]) if limited else ()
+    exact = drawn_exactly(lab, space, fair[:PENCILLED]) if limited else ()
     worst = max(space, key=tried.guilt)
-    boxes = [*between(whole_box(space), peeled(mechanism, lab, tried))]
-    ranges = [in_box(mechanism, lab, space, box, worst, tried.share == 1) for box in boxes]
+    boxes = [*between(whole_box(space), peeled(lab, tried))]
+    ranges = [in_box(lab, space, box, worst, tried.share == 1) for box in boxes]
     best = max((each for each in ranges if each is not None), key=how_many, default=None)
     if best is None or not limited:
         return FairRanges(tried, best, alone, tuple(exact))
-    inside, share = pencilled(mechanism, lab, best)
+    inside, share = pencilled(lab, best)
     return FairRanges(tried, inside, alone, tuple(exact), share)
 
 
@@ -165,7 +162,7 @@ def between(whole: Box, peeled: Box | None) -> Iterator[Box]:
 
 
 def in_box(
-    mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, worst: str, fair: bool
+    lab: Lab, space: Mapping[str, Range], box: Box, worst: str, fair: bool
 ) -> dict[str, Range | ValueList] | None:
     """The ranges of a box, that of the parameter that decides most as far as all there is fair."""
     ranges: dict[str, Range | ValueList] = {
@@ -173,7 +170,7 @@ def in_box(
     }
     if fair:
         return ranges
-    runs = all_runs(mechanism, lab, space, box, worst)
+    runs = all_runs(lab, space, box, worst)
     return None if runs is None else {**ranges, worst: runs}
 
 
@@ -211,14 +208,12 @@ def whole_box(space: Space) -> Box:
     return [(0, len(values) - 1) for values in space.values()]
 
 
-def drawn_within(
-    mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1
-) -> Tried:
+def drawn_within(lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1) -> Tried:
     """Draws within a box: all that there are, or as many as a design has from a start on."""
     places = draws(box, DRAWS, start)
     many = [settings_at(space, row) for row in places]
     complete = prod(high - low + 1 for low, high in box) <= DRAWS
-    return Tried(space, places, judged(mechanism, lab, many), complete)
+    return Tried(space, places, judged(lab, many), complete)
 
 
 def draws(box: Box, count: int, start: int) -> Array:
@@ -287,7 +282,7 @@ def part_of(values: Range | ValueList, low: int, high: int) -> Range | ValueList
     return parts[0] if len(parts) == 1 else ValueList(tuple(parts))
 
 
-def peeled(mechanism: Mechanism, lab: Lab, tried: Tried) -> Box | None:
+def peeled(lab: Lab, tried: Tried) -> Box | None:
     """The box that peeling leaves, all of whose draws are fair; None where nothing is left."""
     import numpy as np
 
@@ -297,7 +292,7 @@ def peeled(mechanism: Mechanism, lab: Lab, tried: Tried) -> Box | None:
         if found is None:
             return None
         box = pasted(found, whole_box(tried.space), places, fair) if turn == 0 else found
-        more = drawn_within(mechanism, lab, tried.space, box, 1 + (turn + 1) * DRAWS)
+        more = drawn_within(lab, tried.space, box, 1 + (turn + 1) * DRAWS)
         if more.fairness.fair.all():
             return box
         places = np.concatenate([places, more.places])
@@ -338,9 +333,7 @@ def pasted(box: Box, whole: Box, places: Array, fair: Array) -> Box:
     return box
 
 
-def all_runs(
-    mechanism: Mechanism, lab: Lab, space: Mapping[str, Range], box: Box, name: str
-) -> Range | ValueList | None:
+def all_runs(lab: Lab, space: Mapping[str, Range], box: Box, name: str) -> Range | ValueList | None:
     """All values of one parameter that are fair with whatever the box holds of the others."""
     import numpy as np
 
@@ -357,7 +350,7 @@ def all_runs(
         spread = (halton(len(box), len(left) * each, 1 + turn * DRAWS) * sizes).astype(int)
         places = spread + np.array([low for low, _ in box])
         places[:, column] = np.repeat(left, each)
-        fair = judged(mechanism, lab, [settings_at(space, row) for row in places]).fair
+        fair = judged(lab, [settings_at(space, row) for row in places]).fair
         good[left] = fair.reshape(len(left), each).all(axis=1)
         if fair.all():
             break
@@ -384,15 +377,15 @@ def within(box: Box, places: Array) -> Array:
 # --- the pencil ---------------------------------------------------------------------------------
 
 
-def drawn_exactly(mechanism: Mechanism, lab: Lab, space: Space, places: Array) -> Sequence[bool]:
+def drawn_exactly(lab: Lab, space: Space, places: Array) -> Sequence[bool]:
     """Of which fair draws a pencil makes everything as exact as the lab demands."""
     many = [settings_at(space, row) for row in places]
-    fairness = judged(mechanism, lab, many)
+    fairness = judged(lab, many)
     asked = [(each, fairness.computed(i)) for i, each in enumerate(many)]
-    return [fault is None for fault in pencil_faults(lab, mechanism, asked)]
+    return [fault is None for fault in pencil_faults(lab, asked)]
 
 
-def pencilled(mechanism: Mechanism, lab: Lab, ranges: Space) -> tuple[Space, float]:
+def pencilled(lab: Lab, ranges: Space) -> tuple[Space, float]:
     """The part of fair ranges in which a pencil was exact enough in all draws, and 1.
 
     It is peeled off as the space is, by fewer draws, for each is drawn with a pencil by itself.
@@ -407,7 +400,7 @@ def pencilled(mechanism: Mechanism, lab: Lab, ranges: Space) -> tuple[Space, flo
         if box is None or (turn and prod(high - low + 1 for low, high in box) < LEFT):
             break
         more = draws(box, PENCILLED, 1 + turn * PENCILLED)
-        exact = np.array(drawn_exactly(mechanism, lab, ranges, more), dtype=bool)
+        exact = np.array(drawn_exactly(lab, ranges, more), dtype=bool)
         share = share if turn else float(exact.mean())
         if exact.all():
             pairs = zip(ranges.items(), box, strict=True)

@@ -25,12 +25,11 @@ from graphkin.classroom.lab.held_centres import held
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Fair, Item, Lab
 from graphkin.classroom.lab.rules import Settings
-from graphkin.classroom.lab.variant_scales import Loader, scaling, taken
+from graphkin.classroom.lab.variant_scales import scaling, taken
 from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, SlideMotion
 from graphkin.construction.registry import LIMITED
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.scene.read_scene import read_scene
 
 Array = Any
 BLOCK = 4096
@@ -165,56 +164,36 @@ class Fairness(Struct, dict=True):
         return tuple(each.field for each in self.form if wanting & {each.field, each.segment})
 
 
-def judged(mechanism: Mechanism, lab: Lab, many: Sequence[Settings]) -> Fairness:
+def judged(lab: Lab, many: Sequence[Settings]) -> Fairness:
     """The fairness of variants by their exact data, within what the scene allows."""
     import numpy as np
 
-    form = items(mechanism, lab)
+    nothing = [np.zeros(len(many), dtype=bool) for _ in range(2)]
+    unscaled = [np.full(len(many), np.nan) for _ in range(3)]
+    found = Fairness(lab.fair, items(lab.mechanism, lab), *nothing, *unscaled)
     names = dict.fromkeys(name for settings in many for name in settings)
-    parts = []
-    for start in range(0, max(len(many), 1), BLOCK):
+    for start in range(0, len(many), BLOCK):
         block = many[start : start + BLOCK]
         given = {n: np.array([float(settings[n]) for settings in block]) for n in names}
-        values = {**mechanism.scene.values, **given}
-        load = loader(lab, block)
-        parts.append(judged_block(mechanism, lab.fair, form, values, len(block), load))
-    return parts[0] if len(parts) == 1 else joined(parts)
+        judge(found, lab, block, {**lab.mechanism.scene.values, **given}, start)
+    return found
 
 
-def loader(lab: Lab, many: Sequence[Settings]) -> Loader:
-    """What makes the mechanism of one of many variants from its exact data."""
-
-    def load(index: int) -> Mechanism:
-        return Mechanism(read_scene(lab.scene, many[index]))
-
-    return load
-
-
-def judged_block(
-    mechanism: Mechanism,
-    limits: Fair,
-    form: Sequence[Item],
-    values: Mapping[str, Any],
-    count: int,
-    load: Loader,
-) -> Fairness:
-    """The fairness of as many variants as go into one block."""
+def judge(
+    found: Fairness, lab: Lab, block: Sequence[Settings], values: Mapping[str, Any], start: int
+) -> None:
+    """Judge as many variants as go into one block, put at their places from a start on."""
     import numpy as np
 
-    closes = closing(mechanism, values, count)
-    scaled = scaling(mechanism, values, count, load, closes)
-    scales = scaled.together(range(count))
-    found = Fairness(
-        limits,
-        tuple(form),
-        closes,
-        np.isfinite(scales.kL),
-        scales.kL,
-        scales.larger,
-        scales.larger_still,
-    )
+    mechanism, where = lab.mechanism, slice(start, start + len(block))
+    closes = found.closes[where] = closing(mechanism, values, len(block))
+    scaled = scaling(mechanism, values, len(block), lambda i: lab.variant(block[i]), closes)
+    scales = scaled.together(range(len(block)))
+    fits = found.fits[where] = np.isfinite(scales.kL)
+    found.kL[where], found.larger[where] = scales.kL, scales.larger
+    found.larger_still[where] = scales.larger_still
     for triangles in (True, False):
-        which = np.flatnonzero(closes & found.fits & (scales.triangles == triangles))
+        which = np.flatnonzero(closes & fits & (scales.triangles == triangles))
         if len(which):
             own = scaled.together(which)
             drawn = sketches(
@@ -225,8 +204,7 @@ def judged_block(
                 rates={number: rate[which] for number, rate in scaled.rates.items()},
                 margins=True,
             )
-            put_drawn(found, drawn, form, own, which)
-    return found
+            put_drawn(found, drawn, found.form, own, start + which)
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
@@ -282,26 +260,3 @@ def least_of(room: Mapping[str, Array], size: int, default: float) -> Array:
     for array in room.values():
         least = np.fmin(least, array)
     return np.where(np.isnan(least), default, least)
-
-
-def joined(parts: Sequence[Fairness]) -> Fairness:
-    """Blocks of variants as one."""
-    import numpy as np
-
-    whole: dict[str, Any] = {"limits": parts[0].limits, "form": parts[0].form}
-    for name in ("closes", "fits", "kL", "larger", "larger_still"):
-        whole[name] = np.concatenate([getattr(part, name) for part in parts])
-    for name in ("crossings", "lengths", "triangles", "rays", "on_page"):
-        keys = dict.fromkeys(key for part in parts for key in getattr(part, name))
-        whole[name] = {
-            key: np.concatenate([row(part, name, key) for part in parts]) for key in keys
-        }
-    return Fairness(**whole)
-
-
-def row(part: Fairness, name: str, key: str) -> Array:
-    """One array of a block; NaN, or false, where the block has none of it."""
-    import numpy as np
-
-    empty = np.zeros(len(part), dtype=bool) if name == "on_page" else np.full(len(part), np.nan)
-    return getattr(part, name).get(key, empty)

@@ -13,9 +13,7 @@ from msgspec.structs import replace
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.lab_trial import LabTrial
-from graphkin.mechanism import Mechanism
 from graphkin.scene.model import DRIVEN, JOINED
-from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import GraphkinError
 
 CHANGES = (1, 2, 3, 5, 8, 12)
@@ -61,7 +59,7 @@ def mended(lab: Lab, outcome: LabTrial) -> Mending | None:
 def is_fair(lab: Lab, outcome: LabTrial) -> bool:
     """Whether a scene is fair to all of the variants on which a lab was tried."""
     try:
-        return bool(judged(Mechanism(read_scene(lab.scene)), lab, outcome.many).fair.all())
+        return bool(judged(lab, outcome.many).fair.all())
     except GraphkinError:
         return False
 

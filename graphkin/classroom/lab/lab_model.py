@@ -11,7 +11,9 @@ from typing import Literal
 from msgspec import Struct, field
 
 from graphkin.construction.core.plan_vector import PlanVector
+from graphkin.mechanism import Mechanism
 from graphkin.scene.quantity import Quantity
+from graphkin.scene.read_scene import read_scene
 
 NUMBER = "number"
 """The name under which a formula knows the student's number."""
@@ -118,7 +120,7 @@ class Rubric(Struct, frozen=True):
     hold: bool = False
 
 
-class Lab(Struct, frozen=True):
+class Lab(Struct, frozen=True, dict=True):
     """A lab's folder, its scene as a file, and what ``lab.toml`` states.
 
     ``text`` is the very text of lab.toml, for the manifest's hash.
@@ -131,6 +133,15 @@ class Lab(Struct, frozen=True):
     fair: Fair = Fair()
     rubric: Rubric = Rubric()
     text: str = ""
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        """The mechanism of its scene as that is written."""
+        return self.variant({})
+
+    def variant(self, settings: Mapping[str, Fraction]) -> Mechanism:
+        """The mechanism with some exact data. Raises SceneError."""
+        return Mechanism(read_scene(self.scene, settings))
 
 
 class Item(Struct, frozen=True, dict=True):

@@ -13,8 +13,6 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
-from graphkin.mechanism import Mechanism
-from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError
 
 TRIED = 1000
@@ -95,24 +93,23 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
 
     Raises SceneError where the formula suits no number.
     """
-    mechanism = Mechanism(read_scene(lab.scene))
     if lab.rule.counts:
-        found = list(by_numbers(lab, mechanism, count))
+        found = list(by_numbers(lab, count))
     else:
         ids = [f"{i:04d}" for i in range(1, count + 1)]
         found = [(name, settings(lab, Student(i, name))) for i, name in enumerate(ids, 1)]
     names, many = zip(*found, strict=True)
-    fairness = judged(mechanism, lab, many)
-    form = items(mechanism, lab)
+    fairness = judged(lab, many)
+    form = items(lab.mechanism, lab)
     drawn = {*fairness.lengths, *fairness.rays, *fairness.on_page}
     unasked = [item.field for item in form if item.what == "segment" and item.field not in drawn]
-    unmarked = [name for name in asked_fields(mechanism) if name not in lab.rubric.points]
+    unmarked = [name for name in asked_fields(lab.mechanism) if name not in lab.rubric.points]
     sound = bool(fairness.fits.any())
     students = [
         Student(i, name, i if lab.rule.counts else None) for i, name in enumerate(names[:CLASS], 1)
     ]
     every = assigned(lab, students)
-    pencilled, coarse = drawn_coarsely(lab, mechanism, names, many, fairness)
+    pencilled, coarse = drawn_coarsely(lab, names, many, fairness)
     drawn_at_all = [each for each in every if each.flattest is not None]
     return LabTrial(
         lab,
@@ -130,28 +127,24 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
 
 
 def drawn_coarsely(
-    lab: Lab,
-    mechanism: Mechanism,
-    names: Sequence[str],
-    many: Sequence[Settings],
-    fairness: Fairness,
+    lab: Lab, names: Sequence[str], many: Sequence[Settings], fairness: Fairness
 ) -> tuple[int, dict[str, Fault]]:
     """How many fair variants a pencil was tried on, and which it draws too inexactly."""
     if lab.fair.pencil is None:
         return 0, {}
     which = [int(i) for i in fairness.fair.nonzero()[0][:PENCILLED]]
-    found = pencil_faults(lab, mechanism, [(many[i], fairness.computed(i)) for i in which])
+    found = pencil_faults(lab, [(many[i], fairness.computed(i)) for i in which])
     pairs = zip(which, found, strict=True)
     return len(which), {names[i]: fault for i, fault in pairs if fault is not None}
 
 
-def by_numbers(lab: Lab, mechanism: Mechanism, count: int) -> Iterable[tuple[str, Settings]]:
+def by_numbers(lab: Lab, count: int) -> Iterable[tuple[str, Settings]]:
     """The numbers from 1 up to the last that the scene allows, with their data."""
     problems: list[Problem] = []
     for number in range(1, count + 1):
         try:
             given = settings(lab, Student(number, str(number), number))
-            problems = outside(mechanism.scene.parameters, given)
+            problems = outside(lab.mechanism.scene.parameters, given)
         except SceneError as error:
             problems = list(error.problems)
         if problems and number == 1:

@@ -32,8 +32,6 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import Assigned, assigned
 from graphkin.drawing.richtext import plain
-from graphkin.mechanism import Mechanism
-from graphkin.scene.read_scene import read_scene
 from graphkin.text import Words
 from graphkin.writers.templates import from_template
 
@@ -55,7 +53,7 @@ class Question(Struct, frozen=True):
 def students_of(lab: Lab, count: int) -> list[Student]:
     """As many students as a rule has variants for: the numbers that the scene allows, or ids."""
     if lab.rule.counts:
-        numbers = by_numbers(lab, Mechanism(read_scene(lab.scene)), MOST)
+        numbers = by_numbers(lab, MOST)
         return [Student(int(number), number, int(number)) for number, _ in numbers][:count]
     return [Student(i, f"{i:04d}") for i in range(1, count + 1)]
 

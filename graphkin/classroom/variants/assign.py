@@ -19,10 +19,8 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, settings
 from graphkin.classroom.roster.read_roster import Check
 from graphkin.classroom.roster.student import Student
-from graphkin.mechanism import Mechanism
 from graphkin.scene.parameters import misfit, range_words
 from graphkin.scene.quantity import shortest
-from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, RosterError, SceneError
 
 VAIN = 300
@@ -67,14 +65,13 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     again, as often as the rule allows; the least unfair is kept.
     Raises RosterError for numbers with which a formula leaves what the scene allows.
     """
-    mechanism = Mechanism(read_scene(lab.scene))
     if lab.rule.counts:
-        refuse_misfits(lab, students, mechanism, roster)
-    every = fairest(lab, students, mechanism)
-    return spaced(lab, mechanism, every) if lab.fair.needs_keys else every
+        refuse_misfits(lab, students, roster)
+    every = fairest(lab, students)
+    return spaced(lab, every) if lab.fair.needs_keys else every
 
 
-def spaced(lab: Lab, mechanism: Mechanism, every: list[Assigned]) -> list[Assigned]:
+def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
     """The same, where a pencil draws everything as exactly as it should, and nobody's right values
     earn too much on the sheet of one before in the list.
 
@@ -86,7 +83,7 @@ def spaced(lab: Lab, mechanism: Mechanism, every: list[Assigned]) -> list[Assign
     found, waiting = [*every], [i for i, each in enumerate(every) if each.fair]
     while waiting:
         tried = [found[i] for i in waiting]
-        held = standards_of(lab, mechanism, [(each.settings, each.computed) for each in tried])
+        held = standards_of(lab, [(each.settings, each.computed) for each in tried])
         room = with_room(lab, kept, list(zip(tried, held, strict=True)))
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
         again = [i for i in near if found[i].attempt + 1 < lab.rule.attempts]
@@ -96,7 +93,7 @@ def spaced(lab: Lab, mechanism: Mechanism, every: list[Assigned]) -> list[Assign
                 found[i] = replace(found[i], faults=(fault,))
             break
         since = [found[i].attempt + 1 for i in again]
-        redrawn = fairest(lab, [found[i].student for i in again], mechanism, since)
+        redrawn = fairest(lab, [found[i].student for i in again], since)
         waiting = []
         for i, each in zip(again, redrawn, strict=True):
             found[i] = each if each.fair else replace(found[i], faults=(near[i],))
@@ -135,17 +132,15 @@ def with_room(
 def held_against(lab: Lab, every: Sequence[Assigned]) -> list[Standard]:
     """What the answers of students who can draw are held against."""
     asked = [(each.settings, each.computed) for each in every]
-    return standards_of(lab, Mechanism(read_scene(lab.scene)), asked) if asked else []
+    return standards_of(lab, asked) if asked else []
 
 
-def refuse_misfits(
-    lab: Lab, students: Sequence[Student], mechanism: Mechanism, roster: str
-) -> None:
+def refuse_misfits(lab: Lab, students: Sequence[Student], roster: str) -> None:
     """RosterError with the row of each number to which a formula gives what no scene allows."""
     problems = [
         Problem(f"{roster}, row {student.row}", p.found, p.expected, p.hint)
         for student in students
-        for p in misfits(lab, mechanism, student)
+        for p in misfits(lab, student)
     ]
     if problems:
         raise RosterError(problems)
@@ -153,18 +148,16 @@ def refuse_misfits(
 
 def check_of(lab: Lab) -> Check | None:
     """What finds students whose number gives no data that the scene allows; none for ranges."""
-    if not lab.rule.counts:
-        return None
-    return partial(misfits, lab, Mechanism(read_scene(lab.scene)))
+    return partial(misfits, lab) if lab.rule.counts else None
 
 
-def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
+def misfits(lab: Lab, student: Student) -> list[Problem]:
     """What is wrong with the data that a formula gives a student: none, or what no scene allows."""
     try:
         given = settings(lab, student)
     except SceneError as error:
         return list(error.problems)
-    parameters, gives = mechanism.scene.parameters, f"number {student.number} gives"
+    parameters, gives = lab.mechanism.scene.parameters, f"number {student.number} gives"
     return [
         Problem("", f"{gives} {name} = {shortest(value)}, which is {wrong}", range_words(each))
         for name, value in given.items()
@@ -172,9 +165,7 @@ def misfits(lab: Lab, mechanism: Mechanism, student: Student) -> list[Problem]:
     ]
 
 
-def fairest(
-    lab: Lab, students: Sequence[Student], mechanism: Mechanism, since: Sequence[int] = ()
-) -> list[Assigned]:
+def fairest(lab: Lab, students: Sequence[Student], since: Sequence[int] = ()) -> list[Assigned]:
     """The first fair data that the rule gives each student, else the least unfair of all tried.
 
     ``since`` are the attempts with which each begins, the first where it is left out.
@@ -184,7 +175,7 @@ def fairest(
     waiting = list(range(len(students)))
     while waiting:
         many = [settings(lab, students[i], attempts[i]) for i in waiting]
-        fairness = judged(mechanism, lab, many)
+        fairness = judged(lab, many)
         for place, i in enumerate(waiting):
             drawn = one(students[i], many[place], attempts[i], fairness, place)
             found[i] = min(found.get(i, drawn), drawn, key=unfairness)

@@ -18,7 +18,6 @@ from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker, is_right
 from graphkin.classroom.grading.neighbours import RightValues, is_within, neighbours, standards_of
 from graphkin.classroom.grading.one_drawing import is_near
-from graphkin.mechanism import load
 from graphkin.text import Words
 from tests.chosen import EVERY
 from tests.classroom.grading import own_labs
@@ -151,7 +150,7 @@ def test_what_another_s_key_earns_counts_what_is_right_by_all_of_a_sheet():
     """Cranks that differ by a few hundredths, against the marking of each."""
     lab = lab_of("slotted-lever")
     many = [({"n": Fraction(12), "r": Fraction(r)}, ()) for r in (100, 103, 105, 106, 107, 110)]
-    found = standards_of(lab, load(lab.name), many)
+    found = standards_of(lab, many)
     told, own = neighbours(found), RightValues.of(found)
     alone = own.earned(own, is_within)
     more = 0

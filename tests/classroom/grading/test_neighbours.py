@@ -22,7 +22,6 @@ from graphkin.classroom.lab.lab_model import LabRule, Range
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import assigned
-from graphkin.mechanism import load
 from tests.classroom.grading.students import LABS, lab_of
 
 NUMBERS = (3, 7, 8, 12, 21)
@@ -32,7 +31,7 @@ NUMBERS = (3, 7, 8, 12, 21)
 def found(request):
     lab = lab_of(request.param)
     many = [({"n": Fraction(n)}, ()) for n in NUMBERS]
-    return standards_of(lab, load(request.param), many)
+    return standards_of(lab, many)
 
 
 def test_a_key_earns_on_another_sheet_what_its_marking_says(found):
@@ -76,7 +75,7 @@ STUDENTS = [Student(i, f"s{i}", i) for i in range(1, 9)]
 
 def closest(lab, every) -> float:
     """The most that right values of one earn on another's sheet."""
-    told = neighbours(standards_of(lab, load(lab.name), [(e.settings, e.computed) for e in every]))
+    told = neighbours(standards_of(lab, [(e.settings, e.computed) for e in every]))
     return float(np.nanmax(told.exact))
 
 
@@ -128,11 +127,11 @@ def test_the_least_exact_field_is_that_of_the_largest_error(found):
 
 def test_who_would_draw_too_inexactly_is_drawn_again():
     lab = drawing_lab(None)
-    told = neighbours(standards_of(lab, load(lab.name), asked(assigned(lab, STUDENTS))))
+    told = neighbours(standards_of(lab, asked(assigned(lab, STUDENTS))))
     limit = float(np.median(told.pencil))
     found = assigned(replace(lab, fair=replace(lab.fair, pencil=limit)), STUDENTS)
     assert all(each.fair for each in found)
-    told = neighbours(standards_of(lab, load(lab.name), asked(found)))
+    told = neighbours(standards_of(lab, asked(found)))
     assert told.pencil.max() <= limit
     # exactly known values are right up to what is allowed
     assert list(is_within(np.array([-2.0, 1.9, 2.1]), np.array(2.0), None)) == [True, True, False]

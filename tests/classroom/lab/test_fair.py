@@ -12,7 +12,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin import load
-from graphkin.classroom.lab.fairness import judged, loader
+from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.lab.variant_scales import by_arrays, scaling
 from graphkin.construction.core.layout import lay_out
@@ -31,7 +31,7 @@ def judgement(request):
     lab = read_lab(request.param)
     mechanism = load(request.param)
     singles = [sheets_of(mechanism_of(request.param, given)) for given in NUMBERS]
-    return lab, mechanism, judged(mechanism, lab, NUMBERS), singles
+    return lab, mechanism, judged(lab, NUMBERS), singles
 
 
 def test_segments_are_as_long_as_the_tables_of_the_sheets_say(judgement):
@@ -147,9 +147,9 @@ def turning(tmp_path_factory):
 @pytest.mark.parametrize("name", ["long", "tall"])
 def test_centres_that_come_and_go_are_where_the_layout_has_them(turning, name):
     path = turning[name]
-    mechanism, lab = load(path), lab_of(path)
+    lab = lab_of(path)
     many = [{"n": Fraction(angle)} for angle in range(0, 360, 5)]
-    found = judged(mechanism, lab, many)
+    found = judged(lab, many)
     seen = set()
     for i, given in enumerate(many):
         for sheet in sheets_of(mechanism_of(path, given)):
@@ -171,7 +171,7 @@ def test_scenes_that_go_one_by_one_are_judged_all_the_same(name):
     mechanism = load(SCENES / name)
     parameter = next(iter(mechanism.scene.parameters.values()))
     value = Fraction(mechanism.scene.values[parameter.name])
-    found = judged(mechanism, lab_of(SCENES / name), [{parameter.name: value}])
+    found = judged(lab_of(SCENES / name), [{parameter.name: value}])
     assert found.closes.all() and found.fits.all()
     for sheet in sheets_of(mechanism):
         tables = {name: mm for name, _, mm, _ in vectors(sheet)}
@@ -200,7 +200,7 @@ def held(name: str | Path, parameter: str, values: range) -> None:
     many = [{parameter: Fraction(value)} for value in values]
     arrays = {**mechanism.scene.values, parameter: np.array(values, dtype=float)}
     lab = lab_of(Path(mechanism.scene.source))
-    found = scaling(mechanism, arrays, len(many), loader(lab, many)).own
+    found = scaling(mechanism, arrays, len(many), lambda i: lab.variant(many[i])).own
     for i, given in enumerate(many):
         try:
             own = scales(load(name, **given))

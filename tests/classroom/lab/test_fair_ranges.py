@@ -65,7 +65,7 @@ def with_ranges(folder, ranges, rest=REST):
 def judging(monkeypatch, region):
     """Let what is fair be a region of the data instead."""
 
-    def judged(mechanism, lab, many):
+    def judged(lab, many):
         return SimpleNamespace(fair=np.array([region(each) for each in many]))
 
     monkeypatch.setattr(module, "judged", judged)
@@ -205,9 +205,9 @@ def test_all_values_of_a_parameter_are_tried_unless_they_are_many(lab, monkeypat
     good = {1, 2, 5, count - 1}
     judging(monkeypatch, lambda each: each["a"] in good and each["b"] < 4)
     space = {"a": Range(0, count - 1, 1), "b": Range(0, 9, 1)}
-    found = module.all_runs(lab, lab, space, [(1, 2), (0, 3)], "a")
+    found = module.all_runs(lab, space, [(1, 2), (0, 3)], "a")
     assert {found.value(k) for k in range(len(found))} == (good if count <= 10 else {1, 2})
-    assert module.all_runs(lab, lab, space, [(1, 2), (4, 9)], "a") is None
+    assert module.all_runs(lab, space, [(1, 2), (4, 9)], "a") is None
 
 
 def test_runs_are_ranges_and_single_values():

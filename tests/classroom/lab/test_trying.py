@@ -158,7 +158,7 @@ def test_to_whom_a_formula_gives_what_a_pencil_draws_too_coarsely_is_told(mine):
     trial = tried(lab)
     fair = trial.fairness.fair.nonzero()[0]
     asked = [(trial.many[i], trial.fairness.computed(i)) for i in fair]
-    standards = standards_of(lab, mechanism_of("pump-collinear", {}), asked)
+    standards = standards_of(lab, asked)
     errors = {trial.names[i]: worst_drawn(s)[1] for i, s in zip(fair, standards, strict=True)}
     coarse = {name: error for name, error in errors.items() if error > 0.05}
     assert {name: fault.value for name, fault in trial.coarse.items()} == coarse

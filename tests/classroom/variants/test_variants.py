@@ -14,7 +14,6 @@ import pytest
 from click.testing import CliRunner
 from msgspec.structs import replace
 
-from graphkin import load
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, ValueList
@@ -67,7 +66,7 @@ def test_what_ranges_give_is_drawn_again_until_it_is_fair():
         assert each.settings == settings(lab, each.student, each.attempt)
     for each in again:
         earlier = [settings(lab, each.student, attempt) for attempt in range(each.attempt)]
-        assert not judged(load("pump"), lab, earlier).fair.any()
+        assert not judged(lab, earlier).fair.any()
     lines = [*class_lines(lab, found)]
     (first,) = (n for n, line in enumerate(lines) if line.startswith("again "))
     told = [line.split() for line in lines[first : first + len(again) + 1]]
