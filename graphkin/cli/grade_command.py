@@ -162,7 +162,8 @@ def grade(  # noqa: PLR0915
         read_decisions,
         settled,
     )
-    from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook
+    from graphkin.classroom.grading.gradebook import with_marks
+    from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
     from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
     from graphkin.classroom.grading.releases import releases
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
@@ -203,7 +204,7 @@ def grade(  # noqa: PLR0915
     spoken = words_in(TERMINAL)
     points = points_by_id(found, full)
     books = {
-        path: filled_gradebook(path, points, column, opened.signs, match or "")
+        path: with_marks(read_gradebook(path), points, column, opened.signs, match or "")
         for path in gradebooks
     }
     files |= {gradebook_name(path): book.data for path, book in books.items()}

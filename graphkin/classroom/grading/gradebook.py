@@ -10,10 +10,8 @@ import re
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import Protocol
 
 from msgspec import Struct
-from msgspec.structs import replace
 
 from graphkin.classroom.roster.read_roster import NAMES, POSSIBLE
 from graphkin.classroom.roster.spreadsheets import folded
@@ -57,26 +55,38 @@ class Cell(Struct, frozen=True):
 
 
 class Gradebook(Struct, frozen=True):
-    """An export: its rows of cells, each with the end of its line."""
+    """An export, however it is written: the name of its file, and its cells, row by row, the head
+    first.
+    """
 
     name: str
     rows: tuple[tuple[Cell, ...], ...]
+
+    def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
+        """Its bytes with the marks of some lines in a column."""
+        raise NotImplementedError
+
+
+class CsvGradebook(Gradebook, frozen=True):
+    """One as CSV, each row with the end of its line."""
+
     ends: tuple[str, ...]
     separator: str
     coding: str
     bom: bytes
 
-
-class GradebookTable(Protocol):
-    """What any gradebook has, however it is written: the name of its file, and its cells."""
-
-    @property
-    def name(self) -> str:
-        """The name of its file."""
-
-    @property
-    def rows(self) -> tuple[tuple[Cell, ...], ...]:
-        """Its cells, row by row, the head first."""
+    def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
+        """Its bytes with the marks; decimals are written as its others are."""
+        comma = writes_comma(self, column)
+        rows = list(self.rows)
+        for line, mark in marks.items():
+            rows[line] = with_mark(rows[line], column, mark_text(mark, comma), self.separator)
+        text = "".join(
+            self.separator.join(each.raw for each in row) + end
+            for row, end in zip(rows, self.ends, strict=True)
+        )
+        errors = "surrogateescape" if self.coding == "cp1250" else "strict"
+        return self.bom + text.encode(self.coding, errors)
 
 
 class Filled(Struct, frozen=True):
@@ -96,7 +106,7 @@ class Filled(Struct, frozen=True):
     worth: Fraction | None
     replaced: int
     strangers: Mapping[int, str]
-    data: bytes = b""
+    data: bytes
 
     @property
     def count(self) -> int:
@@ -117,30 +127,6 @@ def with_marks(
     ``signs`` are those of the whole class, also of who gets no mark. Raises GradebookError where
     that cannot be told.
     """
-    found = places(book, marks, column, signs, match)
-    comma = writes_comma(book, found.place)
-    rows = list(book.rows)
-    for line, who in found.lines.items():
-        text = mark_text(marks[who], comma)
-        rows[line] = with_mark(rows[line], found.place, text, book.separator)
-    text = "".join(
-        book.separator.join(each.raw for each in row) + end
-        for row, end in zip(rows, book.ends, strict=True)
-    )
-    data = book.bom + text.encode(
-        book.coding, "surrogateescape" if book.coding == "cp1250" else "strict"
-    )
-    return replace(found, data=data)
-
-
-def places(
-    book: GradebookTable,
-    marks: Mapping[str, Fraction],
-    column: str | None,
-    signs: Signs = NOBODY,
-    match: Match = "",
-) -> Filled:
-    """Where the marks go. Raises GradebookError where that cannot be told."""
     signs = signs if signs.ids else signs_of(marks)
     where = id_column(book, signs, match)
     target = mark_column(book, [each.text for each in book.rows[0]], column, where)
@@ -163,12 +149,11 @@ def places(
     replaced = sum(is_other(text, marks[lines[line]]) for line, text in before.items())
     head = book.rows[0][target].text
     worth, others = worth_of(book, target), strangers(book, where, {line for line, _ in ours})
-    return Filled(target, head, lines, absent, worth, replaced, others)
+    data = book.filled(target, {line: marks[who] for line, who in lines.items()})
+    return Filled(target, head, lines, absent, worth, replaced, others, data)
 
 
-def students(
-    book: GradebookTable, where: int, signs: Signs, match: Match
-) -> Iterator[tuple[int, str]]:
+def students(book: Gradebook, where: int, signs: Signs, match: Match) -> Iterator[tuple[int, str]]:
     """The student of each line; of one without an id whose e-mail address stands in it, unless
     ids alone shall match, or another line has that id.
     """
@@ -186,7 +171,7 @@ def students(
                 yield line, who
 
 
-def strangers(book: GradebookTable, where: int, ours: Collection[int]) -> dict[int, str]:
+def strangers(book: Gradebook, where: int, ours: Collection[int]) -> dict[int, str]:
     """What those are called who have an id or an address, but are nobody of the class, by row."""
     names = [i for i, head in enumerate(book.rows[0]) if folded(head.text) in NAMED]
     found: dict[int, str] = {}
@@ -197,7 +182,7 @@ def strangers(book: GradebookTable, where: int, ours: Collection[int]) -> dict[i
     return found
 
 
-def refuse_names(book: GradebookTable, column: int, ids: int) -> None:
+def refuse_names(book: Gradebook, column: int, ids: int) -> None:
     """Raise GradebookError for a column that says who somebody is: no mark goes there."""
     head = book.rows[0][column].text
     texts = [text_at(row, column) for row in of_students(book, ids)]
@@ -223,7 +208,7 @@ def is_other(text: str, mark: Fraction) -> bool:
     return text not in EMPTY
 
 
-def worth_of(book: GradebookTable, column: int) -> Fraction | None:
+def worth_of(book: Gradebook, column: int) -> Fraction | None:
     """The points that a column is worth: Canvas has a row for them, Moodle's grading worksheet a
     column; None where nothing says so."""
     row = points_row(book)
@@ -235,12 +220,12 @@ def worth_of(book: GradebookTable, column: int) -> Fraction | None:
     return Fraction(text) if DECIMAL.fullmatch(text) else None
 
 
-def points_row(book: GradebookTable) -> Sequence[Cell]:
+def points_row(book: Gradebook) -> Sequence[Cell]:
     """Canvas's row of what each column is worth; nothing where there is none."""
     return next((row for row in book.rows[1:4] if is_possible(row)), ())
 
 
-def rows_of(book: GradebookTable) -> Iterator[tuple[int, Sequence[Cell]]]:
+def rows_of(book: Gradebook) -> Iterator[tuple[int, Sequence[Cell]]]:
     """The rows below the head by their lines, but that of what each column is worth."""
     every = enumerate(book.rows[1:], 1)
     return ((line, row) for line, row in every if not is_possible(row))
@@ -251,7 +236,7 @@ def is_possible(row: Sequence[Cell]) -> bool:
     return any(each.text == POSSIBLE for each in row[:1])
 
 
-def id_column(book: GradebookTable, signs: Signs, match: Match) -> int:
+def id_column(book: Gradebook, signs: Signs, match: Match) -> int:
     """The column in which most cells are ids of the class, in whatever language it is named; else
     that of most e-mail addresses, or of ids without the zeros before them."""
     counts = {
@@ -272,7 +257,7 @@ def id_column(book: GradebookTable, signs: Signs, match: Match) -> int:
     raise GradebookError(Problem(book.name, f"no column holds {meant} of this class", "", hint))
 
 
-def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counter[int]:
+def known_cells(book: Gradebook, is_known: Callable[[str], bool]) -> Counter[int]:
     """How many cells of each column say who somebody of the class is."""
     return Counter(
         i
@@ -282,7 +267,7 @@ def known_cells(book: GradebookTable, is_known: Callable[[str], bool]) -> Counte
     )
 
 
-def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, ids: int) -> int:
+def mark_column(book: Gradebook, head: Sequence[str], column: str | None, ids: int) -> int:
     """The column for the marks: the one that is named, else the only empty one but feedback and
     what Canvas computes; of several that of Moodle's own name."""
     students = of_students(book, ids)
@@ -315,7 +300,7 @@ def mark_column(book: GradebookTable, head: Sequence[str], column: str | None, i
     return found[0]
 
 
-def of_students(book: GradebookTable, ids: int) -> list[Sequence[Cell]]:
+def of_students(book: Gradebook, ids: int) -> list[Sequence[Cell]]:
     """The rows of students, who have something in the column of ids; not those of averages."""
     return [row for _, row in rows_of(book) if text_at(row, ids)]
 
@@ -325,7 +310,7 @@ def is_comment(head: str) -> bool:
     return head.casefold().startswith(("feedback", "comment", "commenti", "comentarii"))
 
 
-def writes_comma(book: Gradebook, target: int) -> bool:
+def writes_comma(book: CsvGradebook, target: int) -> bool:
     """Whether a gradebook writes decimals with a comma: as its other numbers do."""
     texts = [each.text for row in book.rows[1:] for i, each in enumerate(row) if i != target]
     commas = sum(COMMA.fullmatch(text) is not None for text in texts)

@@ -16,22 +16,15 @@ from fractions import Fraction
 from pathlib import Path
 from xml.parsers.expat import ExpatError
 
-from msgspec import Struct
-from msgspec.structs import replace
-
 from graphkin.classroom.grading.gradebook import (
-    NOBODY,
     Cell,
-    Filled,
+    CsvGradebook,
     Gradebook,
     GradebookError,
     mark_text,
-    places,
-    with_marks,
 )
 from graphkin.classroom.roster.sheet_rows import MOST_CELLS, too_large
 from graphkin.classroom.roster.spreadsheets import bytes_of, separator_of
-from graphkin.classroom.roster.student_signs import Match, Signs
 from graphkin.classroom.roster.xlsx import cell_text, full_rows, open_sheet, opened, unreadable
 from graphkin.text.errors import Problem, RosterError
 
@@ -39,8 +32,10 @@ BOMS = {b"\xef\xbb\xbf": "utf-8-sig", b"\xff\xfe": "utf-16-le", b"\xfe\xff": "ut
 
 
 def read_gradebook(path: Path) -> Gradebook:
-    """An export as it stands. Raises GradebookError where it is no table."""
+    """An export as it stands, CSV or XLSX. Raises GradebookError where it is no table."""
     data = bytes_of(path)
+    if data.startswith(START):
+        return read_workbook(data, path.name)
     bom = next((mark for mark in BOMS if data.startswith(mark)), b"")
     coding = BOMS.get(bom, "utf-8").removesuffix("-sig")
     try:
@@ -51,7 +46,7 @@ def read_gradebook(path: Path) -> Gradebook:
     rows, ends = split(text, separator, path.name)
     if len(rows) < 2:
         raise GradebookError(Problem(path.name, "has no row below its head", "a gradebook"))
-    return Gradebook(path.name, rows, ends, separator, coding, bom)
+    return CsvGradebook(path.name, rows, ends, separator, coding, bom)
 
 
 def split(
@@ -102,33 +97,33 @@ WORKBOOK = re.compile(r"xl/workbook[0-9]*\.xml")
 """The part of the file that says how formulas are computed."""
 
 
-def filled_gradebook(
-    path: Path,
-    marks: Mapping[str, Fraction],
-    column: str | None = None,
-    signs: Signs = NOBODY,
-    match: Match = "",
-) -> Filled:
-    """An export, CSV or XLSX, with the marks in a column. Raises GradebookError."""
-    data = bytes_of(path)
-    if data.startswith(START):
-        return filled_workbook(read_workbook(data, path.name), marks, column, signs, match)
-    return with_marks(read_gradebook(path), marks, column, signs, match)
-
-
-class Workbook(Struct, frozen=True):
+class Workbook(Gradebook, frozen=True):
     """An export as XLSX: its file, and the cells of the sheet that was open last.
 
     A row that holds nothing has no cells. ``formulas`` are the places of formulas, by line and
     column from 0; ``sheet`` and ``sheets`` the parts of the file that hold this and all sheets.
     """
 
-    name: str
     data: bytes
-    rows: tuple[tuple[Cell, ...], ...]
     formulas: frozenset[tuple[int, int]]
     sheet: str
     sheets: tuple[str, ...]
+
+    def filled(self, column: int, marks: Mapping[int, Fraction]) -> bytes:
+        """Its bytes with the marks. Raises GradebookError where they would replace formulas."""
+        wrong = [line for line in marks if (line, column) in self.formulas]
+        if wrong:
+            where = f"{self.name}, row {wrong[0] + 1}"
+            text = f'"{self.rows[0][column].text}" holds a formula'
+            hint = "name another one with --column"
+            raise GradebookError(Problem(where, text, "a column for points", hint))
+        numbers = {
+            (line + 1, column + 1): mark_text(mark, comma=False) for line, mark in marks.items()
+        }
+        try:
+            return with_cells(self, numbers)
+        except (ExpatError, ValueError) as error:
+            raise GradebookError(unreadable(self.name).problems) from error
 
 
 def read_workbook(data: bytes, name: str) -> Workbook:
@@ -150,38 +145,7 @@ def read_workbook(data: bytes, name: str) -> Workbook:
         raise GradebookError(Problem(name, "has nothing in its first row", "the names of columns"))
     if len(rows) < 2:
         raise GradebookError(Problem(name, "has no row below its head", "a gradebook"))
-    return Workbook(name, data, tuple(rows), frozenset(formulas), part, parts)
-
-
-def filled_workbook(
-    book: Workbook,
-    marks: Mapping[str, Fraction],
-    column: str | None = None,
-    signs: Signs = NOBODY,
-    match: Match = "",
-) -> Filled:
-    """The workbook with the marks in a column. Raises GradebookError where that cannot be told."""
-    found = places(book, marks, column, signs, match)
-    refuse_formulas(book, found)
-    numbers = {
-        (line + 1, found.place + 1): mark_text(marks[who], comma=False)
-        for line, who in found.lines.items()
-    }
-    try:
-        data = with_cells(book, numbers)
-    except (ExpatError, ValueError) as error:
-        raise GradebookError(unreadable(book.name).problems) from error
-    return replace(found, data=data)
-
-
-def refuse_formulas(book: Workbook, found: Filled) -> None:
-    """Raise GradebookError where marks would take the place of formulas."""
-    wrong = [line for line in found.lines if (line, found.place) in book.formulas]
-    if wrong:
-        where = f"{book.name}, row {wrong[0] + 1}"
-        text = f'"{found.column}" holds a formula'
-        hint = "name another one with --column"
-        raise GradebookError(Problem(where, text, "a column for points", hint))
+    return Workbook(name, tuple(rows), data, frozenset(formulas), part, parts)
 
 
 def with_cells(book: Workbook, numbers: Mapping[tuple[int, int], str]) -> bytes:

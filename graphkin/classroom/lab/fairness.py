@@ -168,11 +168,11 @@ def judged(lab: Lab, many: Sequence[Settings]) -> Fairness:
     """The fairness of variants by their exact data, within what the scene allows."""
     import numpy as np
 
-    nothing = [np.zeros(len(many), dtype=bool) for _ in range(2)]
-    unscaled = [np.full(len(many), np.nan) for _ in range(3)]
-    found = Fairness(lab.fair, items(lab.mechanism, lab), *nothing, *unscaled)
+    count, form = len(many), items(lab.mechanism, lab)
+    closes, fits = np.zeros((2, count), dtype=bool)
+    found = Fairness(lab.fair, form, closes, fits, *np.full((3, count), np.nan))
     names = dict.fromkeys(name for settings in many for name in settings)
-    for start in range(0, len(many), BLOCK):
+    for start in range(0, count, BLOCK):
         block = many[start : start + BLOCK]
         given = {n: np.array([float(settings[n]) for settings in block]) for n in names}
         judge(found, lab, block, {**lab.mechanism.scene.values, **given}, start)

@@ -15,7 +15,7 @@ import pytest
 
 from graphkin.classroom.grading import gradebook_xlsx
 from graphkin.classroom.grading.gradebook import GradebookError, with_marks
-from graphkin.classroom.grading.gradebook_xlsx import filled_gradebook, read_gradebook
+from graphkin.classroom.grading.gradebook_xlsx import read_gradebook
 from graphkin.classroom.grading.sheet_xml import computed_anew, with_numbers
 from graphkin.classroom.roster.spreadsheets import SEPARATORS
 from graphkin.classroom.roster.student_signs import signs
@@ -253,7 +253,7 @@ def cells(data: bytes) -> dict[str, object]:
 )
 def test_only_the_marks_change(saved, rows, column, changed):
     path = saved(rows)
-    found = filled_gradebook(path, MARKS, column)
+    found = with_marks(read_gradebook(path), MARKS, column)
     before, after = cells(path.read_bytes()), cells(found.data)
     assert {**before, **changed} == after
     assert found.count == 2
@@ -286,7 +286,7 @@ def test_rich_text_sparklines_custom_parts_and_macros_stay_byte_for_byte(saved):
         **BESIDE,
     )
     before = parts(path.read_bytes())
-    after = parts(filled_gradebook(path, MARKS).data)
+    after = parts(with_marks(read_gradebook(path), MARKS).data)
     assert {name for name in before if before[name] != after[name]} == {SHEET, MAIN}
     assert after.keys() == before.keys()
     marked = before[SHEET].decode()
@@ -306,7 +306,7 @@ def test_results_of_formulas_are_computed_anew_on_every_sheet(tmp_path):
     book.save(tmp_path / "book.xlsx")
     path, other = tmp_path / "book.xlsx", "xl/worksheets/sheet2.xml"
     changed(path, (other, "</f>", "</f><!-- kept --><v>3</v><!--"), (other, "</c>", "--></c>"))
-    after = parts(filled_gradebook(path, MARKS).data)
+    after = parts(with_marks(read_gradebook(path), MARKS).data)
     assert b"<f>Sheet!D2</f><!-- kept --><!--" in after[other]
     assert b'fullCalcOnLoad="1"' in after[MAIN]
 
@@ -314,10 +314,10 @@ def test_results_of_formulas_are_computed_anew_on_every_sheet(tmp_path):
 def test_no_mark_takes_the_place_of_a_formula(saved):
     rows = [PACKED[0], *((*row[:3], "=1+2", None) for row in PACKED[1:])]
     with pytest.raises(GradebookError, match=r"holds a formula|no points"):
-        filled_gradebook(saved(rows), MARKS, "Lab 3")
+        with_marks(read_gradebook(saved(rows)), MARKS, "Lab 3")
     rows = [PACKED[0], (*PACKED[1][:3], "=1+2", None), (*PACKED[2][:3], 3, None)]
     with pytest.raises(GradebookError, match=r"row 2: .*holds a formula"):
-        filled_gradebook(saved(rows), MARKS, "Lab 3")
+        with_marks(read_gradebook(saved(rows)), MARKS, "Lab 3")
 
 
 HEAD = '<worksheet xmlns="u"><sheetData>'
@@ -386,14 +386,14 @@ def test_ids_that_a_format_shows_with_zeros_are_found(saved):
     for row in range(2, 5):
         book.active.cell(row, 3).number_format = "0000"
     book.save(path)
-    assert filled_gradebook(path, MARKS).count == 2
+    assert with_marks(read_gradebook(path), MARKS).count == 2
 
 
 @pytest.mark.parametrize("column", ["Lab 3", None])
 def test_an_average_below_the_students_is_no_mark_of_anybody(saved, column):
     rows = [("Nume", "Matricol", "Lab 3"), ("Ana", "0001", None), ("Ștefan", "0002", None)]
     rows += [("Media", None, "=AVERAGE(C2:C3)")]
-    found = cells(filled_gradebook(saved(rows), MARKS, column).data)
+    found = cells(with_marks(read_gradebook(saved(rows)), MARKS, column).data)
     assert [found[place] for place in ("C2", "C3", "C4")] == [8.5, 12, "=AVERAGE(C2:C3)"]
 
 
@@ -407,14 +407,14 @@ def test_an_average_below_the_students_is_no_mark_of_anybody(saved, column):
 )
 def test_a_workbook_that_cannot_be_filled_is_refused(saved, rows, column, words):
     with pytest.raises(GradebookError, match=words):
-        filled_gradebook(saved(rows), MARKS, column)
+        with_marks(read_gradebook(saved(rows)), MARKS, column)
 
 
 def test_a_broken_workbook_is_refused(tmp_path):
     for data in (b"PK\x03\x04 no zip", b"PK\x03\x04"):
         (tmp_path / "book.xlsx").write_bytes(data)
         with pytest.raises(GradebookError, match="cannot be read as XLSX"):
-            filled_gradebook(tmp_path / "book.xlsx", MARKS)
+            with_marks(read_gradebook(tmp_path / "book.xlsx"), MARKS)
 
 
 def test_a_workbook_far_larger_unpacked_is_refused(tmp_path):
@@ -423,4 +423,4 @@ def test_a_workbook_far_larger_unpacked_is_refused(tmp_path):
         for _ in range(65):
             part.write(bytes(1 << 20))
     with pytest.raises(GradebookError, match="far larger unpacked"):
-        filled_gradebook(path, MARKS)
+        with_marks(read_gradebook(path), MARKS)
