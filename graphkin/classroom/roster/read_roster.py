@@ -10,6 +10,8 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
+from msgspec import Struct, field
+
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.sheet_rows import SheetRow
 from graphkin.classroom.roster.spreadsheets import (
@@ -79,14 +81,13 @@ def read_roster(
         Path(path), [name for what, every in NAMES.items() for name in (what, *every)], told
     )
     where = found_columns(sheet, told, numbered)
+    reading = RosterReading(sheet, where, told, numbered)
     students: list[Student] = []
-    first: dict[str, Student] = {}
     for row in sheet.rows:
         if POSSIBLE in row.cells[:1]:
             continue
-        one = student(sheet, row, where, told, numbered)
+        one = reading.student(row)
         students.append(one)
-        refuse_twin(sheet, one, first, head_of(sheet, where, "id"), told)
         for problem in check(one) if check is not None and one.number is not None else ():
             told.add(sheet.place(row), problem.found, problem.expected, problem.hint)
     if not sheet.rows and not told.problems:
@@ -129,11 +130,7 @@ def lost_zeros(sheet: Spreadsheet, column: int) -> str:
 def found_columns(sheet: Spreadsheet, told: TableProblems, numbered: bool) -> dict[str, int]:
     """Which column holds what; a demanded one that is missing is noted."""
     where = columns(sheet, NAMES)
-    wanted = (
-        {"id": "matricol or matricola", "number": "nr or numero"}
-        if numbered
-        else {"id": "matricol or matricola"}
-    )
+    wanted = {"id": "matricol or matricola"} | ({"number": "nr or numero"} if numbered else {})
     for what, others in wanted.items():
         if what not in where:
             heads = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12]) or "nothing"
@@ -157,40 +154,68 @@ def meant(head: str, what: str) -> str:
     return f'is it "{visible(head)}"? then call that column "{what}"' if near else ""
 
 
-def student(
-    sheet: Spreadsheet, row: SheetRow, where: dict[str, int], told: TableProblems, numbered: bool
-) -> Student:
-    """One student; what is wrong in the row is noted."""
+class RosterReading(Struct, frozen=True):
+    """A class list being read: which column holds what, whether each student needs a number, and
+    the ``first`` student of each id.
+    """
 
-    def cell(what: str) -> str:
-        return row.cells[where[what]] if what in where else ""
+    sheet: Spreadsheet
+    where: Mapping[str, int]
+    told: TableProblems
+    numbered: bool
+    first: dict[str, Student] = field(default_factory=dict)
 
-    own = set(where.values())
-    full = full_name(
-        {what: cell(what) for what in sorted(NAMED & where.keys(), key=lambda n: where[n])}
-    )
-    names = {"id": (cell("id"), LONGEST_ID), "name": (full, LONGEST_NAME)}
-    for what, (text, most) in names.items():
-        if len(text) > most:
-            told.add(
-                sheet.place(row, head_of(sheet, where, what)),
-                f"{len(text)} characters",
-                f"at most {most}",
-            )
-    if not cell("id") and "id" in where:
-        told.add(sheet.place(row, head_of(sheet, where, "id")), "is missing", "the student's id")
-    return Student(
-        row=row.line,
-        id=cell("id"),
-        number=number_in(sheet, row, where, told, numbered),
-        name=" ".join(full.split()),
-        group=cell("group"),
-        extra={
-            sheet.head[i] or f"column {i + 1}": text
+    def cell(self, row: SheetRow, what: str) -> str:
+        """What a row has in a column; nothing where there is no such column."""
+        return row.cells[self.where[what]] if what in self.where else ""
+
+    def place(self, row: SheetRow, what: str) -> InTable:
+        """Where that stands, by what the column is called in this file."""
+        head = self.sheet.head[self.where[what]] if what in self.where else what
+        return self.sheet.place(row, head)
+
+    def student(self, row: SheetRow) -> Student:
+        """One student; what is wrong in the row is noted, also an id that stands in a row before,
+        where only its case differs too.
+        """
+        named = sorted(NAMED & self.where.keys(), key=lambda what: self.where[what])
+        full, own = full_name({what: self.cell(row, what) for what in named}), self.cell(row, "id")
+        for what, text, most in (("id", own, LONGEST_ID), ("name", full, LONGEST_NAME)):
+            if len(text) > most:
+                found = f"{len(text)} characters"
+                self.told.add(self.place(row, what), found, f"at most {most}")
+        if not own and "id" in self.where:
+            self.told.add(self.place(row, "id"), "is missing", "the student's id")
+        extra = {
+            self.sheet.head[i] or f"column {i + 1}": text
             for i, text in enumerate(row.cells)
-            if i not in own
-        },
-    )
+            if i not in self.where.values()
+        }
+        name, group = " ".join(full.split()), self.cell(row, "group")
+        one = Student(row.line, own, self.number(row), name, group, extra)
+        other = self.first.setdefault(own.casefold(), one)
+        if own and other is not one:
+            same = "" if other.id == own else f", written {shown(other.id)},"
+            found = f"{shown(own)}{same} stands in row {other.row} already"
+            self.told.add(self.place(row, "id"), found, "an id of its own for each student")
+        return one
+
+    def number(self, row: SheetRow) -> int | None:
+        """The student's number; None where there is none, noted where it is demanded or none."""
+        text, place = self.cell(row, "number"), self.place(row, "number")
+        found = DECIMAL_ZERO.fullmatch(text)
+        text = found[1] if found else text
+        if WHOLE.fullmatch(text) and len(text) <= MOST_DIGITS:
+            return int(text)
+        if text and self.numbered:
+            self.told.add(
+                place, f"{shown(text)} is no whole number from 0 on", "a number such as 7"
+            )
+        elif self.numbered and "number" in self.where:
+            self.told.add(
+                place, "is missing", "the student's number, which the lab's formula needs"
+            )
+        return None
 
 
 def full_name(parts: Mapping[str, str]) -> str:
@@ -199,39 +224,3 @@ def full_name(parts: Mapping[str, str]) -> str:
     rest = [part for what, part in parts.items() if what != "name" and part in whole.split()]
     named = [part for part in parts.values() if part and part not in rest]
     return " ".join(named)
-
-
-def head_of(sheet: Spreadsheet, where: dict[str, int], what: str) -> str:
-    """What a column is called in this file."""
-    return sheet.head[where[what]] if what in where else what
-
-
-def number_in(
-    sheet: Spreadsheet, row: SheetRow, where: dict[str, int], told: TableProblems, numbered: bool
-) -> int | None:
-    """The student's number; None where there is none, noted where it is demanded or none."""
-    text = row.cells[where["number"]] if "number" in where else ""
-    place = sheet.place(row, head_of(sheet, where, "number"))
-    found = DECIMAL_ZERO.fullmatch(text)
-    text = found[1] if found else text
-    if WHOLE.fullmatch(text) and len(text) <= MOST_DIGITS:
-        return int(text)
-    if text and numbered:
-        told.add(place, f"{shown(text)} is no whole number from 0 on", "a number such as 7")
-    elif numbered and "number" in where:
-        told.add(place, "is missing", "the student's number, which the lab's formula needs")
-    return None
-
-
-def refuse_twin(
-    sheet: Spreadsheet, one: Student, first: dict[str, Student], place: str, told: TableProblems
-) -> None:
-    """Note an id that stands in a row before, also where only its case differs."""
-    other = first.setdefault(one.id.casefold(), one)
-    if one.id and other is not one:
-        same = "" if other.id == one.id else f", written {shown(other.id)},"
-        told.add(
-            InTable(sheet.name, one.row, place),
-            f"{shown(one.id)}{same} stands in row {other.row} already",
-            "an id of its own for each student",
-        )
