@@ -17,7 +17,6 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.class_folder import ClassFolder
 from graphkin.classroom.printing.file_names import stems
-from graphkin.classroom.roster.language_names import language_in
 from graphkin.construction.core.quantities import MOTION
 from graphkin.drawing.glyphs import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
@@ -56,8 +55,7 @@ def drawings_of_class(
     names = stems([t.student.id for t in opened.takers], [t.code for t in opened.takers])
     found: dict[str, bytes] = {}
     for taker, name in zip(opened.takers, names, strict=True):
-        own = language_in(taker.language)
-        spoken = words_in(own) if own else words
+        spoken = words_in(taker.spoken) if taker.spoken else words
         sheets = []
         for kind in MOTION:
             record = records.get((taker.code, kind))

@@ -13,7 +13,6 @@ from graphkin.classroom.grading.class_pictures import pictures, slip_counts
 from graphkin.classroom.grading.feedback_rows import SLIPS, points_words
 from graphkin.classroom.grading.feedback_rows import unread as unread_words
 from graphkin.classroom.grading.graded import SURE, Decision, Graded, Result, Suspicion
-from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.text import Words
@@ -202,7 +201,7 @@ def stranger_lines(given: Answers, words: Words) -> Iterator[str]:
 def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
     """Students for whom the class list names a language that is none of the pages'."""
     for taker in takers:
-        if taker.language and language_in(taker.language) is None:
+        if taker.language and taker.spoken is None:
             yield words(
                 "class.no_language", who=taker.student.called, text=shown_cell(taker.language)
             )

@@ -152,7 +152,7 @@ def value_words(mark: EarnedMark, words: Words, value: float) -> str:
         return words(SENSES[turning, value > 0]) if value else "0"
     if isnan(value):
         return "–"
-    return words.significant(value if item.what == "place" else abs(value))
+    return words.significant(item.size(value))
 
 
 def allowed_words(mark: EarnedMark, words: Words) -> str:

@@ -72,9 +72,7 @@ def is_hit(standard: Standard, following: Following, answers: Answers) -> bool:
     item = standard.by_field[following.field].item
     if item.what == "sense":
         return value == following.value
-    if item.what == "place":
-        return abs(value - following.value) <= following.tolerance
-    return abs(abs(value) - abs(following.value)) <= following.tolerance
+    return abs(item.off(value, following.value)) <= following.tolerance
 
 
 def by_formula(

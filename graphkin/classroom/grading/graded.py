@@ -111,11 +111,8 @@ class EarnedMark(Struct, frozen=True):
     @property
     def off(self) -> float | None:
         """How far the answer lies from the key's; None where there is none."""
-        if self.answer.value is None:
-            return None
-        if self.item.what in ("segment", "value"):
-            return abs(self.answer.value) - abs(self.expected)
-        return self.answer.value - self.expected
+        value = self.answer.value
+        return None if value is None else self.item.off(value, self.expected)
 
 
 class Graded(Struct, frozen=True):

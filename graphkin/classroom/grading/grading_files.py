@@ -22,7 +22,6 @@ from graphkin.classroom.grading.marks_tables import (
 from graphkin.classroom.grading.submissions import Sender, packed_feedback
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
-from graphkin.classroom.roster.language_names import language_in
 from graphkin.scene.model import Scene
 from graphkin.text import Words, words
 from graphkin.writers.pdf import write_pdf
@@ -53,7 +52,7 @@ class ReportSettings(Struct, frozen=True):
 
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
-        own = language_in(graded.taker.language)
+        own = graded.taker.spoken
         return words(own) if own else self.words
 
     def title_in(self, language: str) -> str:

@@ -208,10 +208,8 @@ def is_right(standard: Standard, field: str, answers: Mapping[str, Answer]) -> b
     value = float(answers[field].value or 0.0)
     if item.what == "sense":
         return value == right or sense_is_open(standard, field)
-    allowed = standard.tolerance[field].value
-    if item.what == "place":
-        return abs(value - right) <= allowed or isnan(right)
-    return abs(abs(value) - abs(right)) <= allowed
+    near = abs(item.off(value, right)) <= standard.tolerance[field].value
+    return near or (item.what == "place" and isnan(right))
 
 
 def sense_is_open(standard: Standard, field: str) -> bool:

@@ -44,10 +44,8 @@ def is_near(expected: Expectation, field: str, answer: Answer) -> bool:
     """Whether a value lies where 99 of 100 careful drawings have it; a sense does so nowhere."""
     if field not in expected.tolerance:
         return False
-    value, right = float(answer.value or 0.0), expected.key[field]
-    if expected.item[field].what != "place":
-        value, right = abs(value), abs(right)
-    return abs(value - right) <= expected.tolerance[field].most
+    off = expected.item[field].off(float(answer.value or 0.0), expected.key[field])
+    return abs(off) <= expected.tolerance[field].most
 
 
 def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:

@@ -52,8 +52,7 @@ class Probe(Struct, frozen=True):
 
     def error(self, found: Mapping[int, Any], paper: Paper, exact: Any) -> Any:
         """How far the value lies from the exact one in some drawings; a size has no sign."""
-        read = self.read(found, paper)
-        return read - exact if self.item.what == "place" else abs(read) - abs(exact)
+        return self.item.off(self.read(found, paper), exact)
 
 
 def placed(value: Any) -> Any:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
+import msgspec
 from msgspec import Struct
 
 from graphkin.text.errors import Problem, SceneError
@@ -47,10 +48,8 @@ def kept(path: Path) -> list[str]:
     """The ids in a file."""
     try:
         with path.open("rb") as file:
-            found = json.loads(file.read(MOST).decode("utf-8"))
-    except (OSError, ValueError, RecursionError):
-        found = None
-    if not isinstance(found, list) or not all(isinstance(who, str) for who in found):
+            return msgspec.json.decode(file.read(MOST), type=list[str])
+    except (OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
         hint = "remove it, and release again whom you decide to"
-        raise SceneError(Problem(str(path), "is no list of ids", '["0042", "0057"]', hint))
-    return found
+        problem = Problem(str(path), "is no list of ids", '["0042", "0057"]', hint)
+        raise SceneError(problem) from None

@@ -44,7 +44,4 @@ def differs(standard: Standard, field: str, value: float) -> bool:
     item, right = standard.by_field[field].item, standard.key[field]
     if item.what == "sense":
         return value != 0 and value == -right
-    allowed = standard.tolerance[field].value
-    if item.what == "place":
-        return abs(value - right) > allowed
-    return abs(abs(value) - abs(right)) > allowed
+    return abs(item.off(value, right)) > standard.tolerance[field].value

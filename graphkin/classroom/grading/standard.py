@@ -179,10 +179,8 @@ class Standard(Struct, frozen=True, dict=True):
 
     def moved(self, field: str, told: Mapping[str, float]) -> float:
         """How far a field lies from the key as it is told; zero where nothing is."""
-        right, value = self.key[field], told.get(field, nan)
-        if self.by_field[field].item.what != "place":
-            right, value = abs(right), abs(value)
-        return value - right if isfinite(value - right) else 0.0
+        off = self.by_field[field].item.off(told.get(field, nan), self.key[field])
+        return off if isfinite(off) else 0.0
 
     @property
     def paper(self) -> Paper:

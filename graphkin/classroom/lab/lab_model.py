@@ -174,6 +174,16 @@ class Item(Struct, frozen=True, dict=True):
         ends = {"segment": "_mm", "sense": "_sense", "place": f"_{axis or self.axis}_mm"}
         return f"{self.name}{ends.get(what, '')}{self.tail}"
 
+    def size(self, value: float) -> float:
+        """A value as it is marked: the sizes of vectors and rates, whose senses are fields of their
+        own, have no sign.
+        """
+        return abs(value) if self.what in ("segment", "value") else value
+
+    def off(self, value: float, right: float) -> float:
+        """How far a value, or each of an array, lies from the right one."""
+        return self.size(value) - self.size(right)
+
     @cached_property
     def sized(self) -> str:
         """The field whose sense it is; itself where it is none."""

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from hashlib import file_digest, sha256
 from pathlib import Path
 
+import msgspec
 from msgspec import Struct, field
 
 from graphkin.writers.files import put_in_place
@@ -97,11 +98,8 @@ class Journal:
 def entry_of(line: bytes) -> Entry | None:
     """The entry that a line holds; None for a line that is none, as if it had not been written."""
     try:
-        raw = json.loads(line)
-        files = {str(name): str(found) for name, found in raw["files"].items()}
-        settings = {str(name): str(found) for name, found in raw.get("settings", {}).items()}
-        return Entry(str(raw["part"]), str(raw["key"]), files, settings)
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return msgspec.json.decode(line, type=Entry)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
         return None
 
 

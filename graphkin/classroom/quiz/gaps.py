@@ -62,7 +62,7 @@ def keyed(marker: Marker, item: Item, words: Words) -> Iterator[Taken]:
     standard = marker.standard
     right, allowed = standard.key[item.field], standard.tolerance[item.field].value
     told = words("feedback.right")
-    size = right if item.what == "place" else abs(right)
+    size = item.size(right)
     yield Taken(size, allowed, WHOLE, told)
     if item.beside("sense") in standard.key and size:
         yield Taken(-size, allowed, WHOLE, told)
@@ -92,9 +92,8 @@ def slipped(marker: Marker, item: Item, paid: set[str], words: Words) -> Iterato
         value = slip.values.get(field)
         if value is None or not differs(standard, field, value):
             continue
-        is_place, allowed = item.what == "place", slip_error(standard, slip, field, value)
-        size = value if is_place else abs(value)
-        is_nought = not is_place and size <= allowed
+        size, allowed = item.size(value), slip_error(standard, slip, field, value)
+        is_nought = item.what != "place" and size <= allowed
         if is_nought or any(abs(size - other) <= near for other, near in seen):
             continue
         seen.append((size, allowed))
