@@ -214,10 +214,8 @@ def named(board: FieldContent, source: Source, at: XY) -> Iterator[Label]:
         ends = segment_of(label) or drawn.get(label.name)
         bare = replace(label, height=LETTERS, name="", step=None)
         if ends is None:
-            x, y = label.subject
-            assert isinstance(x, float) and isinstance(y, float)
-            if label.cls not in HELPERS and dist((x, y), source.at) <= small:
-                subject = larger((x, y), source, at)
+            if label.cls not in HELPERS and dist(label.point, source.at) <= small:
+                subject = larger(label.point, source, at)
                 yield replace(bare, subject=subject, radius=DOT, optional=True)
         elif label.cls in VECTORS:
             part = within(LineMark(*ends[0], *ends[1], ""), source.at, small)
@@ -233,9 +231,7 @@ def dots(labels: Sequence[Label]) -> Iterator[Mark]:
     """The points of a detail whose letters are sought."""
     for label in labels:
         if segment_of(label) is None:
-            x, y = label.subject
-            assert isinstance(x, float) and isinstance(y, float)
-            yield CircleMark(x, y, DOT, f"point {label.cls} detail".replace("  ", " "))
+            yield CircleMark(*label.point, DOT, f"point {label.cls} detail".replace("  ", " "))
 
 
 def is_vector(mark: Mark) -> TypeGuard[LineMark]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.layout import Layout, lay_out, lowered
+from graphkin.construction.core.layout import lay_out, lowered
 from graphkin.construction.core.naming import name_of_sheet
 from graphkin.construction.core.parameter_words import variant
 from graphkin.documents.detail import with_detail
@@ -24,14 +24,14 @@ FOOT = 10.0
 """How far above the frame's lower edge the title stands: where the task sheet has no words."""
 
 
-def overlay(drawing: Drawing, number: str, layout: Layout | None = None) -> Page:
+def overlay(drawing: Drawing, number: str) -> Page:
     """Mechanism and plan of the key at the places and scale that they have on the task sheet.
 
     The letters of the task sheet are left to it, whose places need not be those of the key.
     Crosses stand on the corners of the task sheet's frame, crop marks outside them. The caption
     tells which variant of the mechanism it is.
     """
-    layout = lowered(layout or lay_out(drawing), sheet_heading(drawing, "task")[2])
+    layout = lowered(lay_out(drawing), sheet_heading(drawing, "task")[2])
     words = drawing.words
     tasks = boards(drawing, layout, "task")
     labels = (label for task in tasks for label in task.labels)

@@ -110,9 +110,8 @@ def symbols(drawing: Drawing, field: Field) -> FieldContent:
 def smaller(label: Label) -> Label:
     """A label, of its height, at what it names where that is drawn smaller."""
     ends = segment_of(label)
-    x, y = label.subject
     if ends is None:
-        assert isinstance(x, float) and isinstance(y, float)
+        x, y = label.point
         at: XY | tuple[XY, XY] = SMALLER * x, SMALLER * y
     else:
         (x0, y0), (x1, y1) = ends

@@ -14,6 +14,7 @@ from graphkin.construction.core.layout import lay_out, lowered
 from graphkin.documents.detail import parted
 from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
 from graphkin.documents.inset import insets
+from graphkin.documents.listing import written
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import (
     boards,
@@ -164,8 +165,4 @@ def told(drawing: Drawing, said: Sequence[Sentence], first: int, stage: int) -> 
         while shown and not shown[0][0]:
             shown = shown[1:]
         shown = [("", LEFT_OUT), *shown][:room]
-    for i, (mark, line) in enumerate(shown):
-        base = y + 2.5 + i * SMALL_LEADING
-        if mark:
-            yield Text(LEFT + 5, base, mark, "caption", 2.5, "end")
-        yield Text(LEFT + 7, base, line, "caption", 2.5)
+    yield from written(shown, LEFT, y + 2.5, 2.5, SMALL_LEADING)

@@ -119,11 +119,16 @@ class Label(Struct, frozen=True):
         high = (bottom - top) / 2
         return spot.x - width / 2, spot.y - high, spot.x + width / 2, spot.y + high
 
-    def short_leader(self, spot: Spot) -> tuple[XY, XY]:
-        """From the nearest side of the label's box to the point it names."""
+    @property
+    def point(self) -> XY:
+        """The point that it names, where that is no segment."""
         x, y = self.subject
         assert isinstance(x, float) and isinstance(y, float)
-        return self.side(spot, x, y)
+        return x, y
+
+    def short_leader(self, spot: Spot) -> tuple[XY, XY]:
+        """From the nearest side of the label's box to the point it names."""
+        return self.side(spot, *self.point)
 
     def side(self, spot: Spot, x: float, y: float) -> tuple[XY, XY]:
         """From the nearest side of the label's box, a little off it, to a place."""

@@ -12,7 +12,7 @@ from graphkin.classroom.grading.graded import EarnedMark, Graded, Status
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.drawing.richtext import pieces, plain
 from graphkin.text import Words
-from graphkin.writers.plot_style import INK, figure_file, look
+from graphkin.writers.plot_style import INK, figure_file, look, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,9 +58,7 @@ def pictures(
 
 def figure(height: float) -> tuple[Figure, Any]:
     """A figure with one field."""
-    from matplotlib.figure import Figure
-
-    drawn = Figure(figsize=(WIDTH, height), layout="constrained")
+    drawn = new_figure(WIDTH, height)
     return drawn, drawn.add_subplot()
 
 

@@ -157,8 +157,7 @@ def feedback_pages(
 
 def name_of(graded: Graded) -> str:
     """A student's name and group, or the id, as on the sheets, as markup."""
-    student = graded.taker.student
-    return escape(printable_name(student.name, student.id, student.group))
+    return escape(printable_name(graded.taker.student))
 
 
 def fitting(markup: str) -> str:

@@ -71,16 +71,14 @@ def compared(found: Sequence[Standard]) -> Neighbours | None:
 class RightValues(Struct, frozen=True):
     """The right values of some variants, a row for each, and what they are worth on its sheet.
 
-    ``sizes`` are held to be equal within ``allowed``, or within ``most`` where all are one drawing
-    by the ``keys``; ``senses`` are signs, and those that no drawing tells are ``unclear``;
-    ``points`` and ``sense_points`` are shares of all points.
+    Their sizes are equal within ``allowed``, or within ``most`` where all are one drawing by the
+    ``keys``; ``senses`` are signs, and those that no drawing tells are ``unclear``; ``points`` and
+    ``sense_points`` are shares of all points.
     """
 
     keys: Keys
-    sizes: Array
     allowed: Array
     most: Array
-    deviations: Array
     points: Array
     senses: Array
     unclear: Array
@@ -100,10 +98,8 @@ class RightValues(Struct, frozen=True):
 
         return cls(
             keys,
-            keys.sizes,
             told(lambda each, f: each.tolerance[f].value, keys.fields),
             told(lambda each, f: each.tolerance[f].most, keys.fields),
-            keys.deviations,
             told(points_of, keys.fields) / total,
             told(lambda each, f: each.key[f], senses),
             told(sense_is_open, senses).astype(bool),
@@ -116,7 +112,7 @@ class RightValues(Struct, frozen=True):
 
         shares = self.earned(self, is_within)
         for i, points in enumerate(self.points):
-            away, read = self.sizes - self.sizes[i], self.keys.known(i)
+            away, read = self.keys.sizes - self.keys.sizes[i], self.keys.known(i)
             more = (abs(away) <= self.most[i]) & (abs(away) > self.allowed[i])
             one = np.flatnonzero(more @ points > 0)
             key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
@@ -130,10 +126,10 @@ class RightValues(Struct, frozen=True):
         """
         import numpy as np
 
-        shares = np.zeros((len(self.sizes), len(other.sizes)))
-        for k in range(self.sizes.shape[1]):
-            away = other.sizes[None, :, k] - self.sizes[:, None, k]
-            right = chance(away, self.allowed[:, None, k], other.deviations[None, :, k])
+        shares = np.zeros((len(self.keys.sizes), len(other.keys.sizes)))
+        for k in range(self.keys.sizes.shape[1]):
+            away = other.keys.sizes[None, :, k] - self.keys.sizes[:, None, k]
+            right = chance(away, self.allowed[:, None, k], other.keys.deviations[None, :, k])
             shares += self.points[:, None, k] * right
         for k in range(self.senses.shape[1]):
             same = self.senses[:, None, k] == other.senses[None, :, k]

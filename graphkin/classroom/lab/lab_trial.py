@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from msgspec import Struct
 
@@ -93,22 +93,16 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
 
     Raises SceneError where the formula suits no number.
     """
-    if lab.rule.counts:
-        found = list(by_numbers(lab, count))
-    else:
-        ids = [f"{i:04d}" for i in range(1, count + 1)]
-        found = [(name, settings(lab, Student(i, name))) for i, name in enumerate(ids, 1)]
-    names, many = zip(*found, strict=True)
+    students = students_of(lab, count)
+    names = tuple(each.id for each in students)
+    many = tuple(settings(lab, each) for each in students)
     fairness = judged(lab, many)
     form = items(lab.mechanism, lab)
     drawn = {*fairness.lengths, *fairness.rays, *fairness.on_page}
     unasked = [item.field for item in form if item.what == "segment" and item.field not in drawn]
     unmarked = [name for name in asked_fields(lab.mechanism) if name not in lab.rubric.points]
     sound = bool(fairness.fits.any())
-    students = [
-        Student(i, name, i if lab.rule.counts else None) for i, name in enumerate(names[:CLASS], 1)
-    ]
-    every = assigned(lab, students)
+    every = assigned(lab, students[:CLASS])
     pencilled, coarse = drawn_coarsely(lab, names, many, fairness)
     drawn_at_all = [each for each in every if each.flattest is not None]
     return LabTrial(
@@ -138,13 +132,17 @@ def drawn_coarsely(
     return len(which), {names[i]: fault for i, fault in pairs if fault is not None}
 
 
-def by_numbers(lab: Lab, count: int) -> Iterable[tuple[str, Settings]]:
-    """The numbers from 1 up to the last that the scene allows, with their data."""
-    problems: list[Problem] = []
+def students_of(lab: Lab, count: int) -> list[Student]:
+    """As many students as a rule has variants for, up to some: with the numbers from 1 up to the
+    last that the scene allows, or with ids.
+    """
+    if not lab.rule.counts:
+        return [Student(i, f"{i:04d}") for i in range(1, count + 1)]
+    found: list[Student] = []
     for number in range(1, count + 1):
+        student = Student(number, str(number), number)
         try:
-            given = settings(lab, Student(number, str(number), number))
-            problems = outside(lab.mechanism.scene.parameters, given)
+            problems = outside(lab.mechanism.scene.parameters, settings(lab, student))
         except SceneError as error:
             problems = list(error.problems)
         if problems and number == 1:
@@ -153,8 +151,9 @@ def by_numbers(lab: Lab, count: int) -> Iterable[tuple[str, Settings]]:
                 Problem(place, f"number 1 gives {p.found}", p.expected) for p in problems
             )
         if problems:
-            return
-        yield str(number), given
+            break
+        found.append(student)
+    return found
 
 
 def quantiles(values: Sequence[float]) -> list[float]:

@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.printing.qr_code import stamped
+from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.overlay import FOOT
@@ -39,21 +40,15 @@ class Owner(Struct, frozen=True):
 
 def owner(taker: Taker) -> Owner:
     """Whose the sheets of a student are."""
-    student = taker.student
-    whose = printable_name(student.name, student.id, student.group)
-    return Owner(shortened(whose), taker.code)
+    return Owner(shortened(printable_name(taker.student)), taker.code)
 
 
-def printable_name(name: str, ident: str, group: str) -> str:
+def printable_name(student: Student) -> str:
     """A student's name and group in signs of the sheet's font; one without a name, or of whose
     name it has no letter, is called by the id."""
-    known = writable(name) if is_readable(name) else writable(ident) or UNKNOWN
-    return ", ".join(filter(None, (known, writable(group))))
-
-
-def is_readable(name: str) -> bool:
-    """Whether the font has some letter of a name."""
-    return any(sign.isalnum() for sign in writable(name))
+    name = writable(student.name)
+    known = name if any(map(str.isalnum, name)) else writable(student.id) or UNKNOWN
+    return ", ".join(filter(None, (known, writable(student.group))))
 
 
 def writable(text: str) -> str:
@@ -96,17 +91,18 @@ def owned(drawing: Drawing, whose: Owner) -> Drawing:
     """A drawing whose title block names its student and bears the code."""
     number = drawing.scene.sheet.number
     both = f"{number} / {whose.code}" if number else whose.code
-    sheet = replace(drawing.scene.sheet, author=whose.name, number=both)
-    return replace(drawing, scene=replace(drawing.scene, sheet=sheet))
+    return with_sheet(drawing, author=whose.name, number=both)
 
 
 def owned_pages(drawings: Sequence[Drawing], whose: Owner) -> list[Drawing]:
     """Drawings whose calculation pages name their student and the code at the foot."""
-    sheets = [replace(drawing.scene.sheet, author=whose.line) for drawing in drawings]
-    return [
-        replace(drawing, scene=replace(drawing.scene, sheet=sheet))
-        for drawing, sheet in zip(drawings, sheets, strict=True)
-    ]
+    return [with_sheet(drawing, author=whose.line) for drawing in drawings]
+
+
+def with_sheet(drawing: Drawing, **said: str) -> Drawing:
+    """A drawing whose sheet says something else."""
+    scene = drawing.scene
+    return replace(drawing, scene=replace(scene, sheet=replace(scene.sheet, **said)))
 
 
 def signed(pages: Sequence[Page], view: str, whose: Owner) -> Iterator[Page]:

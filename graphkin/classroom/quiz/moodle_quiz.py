@@ -22,7 +22,7 @@ from graphkin.classroom.form_page import KINDS, first_pivot
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.feedback import how
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.lab_trial import by_numbers
+from graphkin.classroom.lab.lab_trial import students_of
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.printing.answer_form import advice
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
@@ -35,8 +35,6 @@ from graphkin.drawing.richtext import plain
 from graphkin.text import Words
 from graphkin.writers.templates import from_template
 
-MOST = 1000
-"""Numbers of students that are looked at."""
 PRINTED = "task.pdf"
 """The sheets of a variant within its question."""
 
@@ -48,14 +46,6 @@ class Question(Struct, frozen=True):
     text: str
     remark: str
     files: tuple[tuple[str, bytes], ...]
-
-
-def students_of(lab: Lab, count: int) -> list[Student]:
-    """As many students as a rule has variants for: the numbers that the scene allows, or ids."""
-    if lab.rule.counts:
-        numbers = by_numbers(lab, MOST)
-        return [Student(int(number), number, int(number)) for number, _ in numbers][:count]
-    return [Student(i, f"{i:04d}") for i in range(1, count + 1)]
 
 
 def variants_of(lab: Lab, count: int) -> tuple[list[Assigned], list[Assigned]]:

@@ -56,8 +56,8 @@ def test_a_drawing_earns_in_the_mean_what_samples_of_it_earn(found):
     told, own = neighbours(found), RightValues.of(found)
     samples = 20_000
     for i, j in ((0, 1), (2, 1), (4, 3)):
-        errors = chance.normal(size=(samples, own.sizes.shape[1])) * own.deviations[j]
-        right = abs(own.sizes[j] + np.nan_to_num(errors) - own.sizes[i]) <= own.allowed[i]
+        errors = chance.normal(size=(samples, own.keys.sizes.shape[1])) * own.keys.deviations[j]
+        right = abs(own.keys.sizes[j] + np.nan_to_num(errors) - own.keys.sizes[i]) <= own.allowed[i]
         senses = (own.senses[i] == own.senses[j]) | own.unclear[i]
         mean = (right * own.points[i]).sum(axis=1).mean() + (senses * own.sense_points[i]).sum()
         assert told.drawn[i, j] == pytest.approx(mean, abs=0.01)
