@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from graphkin.classroom.grading.answers import Answers
-    from graphkin.classroom.grading.class_folder import ClassFolder
     from graphkin.classroom.grading.class_marking import Class
     from graphkin.classroom.grading.gradebook import Filled
+    from graphkin.classroom.printing.edition import Edition
     from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
 
@@ -152,7 +152,6 @@ def grade(  # noqa: PLR0915
     Exit status: 0; 1 when some cells cannot be read; 2 when nothing was marked.
     """
     from graphkin.classroom.grading.answers import read_answers
-    from graphkin.classroom.grading.class_folder import open_class
     from graphkin.classroom.grading.class_marking import graded_class
     from graphkin.classroom.grading.class_report import open_cells, result_lines
     from graphkin.classroom.grading.decisions import (
@@ -167,13 +166,14 @@ def grade(  # noqa: PLR0915
     from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
     from graphkin.classroom.grading.releases import releases
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
+    from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in
     from graphkin.writers.files import write_all
 
     kinds = kinds_of(formats, context)
     if len({path.name for path in gradebooks}) < len(gradebooks):
         raise click.UsageError("--gradebook: two files of the same name", context)
-    opened = open_class(folder)
+    opened = read_edition(folder)
     ids = {taker.student.id: taker.code for taker in opened.takers}
     refuse_strangers(context, "--release", released, ids)
     refuse_strangers(context, "--hold", held, ids)
@@ -232,7 +232,7 @@ def is_read(answers: Path) -> bool:
     return answers.is_dir() and any(answers.glob(f"*{READING}"))
 
 
-def drawn_table(opened: ClassFolder, folder: Path) -> Path:
+def drawn_table(opened: Edition, folder: Path) -> Path:
     """Of a folder of readings the table of what was read and decided by now; else what it is."""
     if not is_read(folder):
         return folder
@@ -243,7 +243,7 @@ def drawn_table(opened: ClassFolder, folder: Path) -> Path:
     return folder / ANSWERS
 
 
-def note_followed(opened: ClassFolder, folder: Path, given: Answers) -> None:
+def note_followed(opened: Edition, folder: Path, given: Answers) -> None:
     """Let the answers know what was found on the drawings to follow from own earlier points."""
     from msgspec.structs import replace
 
@@ -255,7 +255,7 @@ def note_followed(opened: ClassFolder, folder: Path, given: Answers) -> None:
 
 
 def marked_drawings(
-    opened: ClassFolder, folder: Path, words: Words, kinds: tuple[str, ...]
+    opened: Edition, folder: Path, words: Words, kinds: tuple[str, ...]
 ) -> dict[str, bytes]:
     """The drawings of all who were read, with green and red over them."""
     from graphkin.classroom.grading.grading_files import FEEDBACK
@@ -273,7 +273,7 @@ def refuse_strangers(
         raise click.UsageError(f"{option}: {unknown} is no student of this class", context)
 
 
-def usual_jobs(opened: ClassFolder) -> int:
+def usual_jobs(opened: Edition) -> int:
     """As many processes as pay for themselves."""
     from graphkin.classroom.printing.workers import cores
 
@@ -292,7 +292,7 @@ def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
 
 
 def all_files(
-    opened: ClassFolder,
+    opened: Edition,
     found: Class,
     given: Answers,
     words: Words,
@@ -312,7 +312,7 @@ def all_files(
     before = report / MARKS
     earlier = before.read_bytes() if before.is_file() else b""
     told = ReportSettings(title, words, given.unread, scene.titles, scene)
-    files = report_files(found, opened.edition.lab, told, kinds, earlier)
+    files = report_files(found, opened.lab, told, kinds, earlier)
     return files | returned(files, found.result.graded, given.senders, kinds)
 
 
@@ -382,7 +382,7 @@ def told_paths(written: list[Path]) -> list[str]:
     return [*lines, f"{pages[0].parent}: {len(pages)} pages"] if pages else lines
 
 
-def notes(opened: ClassFolder, given: Answers, words: Words) -> None:
+def notes(opened: Edition, given: Answers, words: Words) -> None:
     """What is told of the answers: columns that are no fields, languages that are none of the
     pages', cells that cannot be read.
     """

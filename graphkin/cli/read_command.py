@@ -82,13 +82,13 @@ def read(
     Exit status: 0; 1 when some pictures were refused, each with its reason; 2 for bad input.
     """
     refuse_without("read", "read", NEEDED.items())
-    from graphkin.classroom.grading.class_folder import open_class
+    from graphkin.classroom.printing.edition import read_edition
     from graphkin.classroom.printing.workers import cores
     from graphkin.reading.pictures import photographs
     from graphkin.reading.read_run import POINTS, points_file, read_class, read_order, said
     from graphkin.writers.files import put_in_place
 
-    opened = open_class(folder)
+    opened = read_edition(folder)
     pictures = photographs(list(photos))
     order = read_order(opened, read_grid(grid), by_hand=by_hand)
     with progress("photographs") as shown:

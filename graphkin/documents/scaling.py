@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -15,6 +16,7 @@ from graphkin.construction.core.solution import Curve, Solution, Verdict, gather
 from graphkin.documents.composing import Needs, Search, Stated, searched_scales
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
+from graphkin.scene.model import Sheet
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words
 from graphkin.text.errors import PageError, Problem, SceneError
@@ -79,20 +81,28 @@ def curves_drawn(mechanism: Mechanism) -> tuple[Curve, ...]:
 
 def stated(mechanism: Mechanism) -> Stated:
     """What a scene says of its scale factors. Raises SceneError where no crank can follow it."""
-    sheet, values = mechanism.scene.sheet, mechanism.scene.values
-
-    def number(quantity: Quantity | None) -> float:
-        return float(quantity.number(values)) if quantity is not None else 0.0
-
-    once = [1.0] if sheet.rule == "lab" else [0.0]
-    times = [number(each) for each in sheet.enlarge] or once
-    if any(times) and not the_crank(mechanism):
+    sheet = mechanism.scene.sheet
+    (said,) = stated_of(sheet, mechanism.scene.values, 1)
+    if any(said.times.values()) and not the_crank(mechanism):
         key = "enlarge" if sheet.enlarge else "rule"
         found = "the plans of this mechanism are not drawn by one crank"
         hint = "leave it out: they are then drawn as large as they fit"
         raise SceneError(Problem(f"sheet.{key}", found, "one driver, which turns", hint))
-    by_kind = dict(zip(SHEETS, times if len(times) > 1 else 2 * times, strict=True))
-    return Stated(number(sheet.scale), by_kind, 1000 * number(sheet.ka))
+    return said
+
+
+def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -> list[Stated]:
+    """The same of variants, whose parameters are arrays or shared."""
+    import numpy as np
+
+    def numbers(quantity: Quantity | None) -> list[float]:
+        value = quantity.number(values, *kind) if quantity is not None else 0.0
+        return [float(each) for each in np.broadcast_to(np.asarray(value, dtype=float), count)]
+
+    once = [[1.0 if sheet.rule == "lab" else 0.0] * count]
+    times = [numbers(each) for each in sheet.enlarge] or once
+    columns = zip(numbers(sheet.scale), numbers(sheet.ka), times[0], times[-1], strict=True)
+    return [Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka) for kL, ka, m, n in columns]
 
 
 def found(

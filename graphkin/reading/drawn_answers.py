@@ -12,9 +12,9 @@ from pathlib import Path
 from msgspec import Struct
 
 from graphkin.classroom.grading.answer_numbers import OPEN
-from graphkin.classroom.grading.class_folder import ClassFolder
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.lab.lab_model import Item
+from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.reading.kept_readings import records_in
@@ -36,14 +36,14 @@ class DrawnRow(Struct, frozen=True):
     followed: tuple[str, ...]
 
 
-def answers_table(opened: ClassFolder, out: Path) -> bytes:
+def answers_table(opened: Edition, out: Path) -> bytes:
     """The answers of all whose sheets were read, in the order of the roster."""
     head = ["id", *(item.field for item in drawn_items(opened))]
     rows: list[list[object]] = [[row.who, *row.cells] for row in drawn_rows(opened, out)]
     return csv_text([head, *rows]).encode("utf-8")
 
 
-def drawn_rows(opened: ClassFolder, out: Path) -> Iterator[DrawnRow]:
+def drawn_rows(opened: Edition, out: Path) -> Iterator[DrawnRow]:
     """What was read and decided by now, of each student whose sheets were read."""
     standing = SettledPoints(out).standing
     try:
@@ -52,7 +52,7 @@ def drawn_rows(opened: ClassFolder, out: Path) -> Iterator[DrawnRow]:
         records = {}
     form = drawn_items(opened)
     language = opened.words().language
-    order = PrintOrder(opened.edition.lab, opened.edition.scene, language, "colour")
+    order = PrintOrder(opened.lab, opened.scene, language, "colour")
     for taker in opened.takers:
         own = {kind: record for (code, kind), record in records.items() if code == taker.code}
         if not own:
@@ -80,7 +80,7 @@ def is_followed(probe: Probe, verdicts: Mapping[int, str]) -> bool:
     return tip == "follows" and tail in ("right", "follows")
 
 
-def drawn_items(opened: ClassFolder) -> tuple[Item, ...]:
+def drawn_items(opened: Edition) -> tuple[Item, ...]:
     """The fields of the form that a drawing tells."""
     return tuple(item for item in opened.book.form if item.what in ("segment", "place"))
 

@@ -15,7 +15,7 @@ from time import gmtime
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.class_folder import ClassFolder
+from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
 from graphkin.construction.core.quantities import MOTION
 from graphkin.drawing.glyphs import font_file
@@ -47,7 +47,7 @@ class MarkedSheet(Struct, frozen=True):
 
 
 def drawings_of_class(
-    opened: ClassFolder, folder: Path, words: Words, kinds: Sequence[str]
+    opened: Edition, folder: Path, words: Words, kinds: Sequence[str]
 ) -> dict[str, bytes]:
     """The marked drawings of all whose sheets were read, by the names of their files."""
     standing = SettledPoints(folder).standing

@@ -14,7 +14,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from graphkin.classroom.grading.class_folder import ClassFolder
+from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.journal import key_of
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.printing.workers import chunks, engine, results
@@ -44,17 +44,15 @@ class ReadOutcome(Struct):
     stood: int = 0
 
 
-def read_order(opened: ClassFolder, grid: Grid, *, by_hand: bool = False) -> ReadOrder:
+def read_order(opened: Edition, grid: Grid, *, by_hand: bool = False) -> ReadOrder:
     """What the reading of a class shares."""
-    edition = opened.edition
-    language = opened.words().language
-    order = PrintOrder(edition.lab, edition.scene, language, "colour")
-    takers = {each.code: each for each in edition.takers}
+    order = PrintOrder(opened.lab, opened.scene, opened.words().language, "colour")
+    takers = {each.code: each for each in opened.takers}
     return ReadOrder(order, takers, grid, by_hand, drawn_items(opened))
 
 
 def read_class(
-    opened: ClassFolder,
+    opened: Edition,
     pictures: Sequence[Photograph],
     out: Path,
     order: ReadOrder,
@@ -104,7 +102,7 @@ def put(out: Path, one: SheetRead) -> None:
     put_in_place({**files, out / f"{name}{READING}": data + b"\n"})
 
 
-def write_answers(opened: ClassFolder, out: Path) -> None:
+def write_answers(opened: Edition, out: Path) -> None:
     """Write the answers that follow from all that was read and decided."""
     put_in_place({out / ANSWERS: answers_table(opened, out)})
 
@@ -132,7 +130,7 @@ def points_file(record: SheetRecord) -> bytes:
     return msgspec.json.encode(found, enc_hook=as_text) + b"\n"
 
 
-def said(opened: ClassFolder, outcome: ReadOutcome) -> Iterator[str]:
+def said(opened: Edition, outcome: ReadOutcome) -> Iterator[str]:
     """What the terminal says of a run: a line for each photograph, then the sums."""
     names = {each.code: each.student for each in opened.takers}
     for record in outcome.records:

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 from msgspec import Struct
 
-from graphkin.classroom.grading.class_folder import open_class
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.reading.desk_app import DeskSession, desk_application
 from graphkin.reading.pictures import Photograph
 from graphkin.reading.read_run import read_class, read_order
@@ -128,7 +128,7 @@ def main(folder: Path, lab: str) -> None:
             name = path.name.removesuffix(".truth.json")
             truths[name] = taken
             pictures.append(Photograph(name, folder / f"{name}.jpg"))
-    opened = open_class(folder / lab)
+    opened = read_edition(folder / lab)
     with sync_playwright() as driver, TemporaryDirectory() as kept:
         browser = driver.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]

@@ -17,7 +17,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from graphkin.classroom.grading.class_folder import open_class
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.register_crosses import without_crosses
 from graphkin.drawing.marks import Page
 from graphkin.reading.codes import codes_in
@@ -57,7 +57,7 @@ def main(count: int, seed: int) -> None:
     cv2.setNumThreads(1)
     with TemporaryDirectory() as where:
         folder = folder_of("pump", Path(where), seed)
-        code = next(iter(read_order(open_class(folder), Grid()).takers))
+        code = next(iter(read_order(read_edition(folder), Grid()).takers))
         _, page = task_pages(sheets_of(folder, code))[0]
         both = {"without": without_crosses(page), "with": page}
         images = {name: printed_page(own) for name, own in both.items()}

@@ -28,7 +28,7 @@ from click.testing import CliRunner
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.classroom.grading.class_folder import open_class
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.cli.main import app
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import HALF
@@ -141,7 +141,7 @@ def take(classes: dict[str, Path], where: Path, seed: int, i: int) -> None:
         return
     rng = np.random.default_rng([i, seed])
     lab = list(classes)[i % len(classes)]
-    variants = list(read_order(open_class(classes[lab]), Grid()).takers)
+    variants = list(read_order(read_edition(classes[lab]), Grid()).takers)
     code = variants[(i // len(classes)) % len(variants)]
     kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
     kind = kinds[int(rng.integers(len(kinds)))]
@@ -175,7 +175,7 @@ def read_again(classes: dict[str, Path], where: Path, i: int) -> Again | None:
     if not path.exists():
         return None
     taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
-    order = read_order(open_class(classes[taken.lab]), Grid(XS, YS))
+    order = read_order(read_edition(classes[taken.lab]), Grid(XS, YS))
     record = read_one(order, Photograph(path.stem, path), "").record
     return path.stem, taken, record, tolerances(order, record)
 

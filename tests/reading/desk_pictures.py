@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 import msgspec
 from PIL import Image
 
-from graphkin.classroom.grading.class_folder import open_class
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.reading.marked_drawing import drawings_of_class
 from graphkin.reading.pictures import Photograph
 from graphkin.reading.read_run import read_class, read_order
@@ -47,7 +47,7 @@ def main(folder: Path, name: str, out: Path) -> None:
 
     path = folder / f"{name}.jpg"
     taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
-    opened = open_class(folder / Path(taken.lab).stem)
+    opened = read_edition(folder / Path(taken.lab).stem)
     with sync_playwright() as driver, TemporaryDirectory() as kept:
         browser = driver.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]

@@ -16,7 +16,7 @@ import cv2
 import msgspec
 import numpy as np
 
-from graphkin.classroom.grading.class_folder import open_class
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.reading.marked_drawing import colour_of
 from graphkin.reading.pictures import Photograph
 from graphkin.reading.read_run import read_order
@@ -61,7 +61,7 @@ def main(folder: Path, names: list[str], out: Path) -> None:
     for name in names:
         path = folder / f"{name}.jpg"
         taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
-        order = read_order(open_class(folder / Path(taken.lab).stem), Grid())
+        order = read_order(read_edition(folder / Path(taken.lab).stem), Grid())
         columns.append(shown(path.read_bytes(), read_one(order, Photograph(name, path), "")))
     gap = np.full((2 * HIGH, 12, 3), 255, np.uint8)
     row = [part for column in columns for part in (column, gap)][:-1]

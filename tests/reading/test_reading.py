@@ -23,8 +23,8 @@ from PIL import Image
 from pypdf import PdfWriter
 
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.classroom.grading.class_folder import open_class
 from graphkin.classroom.grading.probes import Probe, probes
+from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.qr_code import modules
 from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
@@ -203,7 +203,7 @@ def test_grade_marks_what_was_read(a_class: Path, taken: Path, tmp_path: Path) -
 
 
 def a_probe(a_class: Path, name: str) -> Probe:
-    opened = open_class(a_class)
+    opened = read_edition(a_class)
     every = probes(opened.book.mechanism({"n": "7"}), drawn_items(opened))
     return next(each for each in every if each.item.field == name)
 
@@ -357,11 +357,11 @@ def test_another_class_and_a_cut_sheet_are_refused(
 def test_photographs_of_one_sheet_are_named_together(a_class: Path, taken: Path) -> None:
     (record,) = (each for each in records_in(taken / "read") if each.name == "plain")
     again = msgspec.structs.replace(record, name="plain again")
-    found = list(read_run.said(open_class(a_class), ReadOutcome([record, again], 0)))
+    found = list(read_run.said(read_edition(a_class), ReadOutcome([record, again], 0)))
     assert [line for line in found if line.startswith("plain, plain again: the same sheet")]
     assert not any(
         "same sheet" in each
-        for each in read_run.said(open_class(a_class), ReadOutcome([record], 0))
+        for each in read_run.said(read_edition(a_class), ReadOutcome([record], 0))
     )
 
 
@@ -395,7 +395,7 @@ def test_what_leads_to_points_of_a_rack(rack: Path) -> None:
     """Both points lie on the printed guide, by whatever way a hand finds them; the tip of the
     velocity of contact needs its vector, and no side of a similar triangle.
     """
-    (code,) = read_order(open_class(rack), Grid()).takers
+    (code,) = read_order(read_edition(rack), Grid()).takers
     sheets = sheets_of(rack, code)
     drawing = next(each for each in sheets.drawings if each.kind == "velocity")
     page = next(each for each in sheets.of("task") if each.kind == "velocity").pages[0]
@@ -413,7 +413,7 @@ def test_a_sheet_whose_lines_another_has_as_well_is_not_taken_for_it(
     rack: Path, tmp_path: Path
 ) -> None:
     folder = rack
-    (code,) = read_order(open_class(folder), Grid()).takers
+    (code,) = read_order(read_edition(folder), Grid()).takers
     for kind in ("velocity", "acceleration"):
         taken = scan(printed(folder, code, kind), 150, 0.0, 1)
         (tmp_path / f"{kind} 1.jpg").write_bytes(taken.data)
@@ -458,7 +458,7 @@ def test_the_code_is_told_where_the_halves_lack_some_of_it(a_class: Path, code: 
     image = printed(a_class, code, "velocity").copy()
     image[:, 2100:2126] = image[:, 2126:2127]  # 2.6 mm that neither picture holds
     assert not codes_in(image)
-    variants = read_order(open_class(a_class), Grid()).takers
+    variants = read_order(read_edition(a_class), Grid()).takers
     found = code_among(image, 10.0, tuple(variants))
     assert found is not None
     assert found.text == code
@@ -627,7 +627,7 @@ def lever_sheet(
     """A sheet of the rapid return, the steps of its letters in the plan and on the mechanism, and
     where they lie.
     """
-    (code,) = read_order(open_class(levers), Grid()).takers
+    (code,) = read_order(read_edition(levers), Grid()).takers
     sheet = velocity_of(levers, code, kind)
     steps, values = sheet.exact.program.steps, sheet.exact.trace.values
     planes = Plane.MECHANISM, sheet.drawing.plane
@@ -721,7 +721,7 @@ def test_a_line_that_ends_before_a_point_does_not_lead_to_it(
     """A bar may point to where a point is expected on another, and begin at the student's own."""
     (tmp_path / "class.csv").write_text("Nr.;Matricol;Nume\n2;0042;Ana Pop\n", encoding="utf-8")
     call("variants", "pump-collinear", tmp_path / "class.csv", "-o", tmp_path / "class")
-    (code,) = read_order(open_class(tmp_path / "class"), Grid()).takers
+    (code,) = read_order(read_edition(tmp_path / "class"), Grid()).takers
     sheet = velocity_of(tmp_path / "class", code)
     steps, values = sheet.exact.program.steps, sheet.exact.trace.values
     named = {name: next(n for n in values if steps[n].name == name) for name in "ACD"}
@@ -799,7 +799,7 @@ def test_what_hangs_on_a_doubtful_mistake_waits_for_its_own_lines(
 
 
 def test_a_vector_apart_from_the_point_with_which_its_own_is_one_is_asked(rack: Path) -> None:
-    (code,) = read_order(open_class(rack), Grid()).takers
+    (code,) = read_order(read_edition(rack), Grid()).takers
     sheet = velocity_of(rack, code)
     steps, values = sheet.exact.program.steps, sheet.exact.trace.values
     a, b, t, o = (next(n for n in values if steps[n].name == name) for name in "abto")
@@ -1229,15 +1229,15 @@ def test_the_desk_speaks_each_language(taken: Path, language: str) -> None:
 
 
 def test_the_drawing_goes_back_with_green_and_red(a_class: Path, taken: Path) -> None:
-    from graphkin.classroom.grading.class_folder import open_class
+    from graphkin.classroom.printing.edition import read_edition
 
-    found = drawings_of_class(open_class(a_class), taken / "read", words("en"), ("html", "pdf"))
+    found = drawings_of_class(read_edition(a_class), taken / "read", words("en"), ("html", "pdf"))
     page = found["0042-drawing.html"].decode()
     assert "<svg" in page
     assert "data:image/jpeg;base64," in page
     assert GREEN in page
     assert found["0042-drawing.pdf"].startswith(b"%PDF")
-    again = drawings_of_class(open_class(a_class), taken / "read", words("en"), ("html", "pdf"))
+    again = drawings_of_class(read_edition(a_class), taken / "read", words("en"), ("html", "pdf"))
     assert found == again
 
 

@@ -15,9 +15,8 @@ from msgspec import Struct, field
 
 from graphkin.classroom.lab.drawing_extents import needs_of, sketches
 from graphkin.construction.core.component import may_give_way
-from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.composing import Search, Stated, searched_scales
-from graphkin.documents.scaling import scales
+from graphkin.documents.scaling import scales, stated_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
@@ -92,29 +91,13 @@ def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
     speed = np.broadcast_to(np.abs(mechanism.scene.drivers[0].speed.si(values, batch_kind())), size)
     turning = np.flatnonzero(np.asarray(speed, dtype=float) > 0)
     part, speeds = taken(values, turning), speed[turning]
-    said = stated_of(mechanism, part, len(turning))
+    said = stated_of(mechanism.scene.sheet, part, len(turning), batch_kind())
     drawn = side_by_side(mechanism, part, speeds, said)
     for index, own in zip(turning, drawn, strict=True):
         found.own[int(index)] = own
     done = np.zeros(size, dtype=bool)
     done[turning] = True
     return done
-
-
-def stated_of(mechanism: Mechanism, values: Values, count: int) -> list[Stated]:
-    """What the scene says of the scale factors of each variant."""
-    import numpy as np
-
-    sheet = mechanism.scene.sheet
-
-    def numbers(quantity: Any) -> list[float]:
-        value = quantity.number(values, batch_kind()) if quantity is not None else 0.0
-        return [float(each) for each in np.broadcast_to(np.asarray(value, dtype=float), count)]
-
-    once = [[1.0 if sheet.rule == "lab" else 0.0] * count]
-    times = [numbers(each) for each in sheet.enlarge] or once
-    columns = zip(numbers(sheet.scale), numbers(sheet.ka), times[0], times[-1], strict=True)
-    return [Stated(kL, {SHEETS[0]: m, SHEETS[1]: n}, 1000 * ka) for kL, ka, m, n in columns]
 
 
 def side_by_side(

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -17,19 +18,25 @@ from graphkin.classroom.roster.csv_text import safe
 from graphkin.classroom.roster.language_names import HEADS
 from graphkin.classroom.roster.spreadsheets import columns, read_sheet
 from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.student_signs import EMAIL
+from graphkin.classroom.roster.student_signs import EMAIL, Signs, signs
 from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, as_text
-from graphkin.text import LANGUAGES
+from graphkin.documents.sheet_documents import language_of
+from graphkin.mechanism import Mechanism
+from graphkin.scene.read_scene import read_text
+from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import Problem, SceneError
 from graphkin.writers.files import put_in_place
+
+if TYPE_CHECKING:
+    from graphkin.classroom.grading.class_marking import Book
 
 FILES = ("scene.toml", "lab.toml")
 """The files of the lab, whose hashes the manifest holds."""
 AGAIN = "make the folder again with graphkin variants"
 
 
-class Edition(Struct, frozen=True):
+class Edition(Struct, frozen=True, dict=True):
     """A class folder: its lab, the text of its scene, and its students in roster order.
 
     ``language`` is that of who has no own, as variants or print was told; nothing where it is the
@@ -41,6 +48,32 @@ class Edition(Struct, frozen=True):
     scene: str
     takers: tuple[Taker, ...] = ()
     language: str = ""
+
+    @cached_property
+    def book(self) -> Book:
+        """What marks its variants."""
+        from graphkin.classroom.grading.class_marking import Book
+
+        return Book(self.lab, self.scene)
+
+    @property
+    def signs(self) -> Signs:
+        """By what its students are known in other tables."""
+        every = {taker.student.id: taker for taker in self.takers}
+        return signs(
+            every,
+            {who: taker.code for who, taker in every.items()},
+            {who: taker.email for who, taker in every.items()},
+            {who: taker.student.name for who, taker in every.items()},
+        )
+
+    def words(self, language: str | None = None) -> Words:
+        """The words of its pages: in a language, else in that of the class, or of its scene.
+
+        Raises SceneError for one that is not there.
+        """
+        mechanism = Mechanism(read_text(self.scene, self.lab.name))
+        return language_of(mechanism, language or self.language or None)
 
 
 def read_edition(folder: Path) -> Edition:
@@ -76,13 +109,8 @@ def keep_language(folder: Path, language: str) -> None:
     """Write into the manifest of a class which language its pages are in."""
     record = tables(folder)
     students = record.pop("students")
-    put_in_place(
-        {
-            folder / MANIFEST: as_text(
-                {**record, "language": language, "students": students}
-            ).encode()
-        }
-    )
+    text = as_text({**record, "language": language, "students": students})
+    put_in_place({folder / MANIFEST: text.encode()})
 
 
 def tables(folder: Path) -> dict[str, Any]:

@@ -46,9 +46,13 @@ def owner(taker: Taker) -> Owner:
 def printable_name(student: Student) -> str:
     """A student's name and group in signs of the sheet's font; one without a name, or of whose
     name it has no letter, is called by the id."""
-    name = writable(student.name)
-    known = name if any(map(str.isalnum, name)) else writable(student.id) or UNKNOWN
-    return ", ".join(filter(None, (known, writable(student.group))))
+    name = student.name if is_readable(student.name) else student.id
+    return ", ".join(filter(None, (writable(name) or UNKNOWN, writable(student.group))))
+
+
+def is_readable(name: str) -> bool:
+    """Whether the font has some letter of a name."""
+    return any(sign.isalnum() for sign in writable(name))
 
 
 def writable(text: str) -> str:

@@ -22,10 +22,7 @@ from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.language_names import unknown_lines
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
-from graphkin.documents.sheet_documents import language_of
 from graphkin.drawing.style import Ink
-from graphkin.mechanism import Mechanism
-from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import PageError, Problem
 from graphkin.writers.files import put_in_place, sweep
 from graphkin.writers.lock import locked
@@ -122,7 +119,8 @@ class PrintRun:
 
     def __init__(self, edition: Edition, wishes: PrintRequest, journal: Journal) -> None:
         self.edition, self.wishes, self.journal = edition, wishes, journal
-        self.order = PrintOrder(edition.lab, edition.scene, spoken(edition, wishes), wishes.ink)
+        language = edition.words(wishes.language).language
+        self.order = PrintOrder(edition.lab, edition.scene, language, wishes.ink)
         takers = edition.takers
         names = stems([one.student.id for one in takers], [one.code for one in takers])
         self.stems = dict(zip((one.code for one in takers), names, strict=True))
@@ -245,10 +243,34 @@ class PrintRun:
         return {paths[name]: data for name, data in others.items()}
 
     def merge(self, view: str) -> None:
-        """Write the file of a view for the printer."""
-        members, language = self.printed(view), self.order.language
-        path = merge(self.journal, self.order.lab.name, view, members, language, self.wishes.force)
-        self.outcome.files += [path] if path is not None else []
+        """Write the file of a view for the printer, if it does not stand already and somebody has
+        pages, with a bookmark for each student. Raises PageError when another file is in its way.
+        """
+        members = self.printed(view)
+        if not members:
+            return
+        journal, language = self.journal, self.order.language
+        name, title = f"class-{view}.pdf", f"{self.order.lab.name}, {view}"
+        entries = {n: found for e in journal.entries.values() for n, found in e.files.items()}
+        hashes = [[entries[name] for name in names] for _, names in members]
+        marks = [bookmark(taker) for taker, _ in members]
+        key = key_of(title, language, marks, hashes)
+        path = inside(journal.folder, name)
+        self.outcome.files.append(path)
+        if journal.finished(name, key):
+            return
+        if os.path.lexists(path) and name not in journal.entries and not self.wishes.force:
+            raise PageError(in_the_way(journal.folder, [name]))
+        aside = path.with_name(f".graphkin-{os.getpid()}-{view}.part")
+        try:
+            with aside.open("wb") as stream:
+                join(parts(journal.folder, members), stream, title, language)
+            journal.write([Entry(name, key, {name: hash_of(aside)})])
+            aside.replace(path)
+        except BaseException:
+            with suppress(OSError):
+                aside.unlink()
+            raise
 
     def printed(self, view: str) -> list[tuple[Taker, list[str]]]:
         """The PDF files of a view that stand, student by student in the order of the roster."""
@@ -265,49 +287,8 @@ def part_of(code: str, view: str, kind: str) -> str:
     return f"{code} {view} {kind}"
 
 
-def spoken(edition: Edition, wishes: PrintRequest) -> str:
-    """The language of who has no own: the one wished, or the class's, or the scene's.
-
-    Raises SceneError for one that is not there.
-    """
-    mechanism = Mechanism(read_text(edition.scene, edition.lab.name))
-    return language_of(mechanism, wishes.language or edition.language or None).language
-
-
 Members = Sequence[tuple[Taker, Sequence[str]]]
 """Students in order, each with the names of the PDF files that are put in."""
-
-
-def merge(
-    journal: Journal, lab: str, view: str, members: Members, language: str, force: bool
-) -> Path | None:
-    """Write the file of a view, if it does not stand already; None where nobody has pages.
-
-    It has a bookmark for each student. Raises PageError when another file is in its way.
-    """
-    if not members:
-        return None
-    name, title = f"class-{view}.pdf", f"{lab}, {view}"
-    entries = {n: found for e in journal.entries.values() for n, found in e.files.items()}
-    hashes = [[entries[name] for name in names] for _, names in members]
-    marks = [bookmark(taker) for taker, _ in members]
-    key = key_of(title, language, marks, hashes)
-    path = inside(journal.folder, name)
-    if journal.finished(name, key):
-        return path
-    if os.path.lexists(path) and name not in journal.entries and not force:
-        raise PageError(in_the_way(journal.folder, [name]))
-    aside = path.with_name(f".graphkin-{os.getpid()}-{view}.part")
-    try:
-        with aside.open("wb") as stream:
-            join(parts(journal.folder, members), stream, title, language)
-        journal.write([Entry(name, key, {name: hash_of(aside)})])
-        aside.replace(path)
-    except BaseException:
-        with suppress(OSError):
-            aside.unlink()
-        raise
-    return path
 
 
 def parts(folder: Path, members: Members) -> Iterator[PdfPart]:

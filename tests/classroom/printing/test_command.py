@@ -7,7 +7,6 @@ import json
 import pytest
 from click.testing import CliRunner, Result
 
-from graphkin.classroom.grading.class_folder import open_class
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.journal import JOURNAL
 from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
@@ -182,7 +181,7 @@ def test_files_of_a_journal_that_notes_no_settings_are_refused_as_before(make):
 
 def test_readings_are_held_against_sheets_in_the_language_of_the_class(make):
     folder = make("a", ["1"], language="it")
-    assert read_order(open_class(folder), Grid()).order.language == "it"
+    assert read_order(read_edition(folder), Grid()).order.language == "it"
 
 
 def test_a_language_that_no_page_has_is_refused(make):
