@@ -15,7 +15,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import rounding
-from graphkin.classroom.grading.form_relations import Following, Own, computed, si
+from graphkin.classroom.grading.form_relations import Following, Own, OwnLengths, si
 from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.grading.standard import Standard
 from graphkin.construction.core.component import component_of
@@ -83,8 +83,9 @@ def by_formula(
         field: Own(si(standard, field, size(answers, field)), rounding(answers[field]), field)
         for field in known
     }
+    lengths = OwnLengths(standard, own)
     for field in numbers(standard, fields):
-        for following in computed(standard, own, field, rounding(answers[field])):
+        for following in lengths.computed(field, rounding(answers[field])):
             first = sorted(following.sources, key=known.index)
             yield replace(following, sources=tuple(first))
 

@@ -55,9 +55,6 @@ class FormRelation(NamedTuple):
     bar: float = inf
 
 
-Values = Mapping[str, Own]
-
-
 def si(standard: Standard, field: str, value: float) -> float:
     """A number of a field in SI: a segment by the scale of its drawing."""
     return abs(value) * unit(standard, standard.by_field[field])
@@ -66,67 +63,6 @@ def si(standard: Standard, field: str, value: float) -> float:
 def unit(standard: Standard, probe: Probe) -> float:
     """The unit of a field in SI."""
     return standard.paper.millimetre(probe.plane) if probe.item.unit == "mm" else 1.0
-
-
-def computed(standard: Standard, own: Values, field: str, rounded: float) -> Iterator[Following]:
-    """What a field would be by each relation to own values, itself ``rounded`` by a share."""
-    probe = standard.by_field[field]
-    rubric, mm = standard.rubric, unit(standard, probe)
-    error = hypot(rubric.point, rubric.ruler)
-    for factors, size, bar in relations(standard, own, probe):
-        sources = tuple(dict.fromkeys(each.field for each in factors if each.field))
-        if not sources or field in sources:
-            continue
-        written = min(rounded + sum(each.rounded for each in factors), COARSE)
-        measured = error * standard.paper.millimetre(Plane.MECHANISM) / bar
-        allowed = (max(rubric.floor, ROUNDED) + written + measured) * size / mm
-        laid_off = error if probe.item.unit == "mm" else 0.0
-        yield Following(field, sources, size / mm, allowed + laid_off)
-
-
-def relations(standard: Standard, own: Values, probe: Probe) -> Iterator[FormRelation]:
-    """Each relation in which a field is what comes out."""
-    step = standard.mechanism.program.steps[probe.step]
-    if probe.vector:
-        component = computed_first(standard, probe)
-        if probe.item.what == "value":
-            yield from (FormRelation((v,), v.size) for v in vectors(standard, own, *probe.steps))
-        if component is not None:
-            sizes = component.sizes(OwnLengths(standard, own))
-            yield from (FormRelation(each.factors, each.size, each.bar) for each in sizes)
-    elif len(step.args) == 4:
-        yield from rates(standard, own, probe)
-    elif probe.item.quantity == "slide speed":
-        _, tail, tip = step.args
-        yield from (FormRelation((v,), v.size) for v in vectors(standard, own, tail, tip))
-
-
-def vectors(standard: Standard, own: Values, tail: int, tip: int) -> Iterator[Own]:
-    """The own sizes of the vector between two images."""
-    for field, value in own.items():
-        probe = standard.by_field[field]
-        if probe.vector and {*probe.steps} == {tail, tip}:
-            yield value
-
-
-def rates(standard: Standard, own: Values, probe: Probe) -> Iterator[FormRelation]:
-    """A rate from the own relative vector over the bar: of an acceleration its tangential part."""
-    step = standard.mechanism.program.steps[probe.step]
-    p, q, tail, tip = step.args
-    bar = length(standard, p, q)
-    tails = {tail, standard.exact.tails.get(probe.step, tail)}
-    if probe.item.quantity == EPSILON and len(tails) > 1:
-        tails -= {tail}
-    for start in sorted(tails):
-        yield from (
-            FormRelation((v,), v.size / bar, bar) for v in vectors(standard, own, start, tip)
-        )
-
-
-def length(standard: Standard, p: int, q: int) -> float:
-    """The length of a bar."""
-    values = standard.exact.trace.values
-    return float(abs(values[q] - values[p]))
 
 
 def computed_first(standard: Standard, probe: Probe) -> Component | None:
@@ -142,18 +78,67 @@ def computed_first(standard: Standard, probe: Probe) -> Component | None:
 
 
 class OwnLengths(Struct, frozen=True):
-    """What components are computed from: own sizes, or the key's where no field states them."""
+    """A student's own sizes by their fields, from which others are computed; the key's where no
+    field states what a component is computed from.
+    """
 
     standard: Standard
-    own: Values
+    own: Mapping[str, Own]
+
+    def computed(self, field: str, rounded: float) -> Iterator[Following]:
+        """What a field would be by each relation to own values, itself ``rounded`` by a share."""
+        standard = self.standard
+        probe = standard.by_field[field]
+        rubric, mm = standard.rubric, unit(standard, probe)
+        error = hypot(rubric.point, rubric.ruler)
+        for factors, size, bar in self.relations(probe):
+            sources = tuple(dict.fromkeys(each.field for each in factors if each.field))
+            if not sources or field in sources:
+                continue
+            written = min(rounded + sum(each.rounded for each in factors), COARSE)
+            measured = error * standard.paper.millimetre(Plane.MECHANISM) / bar
+            allowed = (max(rubric.floor, ROUNDED) + written + measured) * size / mm
+            laid_off = error if probe.item.unit == "mm" else 0.0
+            yield Following(field, sources, size / mm, allowed + laid_off)
+
+    def relations(self, probe: Probe) -> Iterator[FormRelation]:
+        """Each relation in which a field is what comes out."""
+        step = self.standard.mechanism.program.steps[probe.step]
+        if probe.vector:
+            component = computed_first(self.standard, probe)
+            if probe.item.what == "value":
+                yield from (FormRelation((v,), v.size) for v in self.vectors(*probe.steps))
+            if component is not None:
+                yield from (FormRelation(e.factors, e.size, e.bar) for e in component.sizes(self))
+        elif len(step.args) == 4:
+            yield from self.rates(probe)
+        elif probe.item.quantity == "slide speed":
+            _, tail, tip = step.args
+            yield from (FormRelation((v,), v.size) for v in self.vectors(tail, tip))
+
+    def rates(self, probe: Probe) -> Iterator[FormRelation]:
+        """A rate from the own relative vector over the bar: of an acceleration its tangential
+        part.
+        """
+        p, q, tail, tip = self.standard.mechanism.program.steps[probe.step].args
+        bar = self.length(p, q)
+        tails = {tail, self.standard.exact.tails.get(probe.step, tail)}
+        if probe.item.quantity == EPSILON and len(tails) > 1:
+            tails -= {tail}
+        for start in sorted(tails):
+            yield from (FormRelation((v,), v.size / bar, bar) for v in self.vectors(start, tip))
 
     def length(self, p: int, q: int) -> float:
         """The length of a bar."""
-        return length(self.standard, p, q)
+        values = self.standard.exact.trace.values
+        return float(abs(values[q] - values[p]))
 
     def vectors(self, tail: int, tip: int) -> Iterator[Own]:
-        """Own sizes of the vector between two images."""
-        return vectors(self.standard, self.own, tail, tip)
+        """The own sizes of the vector between two images."""
+        for field, value in self.own.items():
+            probe = self.standard.by_field[field]
+            if probe.vector and {*probe.steps} == {tail, tip}:
+                yield value
 
     def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Own]:
         """Own angular velocities that are read off the same places and images."""
@@ -164,34 +149,26 @@ class OwnLengths(Struct, frozen=True):
                 yield omega
 
     def turnings(self, rate: int) -> Iterator[Own]:
-        """Own angular velocities by the step that finds them; then the key's."""
-        return turnings(self.standard, self.own, rate)
+        """The own angular velocities by the step that finds them, from own velocities too; then
+        the key's.
+        """
+        for field, value in self.own.items():
+            probe = self.standard.by_field[field]
+            if probe.item.quantity == OMEGA and probe.step == rate:
+                yield value
+        args = self.standard.mechanism.program.steps[rate].args
+        if len(args) == 4:
+            bar = self.length(*args[:2])
+            for v in self.vectors(*args[2:]):
+                yield Own(v.size / bar, v.rounded, v.field)
+        yield Own(abs(self.standard.exact.trace.values[rate]))
 
     def slidings(self, tail: int, tip: int) -> Iterator[Own]:
-        """Own velocities along a guide; then the key's."""
-        return slidings(self.standard, self.own, tail, tip)
-
-
-def turnings(standard: Standard, own: Values, rate: int) -> Iterator[Own]:
-    """The own angular velocities of what guides, from own velocities too; then the key's."""
-    for field, value in own.items():
-        probe = standard.by_field[field]
-        if probe.item.quantity == OMEGA and probe.step == rate:
-            yield value
-    args = standard.mechanism.program.steps[rate].args
-    if len(args) == 4:
-        bar = length(standard, *args[:2])
-        for v in vectors(standard, own, *args[2:]):
-            yield Own(v.size / bar, v.rounded, v.field)
-    yield Own(abs(standard.exact.trace.values[rate]))
-
-
-def slidings(standard: Standard, own: Values, tail: int, tip: int) -> Iterator[Own]:
-    """The own velocities of what slides along its guide; then the key's."""
-    steps = standard.mechanism.program.steps
-    for field, value in own.items():
-        probe = standard.by_field[field]
-        if probe.item.quantity == "slide speed" and steps[probe.step].args[1:] == (tail, tip):
-            yield value
-    yield from vectors(standard, own, tail, tip)
-    yield Own(length(standard, tail, tip))
+        """The own velocities of what slides along its guide; then the key's."""
+        steps = self.standard.mechanism.program.steps
+        for field, value in self.own.items():
+            probe = self.standard.by_field[field]
+            if probe.item.quantity == "slide speed" and steps[probe.step].args[1:] == (tail, tip):
+                yield value
+        yield from self.vectors(tail, tip)
+        yield Own(self.length(tail, tip))
