@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from graphkin.construction.centres.instant_centre import set_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence, construction
 from graphkin.construction.core.plan_vector import is_set_on, plan_vector
-from graphkin.construction.core.program import Part, Plane, Program, Step
+from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.documents.mark_dependencies import Target, rests_on
@@ -40,7 +40,8 @@ def stages(drawing: Drawing, said: Sequence[Sentence]) -> dict[int, int]:
             (n for n in drawing.trace.values if program.steps[n].part is Part.POSITION), BEFORE
         )
     for stage, sentence in enumerate(said):
-        for number in behind(program, sentence.all_steps):
+        own = (number for number in sentence.all_steps if number >= 0)
+        for number in program.behind(own, by_hand=True):
             found.setdefault(number, stage)
     early = set_before(drawing)
     setting = next((at for at, one in enumerate(said) if one.name == SET_ON), len(said) - 1)
@@ -66,22 +67,6 @@ def of_component(drawing: Drawing, step: Step) -> Iterator[int]:
         for (what, name), number in drawing.trace.program.targets.items():
             if what == "acceleration" and lettered(name) in ends:
                 yield number
-
-
-def behind(program: Program, numbers: Iterable[int]) -> set[int]:
-    """Some steps and all those that they are drawn from, in the hand's way too."""
-    found: set[int] = set()
-    waiting = [number for number in numbers if number >= 0]
-    while waiting:
-        number = waiting.pop()
-        if number in found:
-            continue
-        found.add(number)
-        step = program.steps[number]
-        waiting += step.args
-        if step.by_hand is not None:
-            waiting.append(step.by_hand)
-    return found
 
 
 def stage_of(

@@ -21,7 +21,7 @@ from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
 from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.sentences import SET_ON, TURNING, set_on_mechanism
-from graphkin.documents.step_numbers import behind, stage_of, stages
+from graphkin.documents.step_numbers import stage_of, stages
 from graphkin.documents.step_visibility import accompanied, when_told
 from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
@@ -277,7 +277,7 @@ def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tu
     """For the steps of plans the crossings without which they cannot be; not those of positions."""
     program = sheets[0].drawing.trace.program
     lines = {found.number for found in lines_of(sheets) if found.part is not Part.POSITION}
-    found = {step: lines & behind(program, [step]) for step in shown}
+    found = {step: lines.intersection(program.behind([step], by_hand=True)) for step in shown}
     for line in lines:
         for step in program.steps[line].args:
             if step in found and not program.steps[step].name:

@@ -15,7 +15,6 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.result_tables import turning_rows, vector_rows
 from graphkin.documents.captions import HEADING
 from graphkin.documents.sentences import TURNING, sentences
-from graphkin.documents.step_numbers import behind
 from graphkin.drawing.marks import CircleMark, LineMark, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.style import BRIEF
@@ -121,9 +120,9 @@ def test_what_a_step_is_drawn_from_stands_before_it(name):
 def test_the_sources_of_a_step_are_all_that_it_hangs_on_by_one_stroke(name):
     told, program = told_of(name), sheets_of(name)[0].drawing.trace.program
     for step, sources in told.sources.items():
-        before = behind(program, [step]) - {step}
+        before = {*program.behind([step], by_hand=True)} - {step}
         assert set(sources) <= before
-        farther = behind(program, sources)
+        farther = {*program.behind(sources, by_hand=True)}
         assert {one for one in before if one in told.at} <= farther
 
 
@@ -356,7 +355,7 @@ def test_what_hangs_on_a_crossing_of_a_plan_is_of_that_plan_or_read_off_it(name)
     for step, lines in told.hangs.items():
         assert program.steps[step].part is not Part.POSITION
         drawn_to = {line for line in lines if step in program.steps[line].args}
-        assert set(lines) <= behind(program, [step]) | drawn_to
+        assert set(lines) <= {*program.behind([step], by_hand=True)} | drawn_to
         assert all(program.steps[line].part is not Part.POSITION for line in lines)
 
 

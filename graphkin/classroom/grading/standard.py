@@ -69,12 +69,7 @@ class FormLayout(Struct, frozen=True, dict=True):
     @cached_property
     def needed(self) -> tuple[int, ...]:
         """The steps from which the fields follow, composite ones by value."""
-        wanted = {step for probe in self.probes for step in probe.steps}
-        steps = self.program.steps
-        for number in range(len(steps) - 1, -1, -1):
-            if number in wanted:
-                wanted.update(steps[number].args)
-        return tuple(sorted(wanted))
+        return self.program.behind(step for probe in self.probes for step in probe.steps)
 
     @cached_property
     def followers(self) -> dict[int, frozenset[int]]:

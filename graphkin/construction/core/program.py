@@ -203,10 +203,13 @@ class Program(Struct, frozen=True):
         With ``by_hand`` the hand's way of each composite step comes with it, and every arrow
         between points that are there.
         """
-        return self.behind((self.targets[target] for target in targets), by_hand=by_hand)
+        found = self.behind((self.targets[target] for target in targets), by_hand=by_hand)
+        return tuple(sorted({*found, *self._arrows({*found})})) if by_hand else found
 
     def behind(self, numbers: Iterable[int], *, by_hand: bool = False) -> tuple[int, ...]:
-        """The steps that some steps need, themselves included, in order."""
+        """The steps that some steps need, themselves included, in order; with ``by_hand`` also
+        those of the hand's way of each.
+        """
         wanted = {*numbers}
         for number in range(max(wanted, default=-1), -1, -1):
             if number not in wanted:
@@ -215,8 +218,6 @@ class Program(Struct, frozen=True):
             wanted.update(step.args)
             if by_hand and step.by_hand is not None:
                 wanted.add(step.by_hand)
-        if by_hand:
-            wanted |= self._arrows(wanted)
         return tuple(sorted(wanted))
 
     def also_found(
