@@ -94,7 +94,7 @@ def ground_of(scene: Scene) -> Ground:
     sweep = sweep_of(scene)
     centre = sweep.stands
     path = reachable_ranges(sweep)
-    low, high = path.ranges[0][0].low.at, path.ranges[0][-1].high.at
+    low, high = path.spans[0]
     if sweep.what == "turn":
         centre += TURN * round(((low + high) / 2 - centre) / TURN)
     return Ground(sweep, path, min(max(centre, low), high))

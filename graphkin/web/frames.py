@@ -140,8 +140,7 @@ def place_in(cycle: Cycle, low: float, high: float) -> float:
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))
-    turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
-    return next((start + turn for turn in turns if low <= start + turn <= high), start)
+    return next((start + turn for turn in cycle.sweep.turns if low <= start + turn <= high), start)
 
 
 def shown_range(cycle: Cycle) -> tuple[float, float]:
@@ -210,9 +209,8 @@ def made(
 
 def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
     """The piece that holds a place, whole turns apart, and the place within it."""
-    turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
     for piece in cycle.path.ranges[0]:
-        for turn in turns:
+        for turn in cycle.sweep.turns:
             if piece.low.at <= place + turn <= piece.high.at:
                 return piece, place + turn
     return None, place
