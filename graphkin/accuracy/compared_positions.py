@@ -196,7 +196,7 @@ def towards(way: EndSearch, groups: int, each: int, kind: End) -> Approach:
     """Places of a piece at ever smaller distances from its end, so many at each."""
     piece, goal = way.piece, way.goal
     far = FIRST * (piece.high.at - piece.low.at)
-    share = max(way.share, SURELY if kind == "change" or piece.is_searched else 0.0)
+    share = max(way.share, SURELY if kind == "change" or piece.course.is_searched else 0.0)
     near = max(ULPS * float(np.spacing(abs(goal) + far)), share * far)
     distance = np.geomspace(far, near, groups)
     spread = 1 - APART * np.arange(each) / each

@@ -21,7 +21,7 @@ from graphkin.motion.sweep import Sweep, inputs
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.scene.model import Branch, Scene
+from graphkin.scene.model import Branch, Closure, Scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Group, Higher
 from graphkin.text.errors import GraphkinError
@@ -140,6 +140,11 @@ class Course(Struct, frozen=True, dict=True):
                 continue
             work += action.value.trying.work(self.known_of(n, values, 1))
         return work
+
+    @property
+    def is_searched(self) -> bool:
+        """Whether it has a group of higher class, whose places are known to few digits."""
+        return any(isinstance(each, Closure) for each in self.branches.values())
 
     @property
     def tried_at_once(self) -> int:

@@ -94,7 +94,7 @@ def followers(cycle: Cycle, number: int = 0) -> tuple[Follower, ...]:
     pieces = cycle.path.ranges[number]
     at = samples(pieces)
     again = coming_back(cycle, movers, number)
-    enough = ENOUGH if any(piece.is_searched for piece in pieces) else 0.0
+    enough = ENOUGH if any(piece.course.is_searched for piece in pieces) else 0.0
     past = at[-1] + APART * np.arange(2, 4) if any(again) else at[:0]
     turns = turning_places(cycle, movers, np.append(at, past), at[-1], again, enough)
     for n, closed in enumerate(again):
@@ -217,7 +217,7 @@ def samples(pieces: Range) -> Reals:
         low += 0.0 if piece.low.kind == "window" else APART
         high -= 0.0 if piece.high.kind == "window" else APART
         if low < high:
-            fine = FEWER if piece.is_searched else FINE
+            fine = FEWER if piece.course.is_searched else FINE
             parts.append(np.linspace(low, high, fine + 1))
     return np.concatenate(parts) if parts else np.array([pieces[0].low.at])
 

@@ -31,7 +31,6 @@ from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.motion.turns_followed import led
 from graphkin.numbers.arithmetic import phase
-from graphkin.scene.model import Closure
 from graphkin.text.errors import ClosureError, Problem, SceneError
 
 ALIKE = 1e-8
@@ -57,11 +56,6 @@ class Piece(Struct, frozen=True):
     def branches(self) -> Branches:
         """The closures picked on this piece, as [branches] states them."""
         return self.course.branches
-
-    @property
-    def is_searched(self) -> bool:
-        """Whether it has a group of higher class, whose places are known to few digits."""
-        return any(isinstance(each, Closure) for each in self.branches.values())
 
     def holds(self, at: Reals) -> np.ndarray:
         """Which u lie within, ends included."""

@@ -158,9 +158,8 @@ def sweep_of(
     start = 0.0
     if number is not None:
         start = stated_motion(scene.drivers[number - 1], scene)[0]
-        start = (
-            start % TURN if what == "turn" and not scene.touching else start
-        )  # wheels count turns
+        if what == "turn" and not scene.touching:  # else wheels count its turns
+            start %= TURN
     first, last, whole = window(scene, what, number, start, low, high)
     way = usual(scene, what, number, first, last)
     return Sweep(named(scene, number), scene, what, number, start, first, last, whole, way)
