@@ -103,10 +103,7 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
     if isinstance(group, Dyad) and isinstance(group.inner, Pin):
         return group.inner.point
     outside = {
-        point
-        for link in (scene.frame, *scene.links.values())
-        if link.name not in group.links
-        for point in link.points
+        point for link in scene.every_link if link.name not in group.links for point in link.points
     }
     points = [p for link in group.links for p in scene.links[link].points]
     free = [p for p in points if p not in outside]

@@ -279,7 +279,7 @@ def pin_places(scene: Scene, trace: Trace) -> dict[str, complex]:
 
 def kept(scene: Scene, one: str, other: str) -> bool:
     """Whether one link has both points."""
-    every = (scene.frame, *scene.links.values())
+    every = scene.every_link
     return any(one in link.points and other in link.points for link in every)
 
 

@@ -88,7 +88,7 @@ def wanted_of(scene: Scene, asked: bool) -> Wanted:
 
 def point_names(scene: Scene, solution: Solution) -> list[str]:
     """The frame's points, the links' as written, then those such as A@3."""
-    written = [p for link in (scene.frame, *scene.links.values()) for p in link.points]
+    written = [p for link in scene.every_link for p in link.points]
     asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if is_under(name)]
     names = dict.fromkeys((*written, *asked, *solution.points))
     return [name for name in names if motion_of(name, solution) is not None]
