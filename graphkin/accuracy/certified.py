@@ -20,7 +20,8 @@ from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import is_ball
 from graphkin.numbers.formal import FORMAL, Formal, letter, point
-from graphkin.numbers.kinds import ball_kind, in_doubles
+from graphkin.numbers.kinds import ball_kind, in_doubles, is_real_ball
+from graphkin.numbers.plane import by_parts
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Scene
 from graphkin.text.errors import SceneError
@@ -124,8 +125,7 @@ class Balls(Struct, frozen=True):
 def nearest(value: Any) -> Any:
     """The doubles next to the middles of a value made of balls."""
     if isinstance(value, tuple):
-        parts = map(nearest, value)
-        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+        return by_parts(nearest, value)
     return in_doubles(value)
 
 
@@ -169,16 +169,14 @@ def formal_value(step: Step, args: Iterable[Any], values: Mapping[str, Any], bal
 def as_formal(value: Any) -> Any:
     """A value with Python's own numbers, and those of lines and circles, as formal ones."""
     if isinstance(value, tuple):
-        parts = map(as_formal, value)
-        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+        return by_parts(as_formal, value)
     return Formal.of(value)
 
 
 def unknown(ball: Any) -> Any:
     """A value of the make of a ball of which nothing is known."""
     if isinstance(ball, tuple):
-        parts = map(unknown, ball)
-        return type(ball)(*parts) if hasattr(ball, "_fields") else tuple(parts)
+        return by_parts(unknown, ball)
     if not is_ball(ball):
         return Formal.of(ball)
     return letter(object()) if is_real_ball(ball) else point(object())
@@ -187,8 +185,7 @@ def unknown(ball: Any) -> Any:
 def sharpened(value: Any, formal: Any) -> Any:
     """A ball as narrow as what is formally known allows: of no width where that ends in binary."""
     if isinstance(value, tuple):
-        parts = [sharpened(*both) for both in zip(value, formal, strict=True)]
-        return type(value)(*parts) if hasattr(value, "_fields") else tuple(parts)
+        return by_parts(sharpened, value, formal)
     if not is_ball(value):
         return value
     from flint import acb
@@ -207,13 +204,6 @@ def narrowed(ball: Any, formal: Formal) -> Any:
     exact = arb(fmpq(known.real.numerator, known.real.denominator))
     assert ball.overlaps(exact), "a ball holds the number that it is formally known to be"
     return exact
-
-
-def is_real_ball(ball: Any) -> bool:
-    """Whether a ball is one of real numbers."""
-    from flint import arb
-
-    return isinstance(ball, arb)
 
 
 # --- decimals ------------------------------------------------------------------------------------

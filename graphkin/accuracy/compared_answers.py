@@ -20,7 +20,7 @@ from graphkin.construction.core.quantities import KINDS, SLIDING
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.motion.course import Reals
 from graphkin.numbers.arithmetic import is_ball, is_decimal
-from graphkin.numbers.kinds import ball_kind
+from graphkin.numbers.kinds import ball_kind, is_real_ball
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Scene
 from graphkin.structure.pairs import is_in_scene
@@ -204,11 +204,6 @@ def radius(value: Any) -> float:
     return float(np.hypot.reduce([float(part.rad()) for part in parts]))
 
 
-def is_real_ball(value: Any) -> bool:
-    """Whether a ball is one of real numbers."""
-    return hasattr(value, "mid") and not hasattr(value, "real")
-
-
 def missed_by(found: Sequence[Found], reference: Reference) -> Reals:
     """The largest error of each quantity at each position, (P, 3).
 
@@ -220,17 +215,12 @@ def missed_by(found: Sequence[Found], reference: Reference) -> Reals:
         return np.array(
             [
                 [
-                    max((error(each.get(t), sure[t]) for t in some), default=0.0, key=nan_last)
+                    np.max([error(each.get(t), sure[t]) for t in some], initial=0.0)
                     for some in reference.answers.targets
                 ]
                 for each, sure in zip(found, reference.found, strict=True)
             ]
         )
-
-
-def nan_last(value: float) -> tuple[bool, float]:
-    """Orders numbers so that the largest is NaN where any is."""
-    return (bool(np.isnan(value)), value)
 
 
 def error(value: Any, sure: Any) -> float:
@@ -265,11 +255,6 @@ def as_ball(value: Any) -> Any:
 def rows_of(columns: Mapping[Target, Any], count: int) -> list[Found]:
     """The values of single positions from arrays, or from what all positions share."""
     arrays = {
-        target: np.broadcast_to(np.asarray(v), (len_of(v, count),)) for target, v in columns.items()
+        target: v if getattr(v, "shape", ()) else np.full(count, v) for target, v in columns.items()
     }
     return [{target: array[n] for target, array in arrays.items()} for n in range(count)]
-
-
-def len_of(value: Any, count: int) -> int:
-    """The length of an array, or of what is to be made of a single value."""
-    return len(value) if getattr(value, "shape", ()) else count

@@ -94,7 +94,7 @@ def ground_of(scene: Scene) -> Ground:
     sweep = sweep_of(scene)
     centre = sweep.stands
     path = reachable_ranges(sweep)
-    low, high = path.ranges[0][0].low.at, path.ranges[0][-1].high.at
+    low, high = path.spans[0]
     if sweep.what == "turn":
         centre += TURN * round(((low + high) / 2 - centre) / TURN)
     return Ground(sweep, path, min(max(centre, low), high))
@@ -196,7 +196,7 @@ def towards(way: EndSearch, groups: int, each: int, kind: End) -> Approach:
     """Places of a piece at ever smaller distances from its end, so many at each."""
     piece, goal = way.piece, way.goal
     far = FIRST * (piece.high.at - piece.low.at)
-    share = max(way.share, SURELY if kind == "change" or piece.is_searched else 0.0)
+    share = max(way.share, SURELY if kind == "change" or piece.course.is_searched else 0.0)
     near = max(ULPS * float(np.spacing(abs(goal) + far)), share * far)
     distance = np.geomspace(far, near, groups)
     spread = 1 - APART * np.arange(each) / each

@@ -13,7 +13,13 @@ from graphkin.accuracy.pencil_rows import PENCILS
 from graphkin.accuracy.point_names import GREY, PointName, name_points
 from graphkin.accuracy.study import Study
 from graphkin.construction.core.quantities import KINDS
-from graphkin.writers.plot_style import COLOURS, INK, figure_title, new_figure, panel_heading
+from graphkin.writers.plot_style import (
+    COLOURS,
+    INK,
+    figure_title,
+    new_figure,
+    panel_heading,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +74,7 @@ class MethodSpot(Struct, frozen=True):
 def ladder(study: Study, machine: str) -> Figure:
     """Error against time, all of it at the left, that of doubles enlarged at the right."""
     figure = new_figure(*A4)
-    which = shown_quantity(study.rows)
+    which = max((n for n in range(3) if any(row.errors[n] for row in study.rows)), default=0)
     spots = [spot for row in study.rows if (spot := spot_of(row, which)) is not None]
     left, right = figure.subplots(1, 2, width_ratios=(1.12, 1))
     figure_title(
@@ -81,12 +87,6 @@ def ladder(study: Study, machine: str) -> Figure:
     whole(figure, left, spots)
     enlarged(figure, right, spots)
     return figure
-
-
-def shown_quantity(rows: Sequence[MethodRow]) -> int:
-    """The quantity whose errors are shown: the highest derivative that any method misses."""
-    known = [n for n in range(3) if any(row.errors[n] for row in rows)]
-    return max(known, default=0)
 
 
 def spot_of(row: MethodRow, which: int) -> MethodSpot | None:

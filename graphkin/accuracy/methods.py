@@ -18,7 +18,6 @@ from graphkin.construction.core.timing import Timing
 from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind, ball_kind, decimal_kind
-from graphkin.scene.model import Closure
 from graphkin.text.errors import GraphkinError
 
 DIGITS = (15, 30, 60, 120)
@@ -97,7 +96,7 @@ def afforded(reference: Reference, kind: Kind, effort: Effort) -> Sequence[int]:
     Of decimals and balls as many as the effort says, a quarter of them where each is a search.
     """
     count = len(reference.places.at)
-    if any(isinstance(b, Closure) for b in reference.places.course.branches.values()):
+    if reference.places.course.is_searched:
         count = count if kind is FLOAT else min(count, max(1, effort.timed // 4))
     elif kind is not FLOAT:
         count = min(count, effort.timed)
@@ -145,9 +144,8 @@ def batches(reference: Reference, effort: Effort) -> Iterator[Method]:
 
 def variants_of(reference: Reference, effort: Effort) -> int:
     """How many variants a batch has: fewer where each is a search."""
-    branches = reference.places.course.branches.values()
-    searched = any(isinstance(branch, Closure) for branch in branches)
-    wanted = min(effort.variants, FEW) if searched else effort.variants
+    most = FEW if reference.places.course.is_searched else effort.variants
+    wanted = min(effort.variants, most)
     return max(wanted, len(reference.places.at))
 
 

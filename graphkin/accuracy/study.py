@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
+from itertools import chain
 from time import perf_counter
 
 import numpy as np
@@ -66,7 +67,7 @@ def study(
     answers = answers_of(ground.sweep.scene, ground.piece.course.program)
     reference = reference_of(places_around(ground, effort.places), answers)
     methods = []
-    for method in every_method(reference, effort):
+    for method in chain(own_methods(reference, effort), other_methods(reference, effort)):
         say(method.row.method)
         methods.append(method)
     rows = timed(methods, watch)
@@ -84,12 +85,6 @@ def study(
     say("cost by scope")
     costs = scopes(mechanism, reference, watch)
     return Study(mechanism, reference, agreement(reference), tuple(rows), flattening, pencil, costs)
-
-
-def every_method(reference: Reference, effort: Effort) -> Iterator[Method]:
-    """Every method: the program on every kind of number, and other routes."""
-    yield from own_methods(reference, effort)
-    yield from other_methods(reference, effort)
 
 
 def timed(methods: Sequence[Method], watch: Stopwatch) -> list[MethodRow]:

@@ -14,7 +14,7 @@ from graphkin.construction.core.bases import kept_touches
 from graphkin.construction.core.branches import has_two_ways
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
-from graphkin.construction.core.run import StepFailed, Trace
+from graphkin.construction.core.run import StepFailed
 from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
@@ -47,7 +47,7 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
     """The closures of every group that closes in more than one way."""
     found: list[Choice] = []
     taken: set[int] = set()
-    every = placing(program)
+    every = program.needed(positions_of(program))
     stated = values_as_stated(scene, program, every)
     for whole in groups:
         group = whole.dyad if isinstance(whole, Stretched) else whole
@@ -103,10 +103,7 @@ def shown_point(scene: Scene, group: Group, program: Program) -> str:
     if isinstance(group, Dyad) and isinstance(group.inner, Pin):
         return group.inner.point
     outside = {
-        point
-        for link in (scene.frame, *scene.links.values())
-        if link.name not in group.links
-        for point in link.points
+        point for link in scene.every_link if link.name not in group.links for point in link.points
     }
     points = [p for link in group.links for p in scene.links[link].points]
     free = [p for p in points if p not in outside]
@@ -149,7 +146,7 @@ def numbered(
     assert closer is not None and step.action is not None
     alone = replace(program, targets={("", str(arg)): arg for arg in step.args})
     try:
-        known = run_positions(scene, alone, alone.needed(alone.targets)).values
+        known = run_settled(scene, alone, alone.needed(alone.targets)).values
     except StepFailed:
         return ()
     found = []
@@ -171,14 +168,9 @@ def replaced(program: Program, number: int, step: Step) -> Program:
 def values_as_stated(scene: Scene, program: Program, every: tuple[int, ...]) -> Mapping[int, Any]:
     """The values of the positions as the scene states its branches; none where these fail."""
     try:
-        return run_positions(scene, program, every).values
+        return run_settled(scene, program, every).values
     except StepFailed:
         return {}
-
-
-def placing(program: Program) -> tuple[int, ...]:
-    """The steps that place all points."""
-    return program.needed(positions_of(program))
 
 
 def positions_of(program: Program) -> list[Target]:
@@ -208,11 +200,11 @@ def closure(
     for step in program.descendants(number, later):
         known.pop(step, None)
     try:
-        trace, failing = run_positions(scene, program, every, known), ""
+        trace, failing = run_settled(scene, program, every, overrides=known), ""
     except StepFailed as failed:
         failing = letter_of(program, failed.number) or f"step {failed.number}"
         try:
-            trace = run_positions(scene, program, program.needed([target]), known)
+            trace = run_settled(scene, program, program.needed([target]), overrides=known)
         except StepFailed:
             return GroupClosure(words, None, chosen, failing)
     place = trace.value(*target)
@@ -220,16 +212,6 @@ def closure(
     found = {} if failing else {p: trace.value(what, p) for what, p in positions_of(program)}
     points = {name: at for name, at in found.items() if isinstance(at, complex)}
     return GroupClosure(words, known_place, chosen, failing, points)
-
-
-def run_positions(
-    scene: Scene,
-    program: Program,
-    needed: tuple[int, ...],
-    known: Mapping[int, Any] | None = None,
-) -> Trace:
-    """Run some steps of a program on the scene's own numbers, but for those that are known."""
-    return run_settled(scene, program, needed, overrides=known)
 
 
 def words_of(scene: Scene, pin: str, dyad: Dyad, way: int) -> str:

@@ -201,7 +201,7 @@ def ranges_followed(course: Course) -> list[Range]:
     path = reachable_ranges(course.sweep)
     if path.whole:
         return [(0.0, TURN)]
-    return sorted((pieces[0].low.at, pieces[-1].high.at) for pieces in path.ranges)
+    return sorted(path.spans)
 
 
 def swept(scene: Scene, number: int) -> Sweep:

@@ -228,7 +228,7 @@ def written_line(
 
 def longest(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals:
     """The longest distance of two points of one link, or radius (m): (N,); 1 if all are zero."""
-    links = (scene.frame, *scene.links.values())
+    links = scene.every_link
     lengths = list[Any]()
     for body in bodies.values():
         places = np.array([numbers.complexes(place) for place in body.values()])

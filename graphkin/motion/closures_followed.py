@@ -56,7 +56,8 @@ class FollowedClosures(Struct, frozen=True, eq=False):
         trying = solver.trying
         assert isinstance(trying, SeveralTrials)
         rows = self.beside(trying, known, at)
-        found = [np.array(part) for part in trying.parts(with_elements(rows))]
+        closed = np.column_stack([np.arange(len(rows)), rows])
+        found = [np.array(part) for part in trying.parts(closed)]
         rest = np.flatnonzero(np.isnan(rows[:, 0]))
         if rest.size:
             again = trying.closed([array[rest] for array in known], solver.number)
@@ -103,11 +104,6 @@ def interpolated(at: Reals, rows: Reals, wanted: Reals, after: Reals) -> Reals:
         weight = ((wanted[:, None] - others) / (places[:, k, None] - others)).prod(axis=1)
         found += weight[:, None] * rows[which[:, k]]
     return found
-
-
-def with_elements(rows: Reals) -> Reals:
-    """Rows with the number of the element before each."""
-    return np.column_stack([np.arange(len(rows)), rows])
 
 
 def paired(

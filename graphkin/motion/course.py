@@ -11,7 +11,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.compile import write
-from graphkin.construction.core.batch import BLOCK, run_batch, run_blocks
+from graphkin.construction.core.batch import run_batch, run_blocks
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
@@ -21,7 +21,7 @@ from graphkin.motion.sweep import Sweep, inputs
 from graphkin.motion.turns_counted import Turned
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.scene.model import Branch, Scene
+from graphkin.scene.model import Branch, Closure, Scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Group, Higher
 from graphkin.text.errors import GraphkinError
@@ -138,13 +138,13 @@ class Course(Struct, frozen=True, dict=True):
             action = self.program.steps[n].action
             if action is None or not isinstance(action.value, ClosureSolver):
                 continue
-            args = self.program.steps[n].args
-            before = Program(self.program.steps, {("", str(arg)): arg for arg in args})
-            with np.errstate(all="ignore"):
-                needed = before.needed(before.targets)
-                trace = run_batch(self.program, needed, values, batch_kind(), args)
-            work += action.value.trying.work([np.atleast_1d(trace.values[arg]) for arg in args])
+            work += action.value.trying.work(self.known_of(n, values, 1))
         return work
+
+    @property
+    def is_searched(self) -> bool:
+        """Whether it has a group of higher class, whose places are known to few digits."""
+        return any(isinstance(each, Closure) for each in self.branches.values())
 
     @property
     def tried_at_once(self) -> int:
@@ -161,28 +161,12 @@ class Course(Struct, frozen=True, dict=True):
 
         The last row is 1 where all positions are finite, NaN elsewhere.
         """
-        at = np.asarray(at, dtype=float)
-        keep = [number for target, number in self.program.targets.items() if target[0] in PLACES]
-        found = np.empty((len(self.crossings) + 1, len(at)))
-        for start in range(0, len(at), BLOCK):
-            part = slice(start, start + BLOCK)
-            values = self.values(at[part])
-            with np.errstate(all="ignore"):
-                trace = run_batch(
-                    self.program,
-                    self.early,
-                    values,
-                    batch_kind(),
-                    keep,
-                    margins=True,
-                    overrides=self.closing(values, at[part]),
-                )
-            for row, number in enumerate(self.crossings):
-                found[row, part] = trace.margins[number]
-            closed = np.ones(len(at[part]))
-            for value in trace.values.values():
-                closed = np.where(np.isfinite(value), closed, np.nan)
-            found[-1, part] = closed
+        trace = self.run(at, [target for target in self.program.targets if target[0] in PLACES])
+        found = np.ones((len(self.crossings) + 1, len(at)))
+        for row, number in enumerate(self.crossings):
+            found[row] = trace.margins[number]
+        for value in trace.values.values():
+            found[-1] = np.where(np.isfinite(value), found[-1], np.nan)
         return found
 
     def closing(self, values: Mapping[str, Any], at: Reals) -> dict[int, tuple[Any, ...]]:
@@ -191,13 +175,19 @@ class Course(Struct, frozen=True, dict=True):
             return {}
         steps = self.program.steps
         number = next(n for n in self.early if closer_of(steps[n]) is not None)
-        solver, args = closer_of(steps[number]), steps[number].args
+        solver = closer_of(steps[number])
         assert solver is not None
+        known = self.known_of(number, values, len(at))
         with np.errstate(all="ignore"):
-            before = [n for n in self.early if n < number]
-            trace = run_batch(self.program, before, values, batch_kind(), args)
-            known = [spread(trace.values[arg], len(at)) for arg in args]
             return {number: self.closures.closed(solver, known, at)}
+
+    def known_of(self, number: int, values: Mapping[str, Any], count: int) -> list[Reals]:
+        """What a step is drawn from, for values of the scene: arrays (N,)."""
+        args = self.program.steps[number].args
+        with np.errstate(all="ignore"):
+            before = self.program.behind(args)
+            trace = run_batch(self.program, before, values, batch_kind(), args)
+        return [spread(trace.values[arg], count) for arg in args]
 
     def closes(self, at: Any) -> Flags:
         """Whether everything can be placed, and in one way, for each u (N,)."""

@@ -84,12 +84,12 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """All pieces, range by range, in the order of the rows' numbers."""
-        return tuple(piece for found in self.path.ranges for piece in found)
+        return self.path.pieces
 
     @property
     def ranges(self) -> tuple[tuple[float, float], ...]:
         """The reachable ranges of u, the one of the scene first."""
-        return tuple((found[0].low.at, found[-1].high.at) for found in self.path.ranges)
+        return self.path.spans
 
     @cached_property
     def singulars(self) -> tuple[Singular, ...]:
@@ -192,7 +192,7 @@ def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
 
     It has none where a dead point lies on both sides.
     """
-    known = spans(path)
+    known = path.spans
     ends = " and ".join(f"from {low:.10g} to {high:.10g}" for low, high in known[:LISTED])
     ends += f" {sweep.unit}" + (
         f" and in {len(known) - LISTED} more ranges" * (len(known) > LISTED)
@@ -219,26 +219,21 @@ def places(sweep: Sweep, path: Path, steps: int) -> Reals:
             return path.ranges[0][0].low.at + np.append(even, TURN)
         if path.whole:
             return even
-        ends = np.floor(np.array(spans(path)) / TURN)
+        ends = np.floor(np.array(path.spans) / TURN)
         turns = np.arange(ends.min(), ends.max() + 1) * TURN
         every = np.concatenate([even + turn for turn in turns])
-        parts = [every[(low <= every) & (every <= high)] for low, high in spans(path)]
+        parts = [every[(low <= every) & (every <= high)] for low, high in path.spans]
         missing = even[~closing(even, np.concatenate(parts))]
         return np.concatenate([*parts, missing])
     if sweep.low < sweep.high and (sweep.what in ("turn", "time")):
         return np.linspace(sweep.low, sweep.high, steps + 1)
-    return np.concatenate([np.linspace(low, high, steps + 1) for low, high in spans(path)])
+    return np.concatenate([np.linspace(low, high, steps + 1) for low, high in path.spans])
 
 
 def closing(even: Reals, found: Reals) -> Flags:
     """Which positions of a turn are among those found, whole turns apart."""
     have = np.round(found % TURN, 9) % TURN
     return np.isin(np.round(even, 9), have)
-
-
-def spans(path: Path) -> list[tuple[float, float]]:
-    """Where each range begins and ends."""
-    return [(found[0].low.at, found[-1].high.at) for found in path.ranges]
 
 
 def cycle_at(
@@ -290,8 +285,7 @@ def columns_at(
     which, within = assigned(sweep, path, at, usual if near is None else near)
     columns: dict[Target, Any] = {}
     margins: dict[str, Reals] = {}
-    every = [piece for pieces in path.ranges for piece in pieces]
-    for number, piece in enumerate(every, 1):
+    for number, piece in enumerate(path.pieces, 1):
         rows = np.flatnonzero(which == number)
         if not rows.size:
             continue
@@ -316,9 +310,7 @@ def assigned(sweep: Sweep, path: Path, at: Reals, near: float) -> tuple[Any, Rea
     """
     which = np.zeros(len(at), dtype=int)
     within = at.copy()
-    turns = (0.0, TURN, -TURN) if sweep.whole else (0.0,)
-    every = [piece for pieces in path.ranges for piece in pieces]
-    for turn, (number, piece) in product(turns, enumerate(every, 1)):
+    for turn, (number, piece) in product(sweep.turns, enumerate(path.pieces, 1)):
         place = at + turn
         inside = (which == 0) & piece.holds(place)
         for end in (piece.low, piece.high):

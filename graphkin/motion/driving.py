@@ -71,7 +71,7 @@ def reach_of(scene: Scene) -> float:
     """
     lengths: list[Quantity] = []
     places: list[tuple[str, Quantity, Quantity]] = []
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.every_link:
         for placing in link.placings:
             lengths += [length for _, _, length in lengths_of(placing)]
             places += [(link.name, placing.x, placing.y)] if isinstance(placing, At) else []

@@ -94,8 +94,9 @@ def followers(cycle: Cycle, number: int = 0) -> tuple[Follower, ...]:
     pieces = cycle.path.ranges[number]
     at = samples(pieces)
     again = coming_back(cycle, movers, number)
+    enough = ENOUGH if any(piece.course.is_searched for piece in pieces) else 0.0
     past = at[-1] + APART * np.arange(2, 4) if any(again) else at[:0]
-    turns = turning_places(cycle, movers, np.append(at, past), at[-1], again, enough_of(pieces))
+    turns = turning_places(cycle, movers, np.append(at, past), at[-1], again, enough)
     for n, closed in enumerate(again):
         if closed:
             over = turns[n] >= ends(pieces)[1] - ALIKE
@@ -216,7 +217,7 @@ def samples(pieces: Range) -> Reals:
         low += 0.0 if piece.low.kind == "window" else APART
         high -= 0.0 if piece.high.kind == "window" else APART
         if low < high:
-            fine = FEWER if piece.is_searched else FINE
+            fine = FEWER if piece.course.is_searched else FINE
             parts.append(np.linspace(low, high, fine + 1))
     return np.concatenate(parts) if parts else np.array([pieces[0].low.at])
 
@@ -224,11 +225,6 @@ def samples(pieces: Range) -> Reals:
 def ends(pieces: Range) -> Reals:
     """Both ends of a range."""
     return np.array([pieces[0].low.at, pieces[-1].high.at])
-
-
-def enough_of(pieces: Range) -> float:
-    """To how much of u limits are found in a range: the last digit, unless places are searched."""
-    return ENOUGH if any(piece.is_searched for piece in pieces) else 0.0
 
 
 def turning_places(

@@ -150,11 +150,7 @@ class Numbered:
         program, values = self.course.program, self.course.values(at)
         step = program.steps[self.step]
         assert step.action is not None and isinstance(step.action.value, ClosureSolver)
-        before = [n for n in self.course.early if n < self.step]
-        with np.errstate(all="ignore"):
-            trace = run_batch(program, before, values, batch_kind(), step.args)
-            known = [spread(trace.values[arg], len(at)) for arg in step.args]
-        return step.action.value.trying, known, values
+        return step.action.value.trying, self.course.known_of(self.step, values, len(at)), values
 
     def _places(self, at: Reals, ways: Sequence[FollowedClosures]) -> Reals:
         trying, known, values = self._known(at)

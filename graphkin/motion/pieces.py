@@ -31,7 +31,6 @@ from graphkin.motion.sweep import Sweep
 from graphkin.motion.turns_counted import Turned
 from graphkin.motion.turns_followed import led
 from graphkin.numbers.arithmetic import phase
-from graphkin.scene.model import Closure
 from graphkin.text.errors import ClosureError, Problem, SceneError
 
 ALIKE = 1e-8
@@ -58,11 +57,6 @@ class Piece(Struct, frozen=True):
         """The closures picked on this piece, as [branches] states them."""
         return self.course.branches
 
-    @property
-    def is_searched(self) -> bool:
-        """Whether it has a group of higher class, whose places are known to few digits."""
-        return any(isinstance(each, Closure) for each in self.branches.values())
-
     def holds(self, at: Reals) -> np.ndarray:
         """Which u lie within, ends included."""
         return (self.low.at <= at) & (at <= self.high.at)
@@ -82,6 +76,16 @@ class Path(Struct, frozen=True):
     ranges: tuple[Range, ...]
     whole: bool
     returns: bool
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """All pieces, range by range."""
+        return tuple(piece for found in self.ranges for piece in found)
+
+    @property
+    def spans(self) -> tuple[tuple[float, float], ...]:
+        """Where each range begins and ends."""
+        return tuple((found[0].low.at, found[-1].high.at) for found in self.ranges)
 
 
 def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
@@ -130,7 +134,7 @@ def shown(sweep: Sweep, path: Path) -> Path:
     ranges = tuple(found for found in (within(sweep, each) for each in path.ranges) if found)
     if ranges:
         return replace(path, ranges=ranges)
-    spans = [f"{found[0].low.at:.10g} to {found[-1].high.at:.10g}" for found in path.ranges]
+    spans = [f"{low:.10g} to {high:.10g}" for low, high in path.spans]
     raise ClosureError(
         Problem(
             "--from, --to",
@@ -239,7 +243,7 @@ def from_start(course: Course, start: float) -> tuple[Range, bool, bool]:
     if ahead[-1].high.kind == "window":
         if dict(ahead[-1].branches) != dict(course.branches):
             return ahead, True, False
-        if repeats(ahead, start):
+        if max(misses(ahead, start, start + TURN).values()) <= BACK:  # wheels need not be back
             return counted_from_nought(ahead, start), True, True
         far = TURN * (turns_back(ahead, start) or MOST_TURNS)
     if ahead[-1].high.kind == marched(course, start, start + far)[-1].high.kind == "window":
@@ -268,11 +272,6 @@ def joined_at(before: Sequence[Piece], after: Sequence[Piece]) -> Range:
     course = replace(start, turned=turned, closures=closures)
     joined = replace(after[0], low=before[-1].low, course=course)
     return (*before[:-1], joined, *after[1:])
-
-
-def repeats(pieces: Range, start: float) -> bool:
-    """Whether every link stands after a whole turn as before it; wheels need not."""
-    return max(misses(pieces, start, start + TURN).values()) <= BACK
 
 
 def wheels(course: Course) -> list[str]:

@@ -88,6 +88,11 @@ class Sweep(Struct, frozen=True, eq=False):
         return float(time.si(self.original.values))
 
     @property
+    def turns(self) -> tuple[float, ...]:
+        """By how much places may differ and be one: whole turns, where one closes on itself."""
+        return (0.0, TURN, -TURN) if self.whole else (0.0,)
+
+    @property
     def per_unit(self) -> float:
         """Radians, metres or seconds in one unit of u."""
         return pi / 180 if self.what == "turn" else 1.0
@@ -153,15 +158,11 @@ def sweep_of(
     start = 0.0
     if number is not None:
         start = stated_motion(scene.drivers[number - 1], scene)[0]
-        start = start % TURN if what == "turn" and not wheels(scene) else start
+        if what == "turn" and not scene.touching:  # else wheels count its turns
+            start %= TURN
     first, last, whole = window(scene, what, number, start, low, high)
     way = usual(scene, what, number, first, last)
     return Sweep(named(scene, number), scene, what, number, start, first, last, whole, way)
-
-
-def wheels(scene: Scene) -> bool:
-    """Whether wheels touch: then a driver that has gone round stands otherwise than before."""
-    return bool(scene.touching)
 
 
 def chosen(scene: Scene, driver: int | None) -> int | None:

@@ -30,12 +30,8 @@ def named_angles(scene: Scene) -> tuple[dict[str, Quantity], dict[str, Any]]:
     """The angles near which links count as named values in degrees, and those of the scene."""
     near = counted_near(scene)
     values = {name_of(link): degrees_of(angle, scene) for link, angle in near.items()}
-    return {link: named_angle(link) for link in near}, values
-
-
-def named_angle(link: str) -> Quantity:
-    """The named angle near which a link counts."""
-    return Quantity(name_of(link), Name(name_of(link)), "deg")
+    named = {link: Quantity(name_of(link), Name(name_of(link)), "deg") for link in near}
+    return named, values
 
 
 def degrees_of(angle: Quantity, scene: Scene) -> Any:

@@ -149,6 +149,13 @@ def is_complex(value: Any) -> bool:
     return type(value).__name__.startswith(("mpc", "acb", "complex", "clongdouble"))
 
 
+def is_real_ball(value: Any) -> bool:
+    """Whether a ball is one of real numbers."""
+    from flint import arb
+
+    return isinstance(value, arb)
+
+
 def middle(value: Any) -> Any:
     """The middle of a ball; any other number as it is."""
     return value.mid() if is_ball(value) else value

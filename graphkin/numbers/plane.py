@@ -6,7 +6,8 @@ docstring names (eps = 2^-52, s = sine of the angle of crossing, L the largest l
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from graphkin.numbers.arithmetic import Point, Real, at, either, pick, sqrt
 
@@ -39,6 +40,12 @@ class Ratio(NamedTuple):
     start: Point
     shift: Point
     size: Point
+
+
+def by_parts(work: Callable[..., Any], *values: Any) -> Any:
+    """A value of the make of the first, a line or another tuple, each part worked out by itself."""
+    parts = [work(*each) for each in zip(*values, strict=True)]
+    return type(values[0])(*parts) if hasattr(values[0], "_fields") else tuple(parts)
 
 
 def cross(u: Point, v: Point) -> Real:

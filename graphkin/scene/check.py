@@ -20,12 +20,10 @@ from graphkin.scene.model import (
     FRAME,
     LEADING,
     At,
-    Branch,
     Driver,
     Link,
     Scene,
     Side,
-    Way,
     lengths_of,
     link_words,
 )
@@ -40,7 +38,7 @@ def check_scene(scene: Scene, findings: Findings) -> None:
     """Note every name that is unknown or used for two things, and every link left alone."""
     check_namespace(scene, findings)
     check_capitals(scene, findings)
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.every_link:
         check_link(scene, link, findings)
     check_alone(scene, findings)
     check_blocks(scene, findings)
@@ -63,7 +61,7 @@ def check_capitals(scene: Scene, findings: Findings) -> None:
 
     The plans write the image of B as b, so that two such names could not be told apart there.
     """
-    links = (scene.frame, *scene.links.values())
+    links = scene.every_link
     owners: dict[str, list[str]] = {}
     for link in links:
         for point in link.points:
@@ -111,7 +109,7 @@ def check_guides(scene: Scene, link: Link, findings: Findings) -> None:
 
 def check_alone(scene: Scene, findings: Findings) -> None:
     """Every moving link has points and touches another: by a pin, a guide, a track or a wheel."""
-    links = (scene.frame, *scene.links.values())
+    links = scene.every_link
     carriers = {path.on for link in links for path in link.paths}
     shared = Counter(point for link in links for point in link.points)
     for link in scene.links.values():
@@ -147,7 +145,7 @@ def check_branches(scene: Scene, findings: Findings) -> None:
             expected = '"left of P-Q" or "right of P-Q"'
             blocks = [link for link in scene.links.values() if link.slides and name in link.points]
             hint = "a block's branch is written under the link's name: "
-            hint += " or ".join(f"{block.name} = {branch_phrase(branch)}" for block in blocks)
+            hint += " or ".join(f'{block.name} = "{branch}"' for block in blocks)
             found = f"forward, backward or a closure for point {name}"
             outer = f"P and Q are the outer pins of the two links that {name} joins"
             findings.add(place, found, expected, hint if blocks else outer)
@@ -167,16 +165,7 @@ def side_of_pin(scene: Scene, name: str, side: Side) -> str:
     shared = Counter(point for link in scene.links.values() for point in link.points)
     points = [p for p in scene.links[name].points if shared[p] > 1]
     pins = [p for p in points if p not in (side.first, side.second)]
-    return f"{pins[0] if pins else 'P'} = {branch_phrase(side)}"
-
-
-def branch_phrase(branch: Branch) -> str:
-    """A branch as a scene writes it."""
-    if isinstance(branch, Side):
-        return f'"{"left" if branch.side > 0 else "right"} of {branch.first}-{branch.second}"'
-    if isinstance(branch, Way):
-        return '"forward"' if branch.way > 0 else '"backward"'
-    return f'"closure {branch.number}"'
+    return f'{pins[0] if pins else "P"} = "{side}"'
 
 
 def check_blocks(scene: Scene, findings: Findings) -> None:
@@ -347,7 +336,7 @@ def check_far(scene: Scene, findings: Findings) -> None:
 
 def bar_lengths(scene: Scene) -> Iterator[Quantity]:
     """Every length of a bar that the scene states."""
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.every_link:
         for placing in link.placings:
             yield from (length for _, _, length in lengths_of(placing))
 

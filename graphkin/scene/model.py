@@ -646,8 +646,7 @@ class Scene(Struct, frozen=True, dict=True):
     @cached_property
     def points(self) -> Mapping[str, None]:
         """Every point of every link, once, in the order written."""
-        every = (self.frame, *self.links.values())
-        return dict.fromkeys(point for link in every for point in link.points)
+        return dict.fromkeys(point for link in self.every_link for point in link.points)
 
     def link(self, name: str) -> Link:
         """The link of a name, the frame included."""

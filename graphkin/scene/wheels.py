@@ -75,7 +75,8 @@ def pitch_radius(teeth: Quantity, module: Quantity) -> Quantity:
 
 def read_tracks(table: Table, measures: Measures) -> tuple[Rolling, ...]:
     """What the wheels of a link roll on, then what belts join them to."""
-    return read_rolls(table, measures) + read_belts(table, measures)
+    belts = (read_belt(each, measures) for each in tables(table, "belt"))
+    return (*read_rolls(table, measures), *belts)
 
 
 def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
@@ -117,11 +118,6 @@ def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
             start.setdefault(FRAME, start[rolling.on].negative())
         found.append(replace(rolling, start=start))
     return tuple(found)
-
-
-def read_belts(table: Table, measures: Measures) -> tuple[Rolling, ...]:
-    """The belts that run from the wheels of a link to those of others."""
-    return tuple(read_belt(each, measures) for each in tables(table, "belt"))
 
 
 def read_belt(table: Table, measures: Measures) -> Rolling:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
 
@@ -88,14 +88,6 @@ def gruebler(moving: int, lower: int, higher: int = 0) -> int:
     Lower pairs are pins and slides; higher ones cams, teeth and belts. Springs take nothing.
     """
     return 3 * moving - 2 * lower - higher
-
-
-def kutzbach(links: int, pairs_by_freedom: Mapping[int, int]) -> int:
-    """Freedoms of a mechanism in space: 6(n - 1) less 6 - f for each pair of f freedoms.
-
-    ``links`` counts the frame; ``pairs_by_freedom`` maps f (1 to 5) to the number of such pairs.
-    """
-    return 6 * (links - 1) - sum((6 - f) * number for f, number in pairs_by_freedom.items())
 
 
 RANK = "the rank of the constraints"
@@ -203,7 +195,7 @@ def too_many_hint(scene: Scene, freedoms: int, *, certain: bool) -> str:
 
 def same_pins(scene: Scene) -> str:
     """Words for two links that share two pins, and so are one body; empty where none do."""
-    for one, other in combinations((scene.frame, *scene.links.values()), 2):
+    for one, other in combinations(scene.every_link, 2):
         both = [point for point in one.points if point in other.points]
         if len(both) > 1:
             return (

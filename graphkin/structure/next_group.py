@@ -75,15 +75,10 @@ def next_group(joints: Joints, known: Collection[str]) -> Group | None:
         if geared := geared_of(first, left, known):
             return geared
         if dyad := dyad_with(joints, known, first, left):
-            return CamFollower(dyad) if is_of_cam(joints, dyad) else dyad
+            return CamFollower(dyad) if {*dyad.links} & joints.scene.cam_links.keys() else dyad
         if train := train_with(joints, known, first, left):
             return train
     return None
-
-
-def is_of_cam(joints: Joints, dyad: Dyad) -> bool:
-    """Whether a dyad is the equivalent linkage of a cam: the cam's law closes it."""
-    return any(link in joints.scene.cam_links for link in dyad.links)
 
 
 def dyad_with(

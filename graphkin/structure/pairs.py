@@ -241,7 +241,7 @@ def refuse_loose(joints: Sequence[Joint]) -> None:
 def sharers(scene: Scene) -> dict[str, tuple[str, ...]]:
     """The links that own each point, the frame first, then as written."""
     owners: dict[str, list[str]] = {}
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.every_link:
         for point in link.points:
             owners.setdefault(point, []).append(link.name)
     return {point: tuple(links) for point, links in owners.items()}

@@ -132,7 +132,7 @@ def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsAp
 
 def owner_of(scene: Scene, points: Sequence[str], but: Sequence[str]) -> str | None:
     """The first link, the frame before all, that owns all of some points and is none of a few."""
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.every_link:
         if link.name not in but and set(points) <= set(link.points):
             return link.name
     return None
@@ -232,7 +232,7 @@ def track_line(scene: Scene, rolling: Rolling) -> Line:
 
 def lone_wheels(scene: Scene) -> Iterator[Problem]:
     """Wheels that roll on nothing and on which nothing rolls."""
-    links = (scene.frame, *scene.links.values())
+    links = scene.every_link
     tracks = {rolling.on for link in links for rolling in link.rolls}
     for link in links:
         if link.wheels and not link.rolls and link.name not in tracks:

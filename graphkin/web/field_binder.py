@@ -4,7 +4,7 @@ Every record begins with its mark's id, its kind and the place of what must be p
 show (or -1). The kinds, as moving.js lays them out:
 
 - ``l`` a line between two places; ``g`` a polygon between places; ``h`` an arrowhead at the second
-- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``e`` an arc, ``t`` a text that a pose carries;
+- ``f`` a line, ``r`` a polygon, ``m`` a circle, ``t`` a text that a pose carries;
   ``x`` a polygon whose corners are carried by several poses; ``b`` a text beside a segment
 - ``a`` an arc, ``i`` a circle as a broken line, of which centre and size are given
 - ``s`` a part of a construction line
@@ -14,7 +14,6 @@ show (or -1). The kinds, as moving.js lays them out:
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import atan2, degrees
 from typing import Any
 
 from msgspec import Struct
@@ -131,9 +130,7 @@ class FieldBinder(Struct, frozen=True):
             case CircleMark():
                 return ["m", *head, *local(mark.cx, mark.cy)]
             case Arc():
-                turned = degrees(atan2(-way.imag, way.real))
-                angles = rounded(mark.start - turned, mark.end - turned)
-                return ["e", *head, *local(mark.cx, mark.cy), *rounded(mark.r), *angles]
+                raise AssertionError("an arc follows by its centre and angles")
             case Text():
                 middle = middle_of(mark)
                 return ["t", *head, *local(*middle), *rounded(*middle)]

@@ -62,12 +62,9 @@ def drawn_mark(timed: Timed) -> str:
 def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
     """The style sheet of some marks, with their faces; no shaft changes while a vector moves."""
     marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
-    return "\n".join((faces(), LETTERING, *map(themed, rules(marks, ink))))
-
-
-def faces() -> str:
-    """Both faces of the sheets' lettering."""
-    return "\n".join((font_face(False), font_face(True)))
+    return "\n".join(
+        (font_face(False), font_face(True), LETTERING, *map(themed, rules(marks, ink)))
+    )
 
 
 def themed(rule: str) -> str:

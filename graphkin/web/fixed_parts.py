@@ -34,19 +34,15 @@ def travelling(drawing: Drawing, field: Field) -> set[Mark]:
 
 def standing(drawings: Sequence[Drawing], field: Field) -> Iterator[Mark]:
     """The guides, slots and tracks of the frame, as long as a whole motion needs them."""
-    for rail, others in alike([fixed_rails(drawing) for drawing in drawings]):
+    for rail, others in alike(drawings):
         yield from guide(rail, others, field)
     for place, touch in enumerate(lines_of(drawings[0])):
         yield from line(drawings, place, touch, field)
 
 
-def fixed_rails(drawing: Drawing) -> list[Rail]:
-    """The lines of the frame on which blocks and pins slide."""
-    return [rail for rail in rails_of(drawing) if rail.owner == FRAME]
-
-
-def alike(every: Sequence[list[Rail]]) -> Iterator[tuple[Rail, list[Rail]]]:
-    """Each line of the first moment with itself at all moments."""
+def alike(drawings: Sequence[Drawing]) -> Iterator[tuple[Rail, list[Rail]]]:
+    """Each line of the frame on which blocks and pins slide, with itself at all moments."""
+    every = [[rail for rail in rails_of(each) if rail.owner == FRAME] for each in drawings]
     for place, rail in enumerate(every[0]):
         yield rail, [found[place] for found in every if len(found) == len(every[0])]
 

@@ -20,7 +20,7 @@ from graphkin.construction.core.solution import Verdict
 from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.motion.driving import TURN, stated_motion
+from graphkin.motion.driving import TURN
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError
@@ -84,7 +84,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
         if goes_round(cycle) and cycle.path.returns
         else end_to_end(cycle, low, high, frames)
     )
-    order = order if sense_of(cycle) > 0 else [*order[:1], *order[:0:-1]]
+    order = order if not cycle.sweep.runs_backwards else [*order[:1], *order[:0:-1]]
     found = [moment_at(cycle, place, words) for place in places]
     kept = [i for i, moment in enumerate(found) if moment is not None]
     if len(kept) < LEAST:
@@ -129,19 +129,12 @@ def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list
     return places, [*range(below, len(places)), *range(below)]
 
 
-def sense_of(cycle: Cycle) -> int:
-    """In which sense the driver goes through its positions, by its speed; a time runs on."""
-    driver = cycle.sweep.driver
-    return -1 if driver is not None and stated_motion(driver, cycle.sweep.original)[1] < 0 else 1
-
-
 def place_in(cycle: Cycle, low: float, high: float) -> float:
     """Where the scene stands, whole turns apart, within a range; the time for which it is drawn."""
     start = cycle.sweep.start
     if cycle.sweep.what == "time":
         return float(cycle.scene.values.get(TIME, start))
-    turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
-    return next((start + turn for turn in turns if low <= start + turn <= high), start)
+    return next((start + turn for turn in cycle.sweep.turns if low <= start + turn <= high), start)
 
 
 def shown_range(cycle: Cycle) -> tuple[float, float]:
@@ -210,9 +203,8 @@ def made(
 
 def piece_at(cycle: Cycle, place: float) -> tuple[Piece | None, float]:
     """The piece that holds a place, whole turns apart, and the place within it."""
-    turns = (0.0, TURN, -TURN) if cycle.sweep.whole else (0.0,)
     for piece in cycle.path.ranges[0]:
-        for turn in turns:
+        for turn in cycle.sweep.turns:
             if piece.low.at <= place + turn <= piece.high.at:
                 return piece, place + turn
     return None, place

@@ -19,6 +19,7 @@ from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
+from graphkin.text import Words
 from graphkin.web.figures import GivenFigure
 
 INPUT = "driver"
@@ -63,9 +64,12 @@ class PageDriver(Struct, frozen=True):
     @property
     def sense(self) -> int:
         """In which sense it goes, by the driver's speed; a time runs on."""
-        return (
-            -1 if self.driver is not None and stated_motion(self.driver, self.scene)[1] < 0 else 1
-        )
+        driver = self.driver
+        return -1 if driver is not None and driver.speed.si(self.scene.values) < 0 else 1
+
+    def unit_in(self, words: Words) -> str:
+        """Its unit, as it follows a number."""
+        return words("unit.deg") if self.unit == "deg" else f" {self.unit}"
 
     @property
     def pins(self) -> tuple[str, ...]:
@@ -135,9 +139,7 @@ def driven_by(
     still, else the time; None without a driver."""
     if not scene.drivers:
         return None
-    if number is None and law_of_time(scene):
-        return PageDriver(scene, None, "time", time_of(scene), "s", figures=figures)
-    number = chosen(scene, number)
+    number = None if number is None and law_of_time(scene) else chosen(scene, number)
     if number is None:
         return PageDriver(scene, None, "time", time_of(scene), "s", figures=figures)
     driver = scene.drivers[number - 1]

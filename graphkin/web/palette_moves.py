@@ -281,7 +281,9 @@ class MoveFinder:
         """The action that gives a step, and its inputs; None where it comes along."""
         step, kind = self.steps[number], construction(self.steps[number])
         if isinstance(kind, Component) and kind.vector == number:
-            return self.way_of_component(kind, number)
+            if kind.palette is None or not kind.is_drawn(self.drawing(number)):
+                return None
+            return self.all_of(kind.palette.key, *kind.picked_from(self))
         if isinstance(kind, TriangleComponent) or not self.is_drawn(number):
             return None
         by_hand = step.by_hand in self.values and step.by_hand is not None
@@ -332,12 +334,6 @@ class MoveFinder:
             name = symbol(vector.symbol) if vector else ""
             return self.all_of("transfer", self.arrow(args[1], args[2], name), pick(args[0]))
         return None
-
-    def way_of_component(self, kind: Component, number: int) -> Way | None:
-        """The triangle that gives a component, where one is drawn."""
-        if kind.palette is None or not kind.is_drawn(self.drawing(number)):
-            return None
-        return self.all_of(kind.palette.key, *kind.picked_from(self))
 
     def all_of(self, action: str, *inputs: str | None) -> Way | None:
         """An action with its inputs; None where one of them cannot be picked."""
@@ -427,6 +423,11 @@ class MoveFinder:
         given = step.plane is Plane.NUMBERS or step.part is Part.POSITION
         return "guide" if given else "locus"
 
+    def noted(self, key: str, *pick: Any) -> str:
+        """The key under which something can be picked, from now on if it could not before."""
+        self.picks.setdefault(key, Pick(*pick))
+        return key
+
     def bar(self, p: int, q: int) -> str | None:
         """The bar between two points of the mechanism."""
         p, q = sorted(self.same.get(end, end) for end in (p, q))
@@ -434,9 +435,7 @@ class MoveFinder:
         if p == q or ends[0] is None or ends[1] is None:
             return None
         key, name = f"{p}-{q}", self.picks[ends[0]].name + self.picks[ends[1]].name
-        pick = Pick("bar", name, Plane.MECHANISM, self.needs([p, q]), None, (p, q))
-        self.picks.setdefault(key, pick)
-        return key
+        return self.noted(key, "bar", name, Plane.MECHANISM, self.needs([p, q]), None, (p, q))
 
     def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
         """The vector between two points of a plan; as its arrow leads where it is given no name."""
@@ -454,9 +453,7 @@ class MoveFinder:
             name = vector_of(self.drawing(tip), tail, tip, letters)
         key, plane = f"{ends[0]}>{ends[1]}", self.steps[tip].plane
         on = int(ends[0]), int(ends[1])
-        pick = Pick("arrow", name, plane, self.needs(on), None, on)
-        self.picks.setdefault(key, pick)
-        return key
+        return self.noted(key, "arrow", name, plane, self.needs(on), None, on)
 
     def length(self, number: int, length: int) -> str:
         """A length that is laid off at a step."""
@@ -468,9 +465,8 @@ class MoveFinder:
             name = "".join(map(symbol, ends)) + ("/2" if kind.lays_half else "")
         else:
             name = drawing.words("turn.length", name=self.letter(number))
-        pick = Pick("length", name, Plane.NUMBERS, self.needs([length]), self.values[length])
-        self.picks.setdefault(key, pick)
-        return key
+        needs = self.needs([length])
+        return self.noted(key, "length", name, Plane.NUMBERS, needs, self.values[length])
 
     def vector(self, number: int, step: Step) -> str | None:
         """A vector that is known before it is laid off; None for one without length."""
@@ -494,20 +490,14 @@ class MoveFinder:
             return None
         if step.aside is not None and isinstance(kind, LaidOffByRate):
             name += f" ({tag_words(step.aside.tag)})"
-        pick = Pick("vector", name, step.plane, self.needs(others), value, on)
-        self.picks.setdefault(key, pick)
-        return key
+        return self.noted(key, "vector", name, step.plane, self.needs(others), value, on)
 
     def rate(self, number: int) -> str | None:
         """The angular velocity of a link."""
-        step, key = self.steps[number], f"r{number}"
-        drawing = self.drawing(number)
-        on = step.of.places if isinstance(step.of, TurningOfLink) else ()
-        name = rate_symbol(drawing, number)
-        needs = self.needs([number])
-        pick = Pick("rate", name, Plane.NUMBERS, needs, self.values[number], on)
-        self.picks.setdefault(key, pick)
-        return key
+        kind, name = construction(self.steps[number]), rate_symbol(self.drawing(number), number)
+        on = kind.places if isinstance(kind, TurningOfLink) else ()
+        own = name, Plane.NUMBERS, self.needs([number]), self.values[number], on
+        return self.noted(f"r{number}", "rate", *own)
 
     def more_picks(self) -> None:
         """What no move starts from: other points, bars and vectors, for a choice to be one."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from html import escape
 from math import inf
-from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, spans
@@ -15,7 +15,6 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.scaling import natural_seconds, targets_of
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.field import Field
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Text, style_class
 from graphkin.drawing.scale import Scales
 from graphkin.drawing.style import VECTORS
@@ -29,7 +28,7 @@ from graphkin.web.facts import asked_rows, blocks_asked, senses
 from graphkin.web.field_pictures import ink_sheet
 from graphkin.web.field_pictures import placed as drawn
 from graphkin.web.frame_marks import driver_marks
-from graphkin.web.frames import FrameSequence, made, place_in, sense_of
+from graphkin.web.frames import FrameSequence, made, place_in
 from graphkin.web.moving import Moving, moving
 from graphkin.web.moving_labels import ASIDE, GAP, LEFT, LETTER
 from graphkin.web.offline_page import data_block, offline_page, part
@@ -39,9 +38,6 @@ from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.web.scripts import PLAYER, together
 from graphkin.writers.svg import number
 from graphkin.writers.templates import from_template
-
-if TYPE_CHECKING:
-    pass
 
 NAMES = 2.8
 """Height of the names of vectors, in mm."""
@@ -116,7 +112,9 @@ def screen_sheets(set_up: Stage) -> list[ScreenSheet]:
     found = []
     for place, kind in enumerate(kinds or ["velocity"]):
         drawing = drawing_of(mechanism, kind, scales, set_up.words)
-        layout = layout_of(drawing, set_up.mechanism, set_up.plans.get(kind))
+        mechanism_field = set_up.mechanism
+        layout = Layout(mechanism_field, set_up.plans.get(kind, mechanism_field), {})
+        layout = replace(layout, spans=spans(drawing, layout))
         left, right = list[Mark](), list[Mark]()
         if place == 0:
             left = [*set_up.mechanism_marks(drawing), *driver_marks(drawing, layout.mechanism)]
@@ -130,12 +128,6 @@ def drawing_of(mechanism: Mechanism, kind: str, scales: Scales, words: Words) ->
     """The material of one plan; of a scene that asks for none, where everything stands."""
     positions = [target for target in mechanism.program.targets if target[0] == "position"]
     return made(mechanism, kind, targets_of(mechanism, kind) or positions, scales, words)
-
-
-def layout_of(drawing: Drawing, mechanism: Field, plan: Field | None) -> Layout:
-    """The fields of a sheet, and how much of each line is drawn on them."""
-    fields = Layout(mechanism, plan or mechanism, {})
-    return Layout(fields.mechanism, fields.plan, spans(drawing, fields))
 
 
 class Figure(Struct, frozen=True):
@@ -222,10 +214,12 @@ def shortened(motion: FrameSequence, moved: Moving, words: Words) -> str:
     if not motion.shortened:
         return ""
     driven = moved.driven
-    unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
     ends = dict(zip(("low", "high"), (motion.low, motion.high), strict=True))
     ends |= dict(zip(("first", "last"), motion.reached, strict=True))
-    told = {name: words.significant(at / driven.metres, 4) + unit for name, at in ends.items()}
+    told = {
+        name: words.significant(at / driven.metres, 4) + driven.unit_in(words)
+        for name, at in ends.items()
+    }
     return words("animation.shortened", **told)
 
 
@@ -254,16 +248,15 @@ def record(
         shift = shift_of(motion, moved)
         low = max(low, motion.low / driven.metres + shift)
         high = min(high, motion.high / driven.metres + shift)
-    unit = words("unit.deg") if driven.unit == "deg" else f" {driven.unit}"
     return {
         "low": low,
         "high": high,
         "start": min(max(driven.start, low), high),
         "seconds": WAY if sweep.driver is not None and not moved.reach.whole else TURN,
-        "sense": sense_of(motion.cycle),
+        "sense": driven.sense,
         "back": goes_back(moved),
         "degrees": driven.unit == "deg",
-        "unit": unit,
+        "unit": driven.unit_in(words),
         "mark": words("decimal_mark"),
         "letters": [own for s, sheet in enumerate(sheets) for own in letters(set_up, sheet, s)],
         "letter": [LETTER, GAP, ASIDE, *LEFT],

@@ -28,7 +28,7 @@ from graphkin.drawing.style import DRAWN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text.markup import AND, EQUALS, names_in
 from graphkin.web.page_sentences import MOST, parted_sentences
-from graphkin.web.reasons import NO_STEP, VECTORS_APART, of_sentence, reasons
+from graphkin.web.reasons import VECTORS_APART, of_sentence, reasons
 from graphkin.web.screen_sheets import ScreenSheet
 
 STOPS = (
@@ -151,7 +151,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
             for step in shown
             if (name := letter(program.steps[step]))
         },
-        {step: tint for step, tint in tinted(said).items() if step in shown},
+        {step: tint for one in said for tint, step in enumerate(one.of) if tint and step in shown},
         hanging(sheets, shown),
         tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
         {step: args for step in shown if (args := square_to(program.steps[step]))},
@@ -264,13 +264,6 @@ def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:
     """The first and the last sentence of a sheet."""
     own = [number for number, one in enumerate(said, 1) if one.sheet == sheet]
     return own[0], own[-1]
-
-
-def tinted(said: Sequence[ProtocolSentence]) -> dict[int, int]:
-    """What tells apart the strokes of one sentence: the number of the reason of each."""
-    return {
-        step: tint for one in said for tint, step in enumerate(one.of) if tint and step != NO_STEP
-    }
 
 
 def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:

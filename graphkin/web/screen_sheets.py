@@ -17,7 +17,7 @@ from graphkin.drawing.marks import Mark
 from graphkin.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    pass
 
 
 class ScreenSheet(Struct, frozen=True):
@@ -37,6 +37,11 @@ class ScreenSheet(Struct, frozen=True):
     more_right: tuple[Mark, ...] = ()
     enlarged: tuple[int, ...] = ()
 
+    @property
+    def marks(self) -> tuple[Mark, ...]:
+        """Every mark of both fields."""
+        return (*self.left, *self.right, *self.more_left, *self.more_right)
+
 
 def screen_sheets(
     mechanism: Mechanism, language: str | None = None, view: str = "key"
@@ -48,11 +53,7 @@ def screen_sheets(
     """
     spoken = language_of(mechanism, language)
     verdict = proved(mechanism, sheet_motion(mechanism))
-    return screened(drawings_of(mechanism, verdict, spoken), view)
-
-
-def screened(drawings: Sequence[Drawing], view: str = "key") -> list[ScreenSheet]:
-    """The fields of some drawings."""
+    drawings = drawings_of(mechanism, verdict, spoken)
     return [screen_sheet(drawing, lay_out(drawing), view) for drawing in drawings]
 
 

@@ -17,7 +17,6 @@ from graphkin.construction.result_tables import unread
 from graphkin.documents.captions import HEADING, apart
 from graphkin.documents.sheet import asked_words, title_of
 from graphkin.drawing.areas import Rect
-from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.web import facts
@@ -196,15 +195,10 @@ def written(
     scripts: Sequence[str],
 ) -> str:
     """A page with the looks of the sheets."""
-    marks = [mark for sheet in sheets for mark in all_marks(sheet)]
+    marks = [mark for sheet in sheets for mark in sheet.marks]
     drawing = sheets[0].drawing
     looks = (ink_sheet(marks, ink), part("page.css"), shapes(sheets), *styles)
     return offline_page(title_of(drawing), drawing.words.language, body, looks, scripts)
-
-
-def all_marks(sheet: ScreenSheet) -> tuple[Mark, ...]:
-    """Every mark of a sheet."""
-    return (*sheet.left, *sheet.right, *sheet.more_left, *sheet.more_right)
 
 
 def shapes(sheets: Sequence[ScreenSheet]) -> str:

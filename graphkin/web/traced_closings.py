@@ -1,6 +1,6 @@
 """Groups of class III and higher on a page that moves: what was cut is closed anew at every place.
 
-Near a value that is known (passage.py), the secant finds it in a page as it does here.
+Near values that are known (branch_tracking) Newton's method finds them, in a page as here.
 """
 
 from __future__ import annotations
@@ -18,10 +18,8 @@ from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
-from graphkin.numbers.refined_roots import slopes, solved
+from graphkin.numbers.refined_roots import by_newton, by_secant, solved
 
-TRIES = 24
-"""Steps along the secant, at most."""
 STEP = 1e-6
 """How far off the second value lies, in radians or parts of the tried length."""
 CLOSED = 1e-9
@@ -176,20 +174,11 @@ class Solver(Struct, frozen=True):
         """The state in which the groups close; None where one does not."""
         found = list(near)
         for k, (place, each) in enumerate(self.placed()):
-            if each.count > 1:
-                own = slice(place, place + each.count)
-                steps = [STEP * size for size in each.sizes]
-                several = closed_together(
-                    self.missed_all(k, at, found), found[own], steps, self.size
-                )
-                if several is None:
-                    return None
-                found[own] = several
-                continue
-            good = closed_near(self.missed(k, at, found), found[place], STEP * each.size, self.size)
-            if good is None:
+            own = slice(place, place + each.count)
+            closed = closed_near(self.missed_all(k, at, found), found[own], each.sizes, self.size)
+            if closed is None:
                 return None
-            found[place] = good
+            found[own] = closed
         return tuple(found)
 
     def placed(self) -> Iterator[tuple[int, TracedClosing]]:
@@ -200,15 +189,9 @@ class Solver(Struct, frozen=True):
             place += len(each.names)
 
     def missed(self, k: int, at: float, state: list[float]) -> Callable[[float], Any]:
-        """The misfit of a group by what it tries; it stays in the state."""
-        place = [place for place, _ in self.placed()][k]
-        near = [float(angle) for angle in self.near(at).values()]
-
-        def missed(value: float) -> tuple[float, ...]:
-            state[place] = value
-            return self.misses[k](at, *state, *near)
-
-        return missed
+        """The misfit of a group by the first that it tries."""
+        missed = self.missed_all(k, at, state)
+        return lambda value: missed([value])
 
     def missed_all(
         self, k: int, at: float, state: list[float]
@@ -239,55 +222,28 @@ def solver(
 
 
 def closed_near(
-    miss: Callable[[float], tuple[float, ...]], start: float, step: float, size: float
-) -> float | None:
-    """Where a misfit vanishes near a start; None where it does not, or where it faces wrongly."""
-    for way in (step, -step):
-        try:
-            found = secant(miss, start, way)
-            after, facing = miss(found)
-        except (ValueError, ZeroDivisionError, OverflowError):
-            continue
-        if abs(after) < CLOSED * size and facing > 0:
-            return found
-    return None
-
-
-def closed_together(
     miss: Callable[[Sequence[float]], tuple[float, ...]],
     start: Sequence[float],
-    steps: Sequence[float],
+    sizes: Sequence[float],
     size: float,
 ) -> list[float] | None:
-    """Where all misfits vanish near a start, by Newton's method; None as for one."""
-    here = [*start]
-    try:
-        for _ in range(TRIES):
-            value = miss(here)[:-1]
-            rows = slopes(lambda tried: miss(tried)[:-1], here, value, steps)
-            way = solved(rows, [-each for each in value])
-            here = [each + step for each, step in zip(here, way, strict=True)]
-            if all(abs(w) < 1e-14 * max(1.0, abs(h)) for w, h in zip(way, here, strict=True)):
-                break
-        *left, facing = miss(here)
-    except (ValueError, ZeroDivisionError, OverflowError):
-        return None
-    good = all(abs(each) < CLOSED * size for each in left) and facing > 0
-    return here if good else None
+    """Where all misfits vanish near a start; None where they do not, or where one faces wrongly.
 
-
-def secant(miss: Callable[[float], tuple[float, ...]], start: float, step: float) -> float:
-    """The last step along the secant through two values."""
-    old, new = start + step, start
-    before, after = miss(old)[0], miss(new)[0]
-    for _ in range(TRIES):
-        if after in (0, before):
-            break
-        old, new, before = new, new - after * (new - old) / (after - before), after
-        after = miss(new)[0]
-        if abs(new - old) < 1e-15 * max(1.0, abs(new)):
-            break
-    return new
+    One is sought along the secant, as it takes least time, then by Newton's method as several are.
+    """
+    tries: list[Callable[[], list[float]]] = [lambda: by_newton(lambda x: miss(x)[:-1], start)]
+    if len(start) == 1:
+        step = STEP * sizes[0]
+        tries.insert(0, lambda: [by_secant(lambda x: miss([x])[0], start[0], step)])
+    for tried in tries:
+        try:
+            found = tried()
+            *left, facing = miss(found)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            continue
+        if all(abs(each) < CLOSED * size for each in left) and facing > 0:
+            return found
+    return None
 
 
 def function(graph: Graph, names: Sequence[str], outputs: Sequence[int]) -> Callable[..., Any]:

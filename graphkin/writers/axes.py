@@ -58,18 +58,33 @@ def put_drawing(
     in the figure when the axes become larger or smaller later on.
     """
     x, y = field(0j)
-    page = Affine2D().translate(-x, -y).scale(1 / times, -1 / times)
+    put_to_scale(ax, marks, (x, y), times, ink)
+    width, height = size_of(ax)
+    ax.set_xlim(-x / times, (width - x) / times)
+    ax.set_ylim((y - height) / times, y / times)
+    ax.set_aspect("equal")
+
+
+def put_to_scale(
+    ax: Axes,
+    marks: Sequence[Mark],
+    origin: tuple[float, float],
+    times: float,
+    ink: Ink = "colour",
+    strength: float = 1.0,
+) -> None:
+    """Draw marks into axes of which a unit is ``times`` a millimetre of the figure, a place of the
+    page at their origin. Letters and signs keep their size, lines may have less than full strength.
+    """
+    page = Affine2D().translate(-origin[0], -origin[1]).scale(1 / times, -1 / times)
     for order, mark in enumerate(marks):
         place = place_of(mark)
         there = Affine2D().translate(-place[0], -place[1]).scale(1, -1) if place else page
         for patch in patches(mark, style_of(mark.cls, ink), there):
             if place:
                 patch.set_transform(in_place(ax, *page.transform(place)))
+            patch.set_alpha(1.0 if isinstance(mark, Text) else strength)
             put(ax, patch, order / len(marks))
-    width, height = size_of(ax)
-    ax.set_xlim(-x / times, (width - x) / times)
-    ax.set_ylim((y - height) / times, y / times)
-    ax.set_aspect("equal")
 
 
 def in_place(ax: Axes, x: float, y: float) -> Transform:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, filterwarnings
@@ -96,6 +96,24 @@ def without_trailing_blanks(data: bytes) -> bytes:
 def figure_title(figure: Figure, text: str, **how: Any) -> None:
     """The title of a figure as it is written: a scene's title is text and no formula."""
     figure.suptitle(text, parse_math=False, **how)
+
+
+def footnote(figure: Figure, text: str, *, size: float = 8, colour: str = FAINT) -> None:
+    """Small words below a figure, from its left edge on."""
+    figure.supxlabel(text, x=0.01, ha="left", fontsize=size, color=colour)
+
+
+def picture_files(
+    figures: Iterable[tuple[str, Callable[[], Figure | None]]], formats: Sequence[str]
+) -> dict[str, bytes]:
+    """The files of figures by the stems of their names, in each of some formats; each figure is
+    drawn in the look of this house, one after the other."""
+    files: dict[str, bytes] = {}
+    with look():
+        for stem, drawn in figures:
+            if (figure := drawn()) is not None:
+                files |= {f"{stem}.{kind}": figure_file(figure, kind) for kind in formats}
+    return files
 
 
 def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]:

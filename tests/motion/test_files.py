@@ -20,7 +20,7 @@ from graphkin.construction.links.plates import hull
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.closures_followed import interpolated
 from graphkin.motion.curves.over_driver import pictures
-from graphkin.motion.curves.plane_paths import box_of, breadth_of, dotted, near_box
+from graphkin.motion.curves.plane_paths import box_of, dotted, near_box
 from graphkin.motion.curves.sampled import sampled
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
@@ -176,7 +176,7 @@ def test_a_picture_leaves_the_same_room_on_all_sides(places):
     room = 0.09 * max(np.ptp(x), np.ptp(y), 1e-9)
     found = (x.min() - x0, x1 - x.max(), y.min() - y0, y1 - y.max())
     assert found == pytest.approx((room,) * 4, abs=1e-9)
-    assert breadth_of((x0, x1, y0, y1)) == pytest.approx(max(np.ptp(x), np.ptp(y)) + 2 * room)
+    assert max(x1 - x0, y1 - y0) == pytest.approx(max(np.ptp(x), np.ptp(y)) + 2 * room)
 
 
 def test_of_curves_that_run_far_away_the_picture_shows_what_lies_near():

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.structure.decomposition import decompose
-from graphkin.structure.driver_count import count, kutzbach
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie
 from graphkin.structure.joints import Joints
 from graphkin.structure.pairs import Contact, Pin, pairs
@@ -160,31 +160,6 @@ def test_a_pin_of_five_links_is_four_pairs():
     assert count(scene_of("[frame]\nO = [0, 0]\n" + spokes + DRIVEN)).pairs == 5
     loose = "".join(f"[links.{n}]\nX-P{n} = 1\n" for n in range(1, 6))
     assert count(scene_of("[frame]\nP1 = [0, 0]\n" + loose + DRIVEN)).pairs == 5
-
-
-@pytest.mark.parametrize(
-    ("links", "by_freedom", "freedoms"),
-    [
-        (4, {3: 2, 1: 1}, 7),
-        (8, {1: 7}, 7),
-        (5, {1: 4}, 4),
-        (7, {1: 6}, 6),
-        (4, {1: 2, 3: 1, 2: 1}, 1),
-        (4, {1: 4}, -2),
-        (14, {1: 6, 3: 6, 2: 6}, 6),
-    ],
-    ids=[
-        "human arm: shoulder, elbow, wrist",
-        "the same arm as seven hinges",
-        "SCARA",
-        "six hinges in a row",
-        "spatial four-bar RRSC",
-        "planar four-bar seen in space",
-        "Stewart platform, UPS legs",
-    ],
-)
-def test_kutzbach_counts_six_a_link_less_what_each_pair_takes(links, by_freedom, freedoms):
-    assert kutzbach(links, by_freedom) == freedoms
 
 
 # --- double hinges and higher groups -------------------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.structure.driver_count import Count, count, gruebler, kutzbach
+from graphkin.structure.driver_count import Count, count, gruebler
 from tests.mechanisms import scene_of
 from tests.structure.test_contacts import ALONE, plates, rack, train
 from tests.structure.test_groups import (
@@ -78,28 +78,3 @@ def test_the_double_hinge_counted_once_would_give_three():
     """The six-bar whose hinge joins three links: 7 pairs leave 1 freedom, 6 would leave 3."""
     assert (gruebler(5, 7), gruebler(5, 6)) == (1, 3)
     assert count(scene_of(TOGGLE_PRESS + DRIVEN)).pairs == 7
-
-
-@pytest.mark.parametrize(
-    ("links", "by_freedom", "freedoms"),
-    [
-        (3, {1: 2, 2: 1}, -2),
-        (5, {1: 3, 2: 2}, 1),
-        (5, {1: 3, 2: 2}, 1),
-        (4, {1: 2, 3: 2}, 2),
-        (3, {1: 2, 5: 1}, 1),
-        (2, {1: 1}, 1),
-        (7, {1: 7}, 1),
-    ],
-    ids=[
-        "two shafts and a universal joint, whose axes meet: 1 in truth",
-        "two shafts, a sliding sleeve and two universal joints",
-        "the same with a screw for the sleeve",
-        "RSSR, the rod's own spin with it",
-        "a pair of gears in space",
-        "a screw, v = pω/2π",
-        "seven hinges in a ring",
-    ],
-)
-def test_kutzbach_counts_joints_of_the_course(links, by_freedom, freedoms):
-    assert kutzbach(links, by_freedom) == freedoms

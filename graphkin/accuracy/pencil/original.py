@@ -17,7 +17,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.plane import cross
+from graphkin.numbers.plane import by_parts, cross
 
 SAME = 1e-9
 """Share by which an arrow may differ from the vector that is read and still be it."""
@@ -160,8 +160,7 @@ def stacked(values: Sequence[Any]) -> Any:
 
     first = values[0]
     if isinstance(first, tuple):
-        parts = [stacked(part) for part in zip(*values, strict=True)]
-        return type(first)(*parts) if hasattr(first, "_fields") else tuple(parts)
+        return by_parts(lambda *part: stacked(part), *values)
     if all(value == first for value in values):
         return first
     return np.array(values)[:, None]

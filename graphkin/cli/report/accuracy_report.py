@@ -13,6 +13,7 @@ from graphkin.accuracy.flattening import Flattening
 from graphkin.accuracy.machine import machine_words
 from graphkin.accuracy.methods import MethodRow
 from graphkin.accuracy.study import Study
+from graphkin.construction.core.timing import Timing
 from graphkin.numbers.kinds import GUARD
 from graphkin.scene.quantity import LENGTHS
 from graphkin.text.plain_table import table
@@ -48,10 +49,9 @@ def accuracy_table(study: Study) -> str:
             [
                 row.method,
                 row.family,
-                *(cell(error) for error in row.errors),
+                *("" if error is None else f"{error:.3g}" for error in row.errors),
                 "yes" if row.certified else "no",
-                *(("", "", "", "") if time is None else timed(time.median, time.low, time.high)),
-                *(() if time is None else (time.rounds,)),
+                *(("", "", "", "") if time is None else (*timed(time), time.rounds)),
                 row.variants,
                 len(reference.places.at),
                 f"{reference.radius:.2g}",
@@ -62,14 +62,9 @@ def accuracy_table(study: Study) -> str:
     return out.getvalue()
 
 
-def timed(*seconds: float) -> list[str]:
-    """Times as numbers of four digits."""
-    return [f"{each:.4g}" for each in seconds]
-
-
-def cell(error: float | None) -> str:
-    """An error with three digits; empty where a method gives none."""
-    return "" if error is None else f"{error:.3g}"
+def timed(time: Timing) -> list[str]:
+    """The median and the quartiles as numbers of four digits."""
+    return [f"{each:.4g}" for each in (time.median, time.low, time.high)]
 
 
 def accuracy_lines(study: Study) -> Iterator[str]:

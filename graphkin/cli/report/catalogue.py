@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from graphkin.construction.core.quantities import CENTRES, RATES, VECTORS
 from graphkin.scene import scene_files
-from graphkin.scene.model import Ask, Parameter, Scene
+from graphkin.scene.model import Ask, Scene
 from graphkin.scene.parameters import range_words
 from graphkin.text.plain_table import labelled, listed
 
@@ -33,18 +33,16 @@ def labs_lines() -> Iterator[str]:
 
 def lab_lines(scene: Scene) -> list[str]:
     """One lab."""
-    parameters = [parameter_words(parameter) for parameter in scene.parameters.values()]
+    parameters = [
+        f"{range_words(each)} ({each.value.written({})} unless set)"
+        for each in scene.parameters.values()
+    ]
     return [
         scene.name,
         *labelled("", [scene.titles.get("en", scene.title)], 2),
         *labelled("  set", parameters or ["nothing"], 9),
         *labelled("  asked", [ask_words(scene.ask)], 9),
     ]
-
-
-def parameter_words(parameter: Parameter) -> str:
-    """A parameter with its range, and the value it has unless it is set."""
-    return f"{range_words(parameter)} ({parameter.value.written({})} unless set)"
 
 
 def ask_words(ask: Ask) -> str:

@@ -13,8 +13,8 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
-from graphkin.cli.report.motion_report import scale_lines, scene_heading, verdict_words
-from graphkin.cli.report.solution_record import Record, as_given, motion_of
+from graphkin.cli.report.motion_report import scale_lines, verdict_words
+from graphkin.cli.report.solution_record import Record, as_given, heading, motion_of
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import (
     CENTRES,
@@ -106,7 +106,8 @@ class Printer(Struct):
         if ball is None:
             self.lost(path, target)
             return None
-        return [self.real(f"{path}.{axis}", part, target) for axis, part in parts_of(ball)]
+        parts = (("x", ball.real), ("y", ball.imag))
+        return [self.real(f"{path}.{axis}", part, target) for axis, part in parts]
 
     def centre(self, path: str, ratio: Ratio | None, target: Target) -> list[str | None] | None:
         """The digits of a centre; None without doubt only where it surely is at infinity."""
@@ -133,11 +134,6 @@ class Printer(Struct):
     def doubted(self, path: str, words: str) -> None:
         """A number that is not decided, with the reason."""
         self.undecided[path] = words
-
-
-def parts_of(ball: Any) -> tuple[tuple[str, Any], ...]:
-    """The two coordinates of a point or a vector."""
-    return ("x", ball.real), ("y", ball.imag)
 
 
 def place_of(ratio: Ratio) -> Any:
@@ -252,7 +248,7 @@ def slide(name: str, solution: Solution, printer: Printer) -> Record:
 def certified_text(scene: Scene, record: Record, verdict: Verdict | None) -> str:
     """Everything that a certified record holds, a number on each line."""
     parts = [
-        [scene_heading(scene, record)],
+        [heading(scene)],
         *(numbers_table(record, section) for section in SECTIONS),
         scale_lines(record["scales"]) if "scales" in record else [],
         [certified_words(record), f"witness  {verdict_words(verdict, scene)}"],

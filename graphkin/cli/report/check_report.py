@@ -8,7 +8,7 @@ from math import degrees, isinf
 
 from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
-from graphkin.cli.report.solution_record import plain, settings_words
+from graphkin.cli.report.solution_record import heading
 from graphkin.cli.report.structure_report import group_lines, structure
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.construction.core.crossings import crossings
@@ -43,7 +43,7 @@ class Checking:
     def lines(self) -> Iterator[str]:
         """The whole report, line by line, as far as the scene allows."""
         scene = self.mechanism.scene
-        yield from title(scene)
+        yield from (heading(scene), "")
         try:
             yield from structure(scene)
             yield from labelled("groups", group_lines(decompose(scene)))
@@ -63,9 +63,6 @@ class Checking:
 
     def cams(self) -> list[str]:
         """Pressure angle and curvature of each cam."""
-        if not self.mechanism.scene.cams:
-            return []
-
         return list(cam_lines(self.mechanism.scene))
 
     def closing(self) -> Iterator[str]:
@@ -118,12 +115,6 @@ class Checking:
             from graphkin.documents.scaling import scales
 
             scales(self.mechanism)
-
-
-def title(scene: Scene) -> list[str]:
-    """Title, name and parameters."""
-    settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
-    return [f"{scene.title} ({scene.name})" + (f", {settings}" if settings else ""), ""]
 
 
 def closure_lines(choice: Choice) -> list[str]:
@@ -288,7 +279,7 @@ def pin_places(scene: Scene, trace: Trace) -> dict[str, complex]:
 
 def kept(scene: Scene, one: str, other: str) -> bool:
     """Whether one link has both points."""
-    every = (scene.frame, *scene.links.values())
+    every = scene.every_link
     return any(one in link.points and other in link.points for link in every)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from graphkin.cli.report.piece_words import at_words, length_words, pieces_words, short
-from graphkin.cli.report.solution_record import plain, settings_words
+from graphkin.cli.report.solution_record import heading
 from graphkin.text.plain_table import labelled, listed
 
 if TYPE_CHECKING:
@@ -35,9 +35,7 @@ def cycle_lines(cycle: Cycle) -> Iterator[str]:
     from graphkin.motion.single_loop import loop_of
 
     scene = cycle.scene
-    settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
-    yield f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
-    yield ""
+    yield from (heading(scene), "")
     yield from labelled("sweep", list(sweep_words(cycle)))
     yield from labelled("range", range_words(cycle))
     yield from labelled("dead", [singular_words(cycle, s) for s in of_kind(cycle, "dead")])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 
 from graphkin.cli.report.catalogue import ask_words
-from graphkin.cli.report.solution_record import settings_words
+from graphkin.cli.report.solution_record import heading
 from graphkin.construction.core.timing import Timing, timing
 from graphkin.diagnosis.effects import NAMES, EffectRow, effects, measured
 from graphkin.scene.model import Scene
@@ -52,9 +52,7 @@ def explained(mechanism: Mechanism) -> Explanation:
 def explain_lines(found: Explanation) -> Iterator[str]:
     """The table of effects, each in or out, and the sums below it."""
     scene = found.scene
-    values = {name: str(scene.values[name]) for name in scene.parameters}
-    settings = settings_words(values)
-    yield f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
+    yield heading(scene)
     yield f"asked: {ask_words(scene.ask)}"
     yield ""
     heads = ("effect", "", "steps", "time, µs", "quartiles", "why")

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.solution import gathered
 from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, Driver, Link, Scene
+from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.quantity import SI, exact
 from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Tie
@@ -142,9 +142,5 @@ def parts_without(scene: Scene) -> Iterator[tuple[str, Scene]]:
     """The mechanism without one of a link's wheels' tracks, or a block's further guides."""
     for link in scene.links.values():
         for path in link.spare_paths:
-            yield path.named(link.name), replaced(scene, link.without(path))
-
-
-def replaced(scene: Scene, link: Link) -> Scene:
-    """The mechanism with another link of the same name, for counting only: no drivers."""
-    return replace(scene, links={**scene.links, link.name: link}, drivers=())
+            links = {**scene.links, link.name: link.without(path)}
+            yield path.named(link.name), replace(scene, links=links, drivers=())

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import isfinite, isnan
 from typing import Any
 
-from graphkin.cli.report.solution_record import Record, settings_words
+from graphkin.cli.report.solution_record import Record, heading
 from graphkin.construction.core.quantities import (
     CENTRES,
     CIRCLES,
@@ -41,7 +41,7 @@ POINT_HEADS = {
 def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdict | None) -> str:
     """Everything that a record holds, in aligned tables."""
     parts = [
-        [scene_heading(scene, found)],
+        [heading(scene)],
         points_table(found["points"], solution),
         turning_table(found["links"], solution),
         centres_table(scene, solution, found["links"]),
@@ -52,12 +52,6 @@ def motion_text(scene: Scene, solution: Solution, found: Record, verdict: Verdic
         [f"witness  {verdict_words(verdict, scene)}", *sure_lines(verdict)],
     ]
     return "\n\n".join("\n".join(lines) for lines in parts if lines)
-
-
-def scene_heading(scene: Scene, found: Record) -> str:
-    """Title and name of the scene, and its parameters as set."""
-    settings = settings_words(found["parameters"])
-    return f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
 
 
 def points_table(points: Mapping[str, Record], solution: Solution) -> list[str]:

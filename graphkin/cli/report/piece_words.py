@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
     from graphkin.motion.pieces import Piece
     from graphkin.motion.sweep import Sweep
-    from graphkin.scene.model import Branch
 
 NOTHING = 1e-12
 """A length, in the scene's unit, that is rounding."""
@@ -50,7 +49,7 @@ def pieces_words(cycle: Cycle) -> tuple[str, list[str]]:
         return "pieces", []
     lines = []
     for piece in pieces:
-        signs = [branch_words(*each) for each in piece.branches.items()]
+        signs = [f"{name} {branch}" for name, branch in piece.branches.items()]
         span = span_words(cycle, piece.low.at, piece.high.at)
         lines.append(f"{span}: {', '.join(signs) or 'nothing to pick'}")
     return "pieces", lines
@@ -87,8 +86,3 @@ def span_words(cycle: Cycle, low: float, high: float) -> str:
     """A part of the sweep."""
     ends = (at_words(cycle.sweep, end, name=False) for end in (low, high))
     return f"{cycle.sweep.coordinate.letter} from {' to '.join(ends)}"
-
-
-def branch_words(name: str, branch: Branch) -> str:
-    """One sign, or the number of a closure."""
-    return f"{name} {branch}"

@@ -60,7 +60,9 @@ def record(
         "points": named(point_names(scene, full), lambda n: point(n, motion_of(n, full), wanted)),
         "links": named(scene.links, lambda n: link(n, full.links[n], wanted, breadth_of(full))),
         **centres(scene, full),
-        "slides": named(blocks(scene, full), lambda n: slide(n, slides[n], wanted)),
+        "slides": named(
+            filter(slides.__contains__, scene.links), lambda n: slide(n, slides[n], wanted)
+        ),
         **drawn_at(scales, verdict),
         "witness": witness(verdict),
         "margin": real(solution.margin),
@@ -86,7 +88,7 @@ def wanted_of(scene: Scene, asked: bool) -> Wanted:
 
 def point_names(scene: Scene, solution: Solution) -> list[str]:
     """The frame's points, the links' as written, then those such as A@3."""
-    written = [p for link in (scene.frame, *scene.links.values()) for p in link.points]
+    written = [p for link in scene.every_link for p in link.points]
     asked = [name for name in (*scene.ask.velocity, *scene.ask.acceleration) if is_under(name)]
     names = dict.fromkeys((*written, *asked, *solution.points))
     return [name for name in names if motion_of(name, solution) is not None]
@@ -95,11 +97,6 @@ def point_names(scene: Scene, solution: Solution) -> list[str]:
 def motion_of(name: str, solution: Solution) -> PointMotion | None:
     """The motion of a point; A@3 is A itself where link 3 owns it."""
     return solution.points.get(name) or solution.points.get(ends_of(name)[0])
-
-
-def blocks(scene: Scene, solution: Solution) -> list[str]:
-    """The links that slide, in the order written."""
-    return [name for name in scene.links if name in solution.slides]
 
 
 def named(names: Any, entry: Callable[[str], Record]) -> Record:
@@ -208,6 +205,12 @@ def plain(value: object) -> int | float | None:
     if isinstance(value, Fraction) and value.denominator == 1:
         return int(value)
     return real(value)
+
+
+def heading(scene: Scene) -> str:
+    """Title and name of a scene, and its parameters as set."""
+    settings = settings_words({name: plain(scene.values.get(name)) for name in scene.parameters})
+    return f"{scene.title} ({scene.name})" + (f", {settings}" if settings else "")
 
 
 def settings_words(parameters: Mapping[str, Any]) -> str:

@@ -61,17 +61,12 @@ def count_notes(scene: Scene) -> Iterator[str]:
     """What is easily counted wrong: pins of several links, pairs that take one freedom, springs."""
     for point, links in sharers(scene).items():
         if len(links) > 2:
-            many = number_word(len(links) - 1)
+            many = dict(enumerate(NUMBERS)).get(len(links) - 1, len(links) - 1)
             yield f"pin {point} of {joined_words(links)} counts as {many} pairs"
     singles = [pair for pair in all_pairs(scene) if pair.taken == 1]
     if singles:
         one = "the wheel" if len(singles) == 1 else "each wheel"
         yield f"{one} whose distance is kept takes one freedom, every other pair two"
-
-
-def number_word(number: int) -> str:
-    """A small number as a word."""
-    return NUMBERS[number] if 0 <= number < len(NUMBERS) else str(number)
 
 
 # --- closed loops --------------------------------------------------------------------------------

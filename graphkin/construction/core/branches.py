@@ -6,7 +6,6 @@ from collections.abc import Collection, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.scene.check import branch_phrase
 from graphkin.scene.model import LEADING, Closure, Scene, Side, Way
 from graphkin.structure.groups import (
     Crank,
@@ -123,7 +122,7 @@ def in_place_of(scene: Scene, problem: Problem, names: Sequence[str]) -> Problem
     """The problem of a missing branch, together with the branches that seem to stand for it."""
     if problem.found != MISSING or not names:
         return problem
-    lines = " and ".join(f"{name} = {branch_phrase(scene.branches[name])}" for name in names)
+    lines = " and ".join(f'{name} = "{scene.branches[name]}"' for name in names)
     verb = "chooses" if len(names) == 1 else "choose"
     own = problem.place.partition(".")[2]
     ways = [each for each in problem.changes if isinstance(each, Written)]
@@ -181,7 +180,7 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     raise StructureError(
         Problem(
             f"branches.{block}",
-            MISSING if branch is None else f"{branch_phrase(branch)} for a link that {LEADING}",
+            MISSING if branch is None else f'"{branch}" for a link that {LEADING}',
             " or ".join(WAYS),
             hint,
             tuple(map(Written, WAYS)),
@@ -214,7 +213,7 @@ def closure_of(scene: Scene, group: Higher) -> int:
     if len(numbers) > 1:
         found = "is given twice"
     elif stated:
-        lines = " and ".join(f"{name} = {branch_phrase(branch)}" for name, branch in stated.items())
+        lines = " and ".join(f'{name} = "{branch}"' for name, branch in stated.items())
         found = f"{lines} for one {group.title}"
         hint += "; if two of them should close by themselves, a guide or a pin is on the wrong link"
     raise StructureError(

@@ -10,7 +10,7 @@ from graphkin.motion.curves import over_driver, plane_paths, ring
 from graphkin.motion.curves.sampled import Sampled, sampled
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.single_loop import loop_of
-from graphkin.writers.plot_style import figure_file, look
+from graphkin.writers import plot_style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,14 +20,8 @@ FORMATS = ("svg", "png")
 
 def picture_files(cycle: Cycle, stem: str, formats: Sequence[str]) -> dict[str, bytes]:
     """Every picture of a cycle by its file name, in each of the formats svg and png."""
-    files: dict[str, bytes] = {}
-    found = sampled(cycle)
-    with look():
-        for name, drawn in figures(found):
-            figure = drawn()
-            for kind in formats:
-                files[f"{stem}-{name}.{kind}"] = figure_file(figure, kind)
-    return files
+    drawn = ((f"{stem}-{name}", figure) for name, figure in figures(sampled(cycle)))
+    return plot_style.picture_files(drawn, formats)
 
 
 def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Figure]]]:

@@ -253,8 +253,7 @@ def marked(found: Sampled) -> list[tuple[float, str, str]]:
     ]
     sweep = found.cycle.sweep
     if sweep.what != "time":
-        turns = (0.0, TURN, -TURN) if sweep.whole else (0.0,)
-        places = [sweep.start + turn for turn in turns]
+        places = [sweep.start + turn for turn in sweep.turns]
         inside = [at for at in places if found.at.min() <= at <= found.at.max()]
         lines += [(at, "scene's position", FAINT) for at in inside[:1]]
     return lines

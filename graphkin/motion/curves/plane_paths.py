@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.motion.centrodes import Centrodes, centrodes, links_with_centrodes
-from graphkin.motion.curves.outline import Outline, draw, stand_about
+from graphkin.motion.centrodes import centrodes, links_with_centrodes
+from graphkin.motion.curves.outline import MILLIMETRES, Box, Outline, draw, stand_about
 from graphkin.motion.curves.sampled import Sampled, moving_points
 from graphkin.scene.link_points import is_under
 from graphkin.writers.plot_style import (
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-SIDE = 7.2
-"""Longer side of a picture in inches."""
 ROOM = 0.09
 """Free space around, in the longer side of what is drawn."""
 MOST_PATHS = 16
@@ -35,8 +33,6 @@ FAR = 1.6
 """Breadths of the mechanism beyond its box at which centrodes leave the picture."""
 LETTERS = 11.5
 """Letters of a legend in an inch."""
-
-Box = tuple[float, float, float, float]
 
 
 def path_points(found: Sampled) -> list[str]:
@@ -64,7 +60,7 @@ def paths(found: Sampled) -> Figure:
     }
     box = box_of([np.array(list(stand.places.values())), *curves.values()])
     figure, ax = plane(found, f"Paths of points{more}", box)
-    draw(ax, stand, breadth_of(box))
+    draw(ax, stand, box)
     for i, (name, curve) in enumerate(curves.items()):
         line = found.broken(curve)
         ax.plot(line.real, line.imag, color=colour(i), label=f"path of {name}", zorder=5)
@@ -111,7 +107,7 @@ def both_centrodes(found: Sampled, link: str) -> Figure:
     touch = here[2] * found.per_length
     window = near_box(places, [fixed, moving], stand.breadth(), touch)
     figure, ax = plane(found, f"Centrodes of link {link}", window)
-    draw(ax, stand, breadth_of(window))
+    draw(ax, stand, window)
     for curve, ink, words in (
         (fixed, COLOURS[0], "fixed centrode"),
         (moving, COLOURS[1], f"moving centrode, carried by link {link}"),
@@ -129,18 +125,10 @@ def both_centrodes(found: Sampled, link: str) -> Figure:
 
 def at_scene(found: Sampled, link: str) -> tuple[complex, complex, complex]:
     """Origin and heading of a link, and its instantaneous centre, where the scene stands."""
-    cycle = found.cycle
-    here = cycle.along([cycle.sweep.start])
-    row = 0
-    if not len(here.at):
-        here = cycle
-    found_here = centrodes(here, link)
-    assert isinstance(found_here, Centrodes)
-    return (
-        complex(found_here.origin[row]),
-        complex(found_here.heading[row]),
-        complex(found_here.fixed[row]),
-    )
+    here = found.cycle.along([found.cycle.sweep.start])
+    both = centrodes(here if len(here.at) else found.cycle, link)
+    assert both is not None
+    return complex(both.origin[0]), complex(both.heading[0]), complex(both.fixed[0])
 
 
 def unbroken(found: Sampled, curve: np.ndarray, window: Box) -> np.ndarray:
@@ -157,7 +145,7 @@ def unbroken(found: Sampled, curve: np.ndarray, window: Box) -> np.ndarray:
 def plane(found: Sampled, title: str, box: Box) -> tuple[Figure, Axes]:
     """A figure with equal axes over a box."""
     wide, high = box[1] - box[0], box[3] - box[2]
-    scale = SIDE / max(wide, high)
+    scale = MILLIMETRES / 25.4 / max(wide, high)
     figure = new_figure(max(wide * scale, 5.2) + 0.7, max(high * scale, 2.6) + 1.5)
     figure_title(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
     ax = figure.subplots()
@@ -188,11 +176,6 @@ def below(ax: Axes, note: str, stand: Outline) -> None:
         )
     if note:
         figure.supxlabel(note, x=0.01, ha="left", fontsize=8, color=FAINT)
-
-
-def breadth_of(box: Box) -> float:
-    """The longer side of a box."""
-    return max(box[1] - box[0], box[3] - box[2])
 
 
 def box_of(parts: list[np.ndarray]) -> Box:

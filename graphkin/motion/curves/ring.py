@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.motion.curves.outline import circle, draw, stand_about
-from graphkin.motion.curves.plane_paths import Box, below, box_of, breadth_of, plane
+from graphkin.motion.curves.outline import Box, draw, stand_about
+from graphkin.motion.curves.plane_paths import below, box_of, plane
 from graphkin.motion.curves.sampled import Sampled
 from graphkin.motion.single_loop import Band, Loop, Ring, class_of
 from graphkin.writers.plot_style import COLOURS, FAINT, WARNING
@@ -37,7 +37,7 @@ def reach(found: Sampled, loop: Loop) -> Figure:
     box = box_of([np.array(list(stand.places.values())), *parts])
     figure, ax = plane(found, "What the driven pin passes, and what the rest can reach", box)
     area(ax, loop, factor, box)
-    draw(ax, stand, breadth_of(box))
+    draw(ax, stand, box)
     pin_path(ax, loop, factor)
     dead_marks(ax, found, loop)
     below(ax, reach_note(loop), stand)
@@ -77,15 +77,13 @@ def reached(loop: Loop, places: np.ndarray) -> np.ndarray:
 def area(ax: Axes, loop: Loop, factor: float, box: Box) -> None:
     """The ring or band, lightly filled."""
     if isinstance(loop.reach, Ring):
-        turn = np.exp(1j * np.linspace(0, 2 * np.pi, 361))
-        outer = (loop.reach.centre + loop.reach.outer * turn) * factor
-        inner = (loop.reach.centre + loop.reach.inner * turn[::-1]) * factor
-        rim = np.concatenate([outer, inner])
-        ax.fill(
-            rim.real, rim.imag, facecolor=AREA, edgecolor="none", zorder=0.5, label=within(loop)
+        outer, inner = (
+            (loop.reach.centre + loop.reach.outer * TURNED) * factor,
+            (loop.reach.centre + loop.reach.inner * TURNED[::-1]) * factor,
         )
-        for radius in (loop.reach.outer, loop.reach.inner):
-            circle(ax, loop.reach.centre * factor, radius * factor, color=GREEN, linewidth=0.9)
+        filled(ax, np.concatenate([outer, inner]), within(loop))
+        for rim in (outer, inner):
+            ax.plot(rim.real, rim.imag, color=GREEN, linewidth=0.9)
         return
     line, half = loop.reach.line, loop.reach.half
     long = 2 * max(abs(bound) for bound in box) + abs(line.point) * factor

@@ -45,10 +45,6 @@ const shapes = {
     const [u, v] = laid(o, d, a, b);
     return { cx: written(u), cy: written(v) };
   },
-  e: (o, d, a, b, r, start, end) => {
-    const turned = Math.atan2(-y[d + 1], y[d]) * 180 / Math.PI;
-    return arc(laid(o, d, a, b), r, start + turned, end + turned);
-  },
   a: (c, r, start, end) => (Math.abs(y[end] - y[start]) > 0.5 ? arc(point(c), y[r], y[start], y[end]) : null),
   h: (tail, tip, times = 1) => {
     const p = point(tail), q = point(tip), long = Math.hypot(q[0] - p[0], q[1] - p[1]);
@@ -102,7 +98,6 @@ const corners = {
   g: (...places) => places.map(point),
   h: (tail, tip) => [point(tip)],
   m: (o, d, a, b) => [laid(o, d, a, b)],
-  e: (o, d, a, b, r) => [[-r, -r], [r, r]].map(([du, dv]) => [laid(o, d, a, b)[0] + du, laid(o, d, a, b)[1] + dv]),
   t: (o, d, a, b) => [laid(o, d, a, b)],
   b: (o, d, a, b) => [laid(o, d, a, b)],
 };

@@ -2,7 +2,6 @@
 const SVG = "http://www.w3.org/2000/svg";
 const marksBut = gone => `.lettering:not(:has(${gone})),*:not(g,text,tspan,.centre-line,${gone})`; // a group holds its shift
 const SEEN = marksBut(".later,.void,[visibility]"), PLACED = marksBut(".void,[visibility]");
-const MOVED = marksBut(".void,[visibility],.halo *,[data-aside]");
 
 const sheets = [...document.querySelectorAll(".sheet")].map(element => {
   const marks = [...element.querySelectorAll("svg [data-at]")];
