@@ -59,6 +59,7 @@ class Pen:
         self.counted: set[str] = set()
         self.scale_step: int | None = None
         self.shared: dict[tuple[Any, ...], int] = {}
+        self.placed: dict[str, dict[str, int]] = {}
         self.peeked: dict[int, Any] = {}
         self.layers: list[dict[Target, int]] = []
         self.tried: list[dict[Target, int]] = []

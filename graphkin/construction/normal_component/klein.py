@@ -26,7 +26,6 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     PICKED,
     PRIMES,
@@ -234,15 +233,13 @@ def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
     return None
 
 
-def klein_component(
-    pen: Pen, shapes: LinkShapes, crank: Base, sides: list[tuple[Joint, str]], pin: str
-) -> int:
+def klein_component(pen: Pen, crank: Base, sides: list[tuple[Joint, str]], pin: str) -> int:
     """The normal component of the slider's pin about the crank pin, by Klein's construction."""
     (pivot,) = (pair.point for pair, _ in sides if isinstance(pair, Pin))
     (slide,) = (pair for pair, _ in sides if isinstance(pair, Sliding))
     places = pen.the("position", pivot), pen.the("position", pin)
     centre, omega = pen.the("position", crank.start), pen.the(OMEGA, crank.link)
-    guide, point = known_guide(pen, shapes, slide), bare(letter(pin))
+    guide, point = known_guide(pen, slide), bare(letter(pin))
 
     def drawn(index: str) -> dict[str, int]:
         names = [f"{point}{primes}_{index}" for primes in PRIMES]
@@ -264,14 +261,12 @@ def klein_component(
     return normal_component(pen, pivot, pin, kind, drawn)
 
 
-def component_in_dyad(
-    pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]], pivot: str, pin: str
-) -> int:
+def component_in_dyad(pen: Pen, sides: list[tuple[Joint, str]], pivot: str, pin: str) -> int:
     """The normal component of a pin about one of its dyad's pivots, as the scene wants it drawn."""
     crank = crank_of(pen, sides)
     if crank is None:
         return normal_component(pen, pivot, pin)
-    return klein_component(pen, shapes, crank, sides, pin)
+    return klein_component(pen, crank, sides, pin)
 
 
 def refuse_unused(pen: Pen) -> None:
