@@ -132,10 +132,11 @@ def wheels(scene: Scene, words: Words) -> Iterator[str]:
     for link in (scene.frame, *scene.links.values()):
         for wheel in link.wheels:
             sign = link.wheel_sign(wheel)
+            name = words("page.fixed") if link.name == FRAME else escape(link.name)
             yield words(
                 WHEELS[wheel.inside, wheel.teeth is not None],
                 **centre_and_size(scene, words, wheel, sign),
-                k=escape(sign) if len(link.wheels) > 1 else link_name(words, link.name),
+                k=escape(sign) if len(link.wheels) > 1 else name,
             )
 
 
@@ -154,11 +155,6 @@ def module(scene: Scene, words: Words, wheel: Wheel) -> str:
     assert wheel.radius is not None and wheel.teeth is not None
     size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
     return f"{words.decimal(shortest(size))} {wheel.radius.unit}"
-
-
-def link_name(words: Words, name: str) -> str:
-    """The name of a link, of the frame in words."""
-    return words("page.fixed") if name == FRAME else escape(name)
 
 
 def tracks(drawing: Drawing) -> Iterator[str]:

@@ -65,13 +65,6 @@ class Trying(Trial, frozen=True, dict=True):
         """The step that closes the group in the closure of a number, counted from one."""
         return Action(CLOSE, ClosureSolver(self, number))
 
-    def closed_again(self, known: tuple[Any, ...], number: int) -> tuple[Any, ...]:
-        """As closed, for scalars, and as balls have settled it where they were asked."""
-        if (closings := self.settled.get(known)) is not None:
-            settled: tuple[Any, ...] = self.chosen(closings, number)
-            return settled
-        return self.closed(known, number)
-
     @cached_property
     def kept(self) -> dict[tuple[Any, ...], Closures]:
         """The closures that were found last, by what was known."""
@@ -301,9 +294,12 @@ class ClosureSolver(Struct, frozen=True):
     number: int
 
     def __call__(self, *known: Any) -> tuple[Any, ...]:
-        """Trial value, signs and the sine of crossing."""
+        """Trial value, signs and the sine of crossing; as balls have settled them, if asked."""
         if all(isinstance(value, float | complex) for value in known):
-            return self.trying.closed_again(known, self.number)
+            closings = self.trying.settled.get(known)
+            if closings is not None:
+                return self.trying.chosen(closings, self.number)  # type: ignore[no-any-return]
+            return self.trying.closed(known, self.number)
         kind = kind_of(*known)
         if kind.name in DOUBLES:
             return self.trying.closed(known, self.number)

@@ -202,7 +202,11 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     traced = tuple(fork.the("position", point) for point in traced_points(pen, group))
     kept = (end for one in unknowns for end in one.ends)
     fork.keep_inputs(*kept, *axes, *traced)
-    kind = Trying if len(unknowns) == 1 else several_trials()
+    kind: type[Trying] = Trying
+    if len(unknowns) > 1:
+        from graphkin.construction.higher_class.several_trials import SeveralTrials
+
+        kind = SeveralTrials
     trying = kind(
         fork.program(),
         pen.scene.values,
@@ -213,13 +217,6 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
         traced,
     )
     return trying, list(fork.inputs.values())
-
-
-def several_trials() -> type[Trying]:
-    """The trial of several links at once, loaded where a group needs it."""
-    from graphkin.construction.higher_class.several_trials import SeveralTrials
-
-    return SeveralTrials
 
 
 def unknown(pen: TrialPen, group: Higher, whole: Higher, tried: int) -> Unknown:
@@ -349,12 +346,8 @@ def lengths_of(pen: Pen, group: Higher) -> list[int]:
         for point in points[1:]
         if point not in pen.scene.cam_centres
     ]
-    return lengths + [pen.drive(d).position for d in slid_within(pen, group)]
-
-
-def slid_within(pen: Pen, group: Higher) -> list[Driver]:
-    """The drivers that slide a link of a group."""
-    return [d for d in pen.scene.drivers if d.kind != "turn" and d.link in group.links]
+    slid = (d for d in pen.scene.drivers if d.kind != "turn" and d.link in group.links)
+    return lengths + [pen.drive(driver).position for driver in slid]
 
 
 def known_points(pen: Pen, group: Higher) -> list[str]:

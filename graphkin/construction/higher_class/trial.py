@@ -54,12 +54,6 @@ class Unknown(Struct, frozen=True):
         return self.misfit, self.locus, self.facing, self.reach, self.rim
 
     @property
-    def is_guided(self) -> bool:
-        """Whether it is tried to both ends of a guide: other guides may lead the link farther than
-        bars reach."""
-        return not self.turns and self.rim is None
-
-    @property
     def shares(self) -> tuple[float, float]:
         """Where its shares begin and how far they go: a round, a guide, a way along a track."""
         if self.turns:
@@ -75,8 +69,11 @@ class Unknown(Struct, frozen=True):
         return turn_by(number) if self.turns else number
 
     def valued(self, share: Any, scale: Any) -> Any:
-        """Its trial values from shares: angles, or coordinates in parts of how far they reach."""
-        return scale * (np.tan(share) if self.is_guided else share)
+        """Its trial values from shares: angles, or coordinates in parts of how far they reach.
+
+        A guide is tried to both ends: others may lead the link farther than bars reach.
+        """
+        return scale * (share if self.turns or self.rim is not None else np.tan(share))
 
 
 class Trial(Struct, frozen=True, dict=True):

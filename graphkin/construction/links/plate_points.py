@@ -179,8 +179,9 @@ class PointInLine(PlatePoint, frozen=True, kw_only=True):
         p, q, name = map(symbol, self.points)
         laid = stated_bar(drawing, (self.start, self.name), self.length)
         fields = {"bar": bar(self.start, self.end), "laid": laid, "name": name}
-        places = map(drawing.standing.spot, self.points)
-        share = share_of(*places)
+        start, end, point = map(drawing.standing.spot, self.points)
+        way = end - start
+        share = dot(way, point - start) / dot(way, way)
         if 0 <= share <= 1:
             return drawing.words("step.step-along", **fields)
         return drawing.words("step.step-along-beyond", start=p if share < 0 else q, **fields)
@@ -202,12 +203,6 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
         """By its distance."""
         name = symbol(self.name)
         return drawing.words("step.mark-off-lever", p=symbol(self.start), q=name, name=name)
-
-
-def share_of(start: complex, end: complex, point: complex) -> float:
-    """Where a point of a line stands between two others."""
-    way = end - start
-    return float(dot(way, point - start) / dot(way, way))
 
 
 # --- drawing them --------------------------------------------------------------------------------

@@ -195,7 +195,9 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
         fields |= self.corner_symbols(drawing, *self.lettered)
-        fields["more"] = in_plan(drawing)
+        times = drawing.scales.of_bar("acceleration")  # as large as what the circles give
+        larger = drawing.words("step.klein-larger", m=figure(drawing, times))
+        fields["more"] = "" if times == 1 else larger
         yield self.corner, drawing.words("step.klein", **fields)
         yield self.over, drawing.words("step.klein-circles", **fields)
         yield self.vector, drawing.words("step.klein-chord", **fields)
@@ -203,12 +205,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
         return "normals_klein"
-
-
-def in_plan(drawing: Drawing) -> str:
-    """How many times as long the plan draws what the circles give; nothing where it is as long."""
-    times = drawing.scales.of_bar("acceleration")
-    return "" if times == 1 else drawing.words("step.klein-larger", m=figure(drawing, times))
 
 
 # --- planning it ---------------------------------------------------------------------------------
