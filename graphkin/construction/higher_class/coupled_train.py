@@ -20,7 +20,7 @@ from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
 from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.links.plate_points import place_point, plate_points
-from graphkin.construction.plan import Plan
+from graphkin.construction.plan import ACCELERATION, Plan
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,
@@ -141,14 +141,16 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 
 
 def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
-    """The images of known wheels where those of a train touch them.
+    """The images of known wheels where those of a train touch them, before any trial.
 
-    The last of them by the name of the point of the train's own last wheel, which has the same
-    velocity.
+    Of velocities the last one by the name of the point of the train's own last wheel, which has the
+    same.
     """
     for contact in (*(wheel.contact for wheel in group.chain), group.last):
         for link in {*contact.links} - {*group.links}:
             rim = image_under(pen, link, contact_name(contact), plan)
+    if plan is ACCELERATION:
+        return {}
     return {under(contact_name(group.last), group.closing): rim}
 
 

@@ -318,7 +318,7 @@ def two_trials(images: GroupImages, pen: Pen, group: CoupledTrain | Higher, each
     layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
     plan = images.plan
     first, second = plans_of(pen, group, plan)
-    rims = known_rims(pen, group, plan)
+    rims = coupled_train.known_rims(pen, group, plan) if isinstance(group, CoupledTrain) else {}
     for trial in (first, second):
         begun.append(len(pen.steps))
         with pen.aside(trial) as layer:
@@ -363,17 +363,6 @@ def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialP
     if whole is not None:
         whole.within[group.links] = first
     return first, second
-
-
-def known_rims(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> dict[str, int]:
-    """The images of known wheels where those of a coupled train touch them, before any trial.
-
-    Velocities are by the name of the point of the train's own last wheel, which has the same.
-    """
-    if not isinstance(group, CoupledTrain):
-        return {}
-    found = coupled_train.known_rims(pen, group, plan)
-    return {} if plan is ACCELERATION else found
 
 
 def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
