@@ -377,7 +377,7 @@ def plate_coordinate(pen: Pen, cam: Cam) -> int:
     if cam.carrier != FRAME:
         line = standing_guide(pen, pen.first_slide(cam.on))
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        return once(pen, ("plate", cam.on), along_guide, line, pen.the("position", cam.pivot))
+        return pen.draw_shared(("plate", cam.on), along_guide, line, pen.the("position", cam.pivot))
 
 
 def seen_axis(pen: Pen, cam: Cam) -> int:
@@ -387,8 +387,8 @@ def seen_axis(pen: Pen, cam: Cam) -> int:
     key, carrier = ("cam seen", cam.on + cam.carrier), axis(pen, cam.carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if cam.on == FRAME:
-            return once(pen, key, seen_at_rest, carrier)
-        return once(pen, key, seen_from, axis(pen, cam.on), carrier)
+            return pen.draw_shared(key, seen_at_rest, carrier)
+        return pen.draw_shared(key, seen_from, axis(pen, cam.on), carrier)
 
 
 def law_actions(cam: Cam) -> tuple[Action, Action, Action]:
@@ -396,13 +396,6 @@ def law_actions(cam: Cam) -> tuple[Action, Action, Action]:
     if cam.slides:
         return plate_lift, plate_rate, plate_bend
     return (table_lift, table_rate, table_bend) if cam.slopes else (lift, lift_rate, lift_bend)
-
-
-def once(pen: Pen, key: tuple[str, str], action: Action, *args: int, extra: Any = ()) -> int:
-    """A step that is drawn when first asked for under a key."""
-    if key not in pen.shared:
-        pen.draw_shared(key, action, *args, extra=extra)
-    return pen.shared[key]
 
 
 def lifted(pen: Pen, follower: str) -> tuple[int, int]:
@@ -413,9 +406,9 @@ def lifted(pen: Pen, follower: str) -> tuple[int, int]:
         prime = pen.given("length", cam.base)
         if cam.tip == "roller":
             roller = pen.given("length", cam.roller)
-            prime = once(pen, ("cam prime", follower), widened, prime, roller)
+            prime = pen.draw_shared(("cam prime", follower), widened, prime, roller)
         found, *_ = law_actions(cam)
-        return prime, once(pen, ("cam lift", follower), found, *steps, extra=extra)
+        return prime, pen.draw_shared(("cam lift", follower), found, *steps, extra=extra)
 
 
 def height(pen: Pen, follower: str) -> tuple[int, int, int]:
@@ -425,7 +418,7 @@ def height(pen: Pen, follower: str) -> tuple[int, int, int]:
     pivot, begun = pen.the("position", cam.pivot), lifted(pen, follower)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         kind = height_of_face if cam.is_flat else height_of_tip
-        return path, pivot, once(pen, ("cam height", follower), kind, path, pivot, *begun)
+        return path, pivot, pen.draw_shared(("cam height", follower), kind, path, pivot, *begun)
 
 
 def over_plate(pen: Pen, follower: str) -> tuple[int, int, int]:
@@ -435,7 +428,7 @@ def over_plate(pen: Pen, follower: str) -> tuple[int, int, int]:
     plate, begun = plate_line(pen, cam), lifted(pen, follower)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         key = "cam coordinate", follower
-        return path, plate, once(pen, key, coordinate_on_plate, path, plate, *begun)
+        return path, plate, pen.draw_shared(key, coordinate_on_plate, path, plate, *begun)
 
 
 def swing(pen: Pen, follower: str, lever: CamLever) -> tuple[int, int, int, int]:
@@ -453,7 +446,7 @@ def swing(pen: Pen, follower: str, lever: CamLever) -> tuple[int, int, int, int]
     kind = swing_on_plate if cam.slides else swing_on_face if cam.is_flat else swing_on_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):
         steps = *ends, size, *begun
-        way = once(pen, ("cam swing", follower), kind, *steps, extra=(lever.side,))
+        way = pen.draw_shared(("cam swing", follower), kind, *steps, extra=(lever.side,))
     return *ends, way, size
 
 

@@ -136,8 +136,9 @@ class Pen:
         return construction
 
     def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **more: Any) -> int:
-        """Add a step that others will ask for again under a key."""
-        self.shared[key] = self.draw(action, *args, **more)
+        """Add a step where it is first asked for under a key."""
+        if key not in self.shared:
+            self.shared[key] = self.draw(action, *args, **more)
         return self.shared[key]
 
     def choice(self, dyad: Dyad) -> tuple[tuple[int, ...], tuple[int, ...]]:

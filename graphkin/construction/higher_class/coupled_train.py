@@ -18,7 +18,6 @@ from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
-from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.plan import ACCELERATION, Plan
 from graphkin.construction.rolling.contact_points import by_contact
@@ -83,11 +82,7 @@ def position(pen: Pen, group: CoupledTrain, each: Each) -> None:
     pen.bases[link] = base
     settle_turn(pen, link, turn_of_tried(pen, group))
     if base.end is not None:
-        ends = local_place(pen, link, base.start), local_place(pen, link, base.end)
-        with pen.on(Part.POSITION, Plane.MECHANISM):
-            start, lead = pen.the("position", base.start), pen.the("axis", link)
-            found = place_point(pen, link, (base.start, base.end), start, lead, *ends)
-        pen.want("position", base.end, found)
+        place_point(pen, link, base.start, base.end)
     plate_points(pen, base)
     for wheel in group.chain:
         each(pen, wheel, bases(pen.scene, wheel))

@@ -17,7 +17,6 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guide_line import point_on_link
-from graphkin.construction.guides.guides import axis
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
 from graphkin.construction.links.link_shapes import bar_length, local_place, ratio_of, step_along
@@ -95,12 +94,14 @@ def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
     return found
 
 
-def place_point(pen: Pen, link: str, ends: tuple[str, str], *values: int) -> int:
-    """A point of a link laid off from another: ``ends`` are both, ``values`` those of the step."""
-    start, name = ends
-    point = pen.draw(point_on_link, *values, name=name)
+def place_point(pen: Pen, link: str, start: str, name: str) -> int:
+    """A point of a link that stands at another, ``start``, and is turned to its axis."""
+    ends = local_place(pen, link, start), local_place(pen, link, name)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        here = pen.the("position", start), pen.the("axis", link)
+        point = pen.draw(point_on_link, *here, *ends, name=name)
     pen.make(PlacedPoint(link=link, start=start, name=name, point=point))
-    return point
+    return pen.want("position", name, point)
 
 
 CLEAR_CROSSING = 0.342
@@ -252,10 +253,7 @@ def set_by_axis(pen: Pen, base: Base, name: str) -> int:
         if not pen.has("position", on_guide):
             pen.want("position", on_guide, set_by_axis(pen, base, on_guide))
         return set_by_base(pen, Base(base.link, base.start, on_guide, ()), name)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        here = (pen.the("position", base.start), axis(pen, base.link))
-        ends = local_place(pen, base.link, base.start), local_place(pen, base.link, name)
-        return place_point(pen, base.link, (base.start, name), *here, *ends)
+    return place_point(pen, base.link, base.start, name)
 
 
 def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:

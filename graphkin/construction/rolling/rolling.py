@@ -374,12 +374,7 @@ def train(pen: Pen, group: Train) -> None:
         radii = [side.track_radius for side in sides] + [side.radius for side in sides]
         turn = pen.draw(arm_between, *turns, *starts, *planets, *radii)
         settle_turn(pen, group.arm, turn)
-    ends = local_place(pen, group.arm, group.pivot.point), local_place(pen, group.arm, centre)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        start, lead = pen.the("position", group.pivot.point), pen.the("axis", group.arm)
-        both_ends = group.pivot.point, centre
-        found = place_point(pen, group.arm, both_ends, start, lead, *ends)
-    pen.want("position", centre, found)
+    place_point(pen, group.arm, group.pivot.point, centre)
     for each in group.contacts:
         touch_wheels(pen, each, group.wheel)
     roll_round(pen, contact, group.wheel)

@@ -14,7 +14,6 @@ from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.links.counted_turn import counted_near
-from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.links.plate_points import place_point
 from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.rolling import rolling, wheel_images
@@ -60,11 +59,7 @@ def set_arm(pen: Pen, group: Spun, centre: str, turn: int) -> None:
         radii = side.track_radius, side.radius
         start = rolling.start_turn(pen, contact, arm)
         rolling.settle_turn(pen, arm, pen.draw(arm_rolled, *ends, since, start, *radii))
-    local = local_place(pen, arm, pivot), local_place(pen, arm, centre)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        here, lead = pen.the("position", pivot), pen.the("axis", arm)
-        found = place_point(pen, arm, (pivot, centre), here, lead, *local)
-    pen.want("position", centre, found)
+    place_point(pen, arm, pivot, centre)
     rolling.touch_wheels(pen, contact, group.link)
 
 
