@@ -18,7 +18,6 @@ from graphkin.construction.core.vocabulary import coordinate
 from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plan import omega_of
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
@@ -38,7 +37,7 @@ from graphkin.structure.groups import (
 )
 from graphkin.text.errors import Problem, StructureError
 
-Work = Callable[[Pen, LinkShapes, Any], None]
+Work = Callable[[Pen, Any], None]
 """What draws a group in one of the drawings."""
 PLANS = VELOCITIES, ACCELERATIONS
 """What draws both plans."""
@@ -50,23 +49,22 @@ def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
     """The program of a mechanism, everything included. Raises StructureError, all at once."""
     standing = stand(scene, groups)
     pen = Pen(scene)
-    shapes = LinkShapes(pen)
     position.frame(pen)
     for group, found in standing:
-        place(pen, shapes, group, found)
+        place(pen, group, found)
         if isinstance(group, Tie):
-            position.refuse_misfit(pen, shapes, group)
+            position.refuse_misfit(pen, group)
     if any(link.rolls for link in scene.every_link):
         from graphkin.construction.rolling import rolling
 
         rolling.refuse_idle_turns(pen)
-    write_turning(pen, shapes)
-    write_plan(pen, shapes, standing, VELOCITIES)
+    write_turning(pen)
+    write_plan(pen, standing, VELOCITIES)
     if scene.sheet.plan == "kutzbach":
         from graphkin.construction.rolling.ladder import draw_ladder
 
         draw_ladder(pen)
-    write_plan(pen, shapes, standing, ACCELERATIONS)
+    write_plan(pen, standing, ACCELERATIONS)
     refuse_unused_method(pen)
     every = [base for _, found in standing for base in found]
     draw_centres(pen, every)
@@ -156,13 +154,13 @@ def each_in(draw: Callable[..., None]) -> tuple[Work, Work]:
     return first, second
 
 
-def place(pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]) -> None:
+def place(pen: Pen, group: Group, found: tuple[Base, ...]) -> None:
     """The mechanism to scale: one group."""
     pen.bases |= {base.link: base for base in found}
     pen.leads |= leads_of(group)
-    work_of(group)[0](pen, shapes, group)
+    work_of(group)[0](pen, group)
     for base in own_bases(group, found):
-        plate_points.plate_points(pen, shapes, base)
+        plate_points.plate_points(pen, base)
 
 
 def own_bases(group: Group, found: tuple[Base, ...]) -> tuple[Base, ...]:
@@ -170,38 +168,36 @@ def own_bases(group: Group, found: tuple[Base, ...]) -> tuple[Base, ...]:
     return () if isinstance(group, CoupledTrain | Higher) else found
 
 
-def write_turning(pen: Pen, shapes: LinkShapes) -> None:
+def write_turning(pen: Pen) -> None:
     """The axis of every link, and where each block stands on its guide."""
     for link in pen.scene.links.values():
-        axis(pen, shapes, link.name)
+        axis(pen, link.name)
         if link.slides:
-            guide = standing_guide(pen, shapes, pen.first_slide(link.name))
+            guide = standing_guide(pen, pen.first_slide(link.name))
             pen.want("guide", link.name, guide)
             with pen.on(Part.RESULT, Plane.NUMBERS):
                 found = pen.draw(coordinate, guide, pen.the("position", link.points[0]))
             pen.want("slide", link.name, found)
 
 
-def write_plan(pen: Pen, shapes: LinkShapes, standing: Standing, images: GroupImages) -> None:
+def write_plan(pen: Pen, standing: Standing, images: GroupImages) -> None:
     """A plan, the rates of links, how blocks slide, and what is asked set on the mechanism."""
     plan = images.plan
     for point in pen.scene.frame.points:
         pen.want(plan.quantity, point, pen.pole(plan.plane))
     for group, found in standing:
-        in_plan(images, pen, shapes, group, found)
+        in_plan(images, pen, group, found)
     for link in pen.scene.links.values():
         if link.slides:
-            images.sliding(pen, shapes, link.name)
+            images.sliding(pen, link.name)
     asked.show(pen, plan, tips(pen, standing))
 
 
-def in_plan(
-    images: GroupImages, pen: Pen, shapes: LinkShapes, group: Group, found: tuple[Base, ...]
-) -> None:
+def in_plan(images: GroupImages, pen: Pen, group: Group, found: tuple[Base, ...]) -> None:
     """One group in a plan."""
-    work_of(group)[1 + PLANS.index(images)](pen, shapes, group)
+    work_of(group)[1 + PLANS.index(images)](pen, group)
     for base in own_bases(group, found):
-        images.plate_points(pen, shapes, base)
+        images.plate_points(pen, base)
         omega_of(pen, base.link, images.plan.rate)
 
 

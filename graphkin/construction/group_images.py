@@ -19,7 +19,7 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.vocabulary import difference
 from graphkin.construction.guides.led_block import led_by
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import ratio_of
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.velocity import velocity
@@ -43,11 +43,11 @@ class GroupImages(Struct, frozen=True):
     plan: Plan
     bar: Callable[[str, str], BarVelocity | BarAcceleration]
     guide: Callable[[Leading, str, str, str], GuideVelocity | GuideAcceleration]
-    sliding: Callable[[Pen, LinkShapes, str], None]
+    sliding: Callable[[Pen, str], None]
 
     # --- driven links ----------------------------------------------------------------------------
 
-    def crank(self, pen: Pen, shapes: LinkShapes, group: Crank) -> None:
+    def crank(self, pen: Pen, group: Crank) -> None:
         """Image of a driven tip, by the given rate and in its sense."""
         driver, link, tip = group.driver, group.link, crank_tip(pen.scene, group)
         self.turn_driven(pen, group)
@@ -71,20 +71,20 @@ class GroupImages(Struct, frozen=True):
                 found = pen.draw(difference, pen.given("nought"), found)
         pen.want(rate, link, found)
 
-    def driven(self, pen: Pen, shapes: LinkShapes, group: Driven) -> None:
+    def driven(self, pen: Pen, group: Driven) -> None:
         """Image of a driven slider, or of a driven wheel's centre: along its guide as is given."""
         given = led_by(group.pair).driven(pen, group.driver, self.plan.given)
-        self.slide_on(pen, shapes, group.pair, group.link, given)
+        self.slide_on(pen, group.pair, group.link, given)
 
-    def slide_on(self, pen: Pen, shapes: LinkShapes, pair: Leading, link: str, given: int) -> None:
+    def slide_on(self, pen: Pen, pair: Leading, link: str, given: int) -> None:
         """Image of the point of a link that is led along its line as is given, or tried."""
         from graphkin.construction.drivers.driven_slide import slide_image
 
         plan, point = self.plan, pen.bases[link].start
         led = self.guide(pair, link, point, point)
         way = 1 if pair.links[0] == link else -1
-        line = led_by(pair).direction(pen, shapes)
-        vector = led.component(pen, shapes)
+        line = led_by(pair).direction(pen)
+        vector = led.component(pen)
         with plan.drawn(pen):
             start, name = led.end(pen, vector), plan.named(point)
             with pen.calls_for(sliding_effect(pen, given)):
@@ -94,24 +94,24 @@ class GroupImages(Struct, frozen=True):
         pen.want(plan.quantity, point, found)
         led.finish(pen, driven=True)
 
-    def known_end(self, pen: Pen, shapes: LinkShapes, pair: Leading, link: str, point: str) -> int:
+    def known_end(self, pen: Pen, pair: Leading, link: str, point: str) -> int:
         """Where the known part of the motion of a point that a pair leads ends in the plan."""
         led = self.guide(pair, link, point, point)
-        return led.end(pen, led.component(pen, shapes))
+        return led.end(pen, led.component(pen))
 
     # --- dyads and ties --------------------------------------------------------------------------
 
-    def dyad(self, pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+    def dyad(self, pen: Pen, group: Dyad) -> None:
         """Image of the point that closes a dyad."""
-        self.cross(pen, shapes, *sides_of(pen.bases, group))
+        self.cross(pen, *sides_of(pen.bases, group))
 
-    def tie(self, pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+    def tie(self, pen: Pen, group: Tie) -> None:
         """A link between known ones: on two guides its image is found, at two pins it is there."""
         if isinstance(group.first, Sliding):
             point, link = pen.bases[group.link].start, group.link
-            self.cross(pen, shapes, point, point, [(group.first, link), (group.second, link)])
+            self.cross(pen, point, point, [(group.first, link), (group.second, link)])
 
-    def cross(self, pen: Pen, shapes: LinkShapes, name: str, point: str, sides: Sides) -> None:
+    def cross(self, pen: Pen, name: str, point: str, sides: Sides) -> None:
         """The image of a point where the lines meet that two pairs leave it free on."""
         plan = self.plan
         bound = [
@@ -120,10 +120,10 @@ class GroupImages(Struct, frozen=True):
             else self.guide(pair, link, name, point)
             for pair, link in sides
         ]
-        vectors = [each.component(pen, shapes, sides) for each in bound]
+        vectors = [each.component(pen, sides) for each in bound]
         with plan.drawn(pen):
             pairs = zip(bound, vectors, strict=True)
-            lines = [each.line(pen, shapes, vector) for each, vector in pairs]
+            lines = [each.line(pen, vector) for each, vector in pairs]
             crossing = (line for _, line in lines)
             found = crossed_image(pen, *crossing, name=plan.named(name), of=name)
             for each, (end, _) in zip(bound, lines, strict=True):
@@ -134,7 +134,7 @@ class GroupImages(Struct, frozen=True):
 
     # --- the rest of a link ----------------------------------------------------------------------
 
-    def plate_points(self, pen: Pen, shapes: LinkShapes, base: Base) -> None:
+    def plate_points(self, pen: Pen, base: Base) -> None:
         """Images of the other points of a link: their figure is similar to the link (Mehmke)."""
         if base.end is None:
             self.led_points(pen, base)
@@ -144,11 +144,11 @@ class GroupImages(Struct, frozen=True):
         for point in base.others:
             if pen.has(plan.quantity, point):
                 continue
-            ratio, hand, ends = shapes.ratio_of(base, point), None, list[int]()
+            ratio, hand, ends = ratio_of(pen, base, point), None, list[int]()
             bars = [self.bar(pivot, point) for pivot in pivots]
             if crosses_well(pen, ratio):
                 with pen.hands_way():
-                    hand, ends = self.two_lines(pen, shapes, bars)
+                    hand, ends = self.two_lines(pen, bars)
             letters = letter(base.start), letter(base.end), point
             with plan.drawn(pen):
                 images = *pen.both(plan.quantity, *pivots), ratio
@@ -161,14 +161,14 @@ class GroupImages(Struct, frozen=True):
                 plan.arrows(pen, point, base.end)
 
     def two_lines(
-        self, pen: Pen, shapes: LinkShapes, bars: Sequence[BarVelocity | BarAcceleration]
+        self, pen: Pen, bars: Sequence[BarVelocity | BarAcceleration]
     ) -> tuple[int, list[int]]:
         """The hand's way to a plate point: by the bars to both ends of the base."""
         lines = []
         for bar in bars:
-            vector = bar.component(pen, shapes)
+            vector = bar.component(pen)
             with self.plan.drawn(pen):
-                lines.append(bar.line(pen, shapes, vector))
+                lines.append(bar.line(pen, vector))
         with self.plan.drawn(pen):
             return crossed_image(pen, *(line for _, line in lines)), [end for end, _ in lines]
 

@@ -59,7 +59,9 @@ class Space:
         self.rect = rect
         self.drawn = pieces_of(marks)
         self.lines = segments(self.drawn)
-        self.texts = rectangles([reach(mark) for mark in marks if is_shown(mark)])
+        self.texts = rectangles(
+            [reach(mark) for mark in marks if isinstance(mark, Text) or style_class(mark) in APART]
+        )
 
     @cached_property
     def blots(self) -> Blots:
@@ -129,8 +131,3 @@ class Space:
             likely = where(~self.blots.hit(x, y, wide * room, high * room))
             x, y = x.take(likely), y.take(likely)
         return x, y
-
-
-def is_shown(mark: Mark) -> bool:
-    """True for a text, and for the circles and lines that are kept as clear as texts are."""
-    return isinstance(mark, Text) or style_class(mark) in APART

@@ -85,6 +85,11 @@ class FieldContent(Struct):
         return left + EDGE, top + EDGE, right - EDGE, low - EDGE
 
     @property
+    def across(self) -> float:
+        """The width of its foot."""
+        return self.rect[2] - self.rect[0] - 6
+
+    @property
     def most_notes(self) -> int:
         """How many lines of notes may stand at its foot; of a small field, as many as there are."""
         lines = int(FOOT * (self.rect[3] - self.rect[1]) / LEADING)
@@ -121,7 +126,7 @@ class FieldContent(Struct):
                 break
             self.shorten([spot.free for spot in spots], meanings)
             foot = self.footed([*self.notes, *meanings])
-            if foot_overflows(self, [*self.notes, *meanings]):
+            if len(note_lines([*self.notes, *meanings], self.across)) > self.most_notes:
                 self.labels = wished
                 foot, spots = in_turn(self, self.notes, wished)
                 break
@@ -200,7 +205,7 @@ class FieldContent(Struct):
         """
         if not notes:
             return []
-        across = self.rect[2] - self.rect[0] - 6
+        across = self.across
         found: list[tuple[int, list[Text]]] = []
         for width in (across, across / 2, across / 3):
             lines = note_lines(notes, width)
@@ -224,7 +229,7 @@ class FieldContent(Struct):
         """The places, from left to right, in which lines may stand at the foot of the field."""
         y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
         widest = max(extent(line.markup, 2.5)[0] for line in lines)
-        room = self.rect[2] - self.rect[0] - 6 - widest
+        room = self.across - widest
         for away in range(0, max(1, int(room)), ASIDE):
             yield [
                 Text(
@@ -247,11 +252,6 @@ class FieldContent(Struct):
         marks = [*self.marks, *more]
         boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
         return pieces_of(marks), boxes
-
-
-def foot_overflows(board: FieldContent, notes: Sequence[FootNote]) -> bool:
-    """Whether notes take up more of a board than its foot may."""
-    return len(note_lines(notes, board.rect[2] - board.rect[0] - 6)) > board.most_notes
 
 
 class NoteLine(NamedTuple):

@@ -75,7 +75,8 @@ def place(
         return []
     page = Clearance(_subjects(wishes), lines, boxes, field, CLEAR, strong)
     offers = CandidateSet(page, FEW if len(wishes) > MANY else CLOSE)
-    seats = Assignment(offers, [_fine(wish) for wish in wishes])
+    fines = [(OPTIONAL if w.optional else UNPLACED) * 1.2**w.priority for w in wishes]
+    seats = Assignment(offers, fines)
     seats.settle(seats.order())
     seats.improve(seats.regretted(BAD), SHORT)
     seats.shift(seats.unplaced())
@@ -84,11 +85,6 @@ def place(
         _widen(seats)
     seats.settle(seats.regretted(0.2))
     return [_spot(offers, i, place) for i, place in enumerate(seats.pick)]
-
-
-def _fine(wish: Wish) -> float:
-    """Return what a label pays, in mm, as long as it has no place."""
-    return (OPTIONAL if wish.optional else UNPLACED) * 1.2**wish.priority
 
 
 def _subjects(wishes: Sequence[Wish]) -> Subjects:

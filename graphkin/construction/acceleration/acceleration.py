@@ -17,7 +17,6 @@ from graphkin.construction.core.vocabulary import part_along
 from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.scene.link_points import is_under
@@ -45,9 +44,7 @@ class GuideAcceleration(Struct, frozen=True):
         """The link against which the pair leads the point."""
         return partner(self.pair, self.link)
 
-    def component(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
-    ) -> int | None:
+    def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> int | None:
         """The component that its guide's turning gives it; None where that does not turn.
 
         Of a point under a pin the pin's relative velocity counts, else that of the point against
@@ -77,10 +74,10 @@ class GuideAcceleration(Struct, frozen=True):
             return end_of(pen, pen.the("acceleration", self.point), vector, back=True)
         return end_of(pen, image_under(pen, self.known, self.point, ACCELERATION), vector)
 
-    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+    def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
         """That, and the line of the rest, parallel to the guide."""
         end = self.end(pen, vector)
-        along = led_by(self.pair).direction(pen, shapes)
+        along = led_by(self.pair).direction(pen)
         return end, parallel_through(pen, end, along, self.pair.links[0])
 
     def rest(self, pen: Pen, end: int, found: int) -> None:
@@ -121,14 +118,14 @@ def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
     return laid, laid.component
 
 
-def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
+def sliding(pen: Pen, block: str) -> None:
     """Acceleration of a block along its guide, and the component that comes of its turning."""
     pair = pen.first_slide(block)
     first = pen.scene.link(block).points[0]
     start = image_under(pen, pair.links[1], first, ACCELERATION)
-    guide, end = known_guide(pen, shapes, pair), pen.the("acceleration", first)
+    guide, end = known_guide(pen, pair), pen.the("acceleration", first)
     led = GuideAcceleration(pair, block, first, first)
-    if (vector := led.component(pen, shapes)) is not None:
+    if (vector := led.component(pen)) is not None:
         pen.want("coriolis", block, vector)
         with ACCELERATION.drawn(pen):
             start = led.end(pen, vector)

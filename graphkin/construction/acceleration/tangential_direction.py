@@ -16,7 +16,6 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Effect
 from graphkin.construction.core.segments import letter_at
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
@@ -67,22 +66,20 @@ class BarAcceleration(Struct, frozen=True):
     pivot: str
     point: str
 
-    def component(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
-    ) -> int:
+    def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> int:
         """The component that is known of it, drawn as the scene wants it among those ``sides``."""
         if sides is None or pen.scene.sheet.method != KLEIN:
             return normal_component(pen, self.pivot, self.point)
         from graphkin.construction.normal_component.klein import component_in_dyad
 
-        return component_in_dyad(pen, shapes, sides, self.pivot, self.point)
+        return component_in_dyad(pen, sides, self.pivot, self.point)
 
     def end(self, pen: Pen, vector: int | None) -> int:
         """Where the known part ends in the plan."""
         assert vector is not None
         return lay_off_normal(pen, self.pivot, self.point, vector)
 
-    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+    def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
         """That, and the line of the rest."""
         end = self.end(pen, vector)
         return end, tangential_direction(pen, self.pivot, self.point, end)

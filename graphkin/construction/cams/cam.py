@@ -14,44 +14,43 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.guides.led_block import led_by
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.scene.model import FRAME
 from graphkin.structure.groups import CamFollower
 from graphkin.structure.pairs import Pin, Sliding
 
 
-def place(pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
+def place(pen: Pen, group: CamFollower) -> None:
     """The follower at the coordinate, or turned to the angle, that the law of its cam gives."""
     dyad = group.dyad
     follower = next(link for link in dyad.links if link in pen.scene.cams)
     cam = pen.scene.cams[follower]
     if cam.carrier != FRAME:
-        pen.want("position", cam.centre, curvature_centre(pen, shapes, cam.centre))
+        pen.want("position", cam.centre, curvature_centre(pen, cam.centre))
     lever = cam.lever
     if lever:
-        set_lever(pen, shapes, follower, lever)
+        set_lever(pen, follower, lever)
         if isinstance(dyad.inner, Sliding):
-            block_on(pen, shapes, dyad.inner, follower)
+            block_on(pen, dyad.inner, follower)
         return
     if cam.slides:
-        *_, where = over_plate(pen, shapes, follower)
+        *_, where = over_plate(pen, follower)
     else:
-        line = height(pen, shapes, follower)
+        line = height(pen, follower)
         with pen.on(Part.POSITION, Plane.NUMBERS):
             where = pen.draw(coordinate, *line)
     assert not isinstance(dyad.right, Pin)
-    led_by(dyad.right).set_at(pen, shapes, follower, where)
+    led_by(dyad.right).set_at(pen, follower, where)
     if isinstance(dyad.inner, Sliding):
-        turned_with(pen, shapes, dyad.inner, follower)
+        turned_with(pen, dyad.inner, follower)
 
 
-def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: CamFollower) -> None:
+def move(images: GroupImages, pen: Pen, group: CamFollower) -> None:
     """A plan: that of the equivalent linkage."""
-    images.dyad(pen, shapes, group.dyad)
+    images.dyad(pen, group.dyad)
 
 
-def block_on(pen: Pen, shapes: LinkShapes, pair: Sliding, lever: str) -> None:
+def block_on(pen: Pen, pair: Sliding, lever: str) -> None:
     """The block that stands for the contact, on the face of a lever that is set already."""
-    turned_with(pen, shapes, pair, lever)
+    turned_with(pen, pair, lever)
     under, block = pen.bases[lever].end, pen.bases[pair.block].start
     pen.want("position", under or "", pen.the("position", block))

@@ -18,7 +18,7 @@ from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.core.vocabulary import coordinate as along_guide
 from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.guides.guides import axis, path_of, path_of_block, standing_guide
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import bar_length, local_place
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, sqrt
 from graphkin.numbers.cam_followers import (
@@ -342,9 +342,9 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
             yield f"*{letter}*{prime}_{{{k}}}", told, unit
 
 
-def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:
+def law_steps(pen: Pen, cam: Cam) -> tuple[tuple[int, ...], tuple[float, ...]]:
     """What the steps of a law start from, and its sense and motions."""
-    place = plate_coordinate(pen, shapes, cam) if cam.slides else seen_axis(pen, shapes, cam)
+    place = plate_coordinate(pen, cam) if cam.slides else seen_axis(pen, cam)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         start = pen.given("length" if cam.slides else "direction", cam.start)
         ends = [pen.given("length" if cam.slides else "number", piece.to) for piece in cam.law]
@@ -359,36 +359,36 @@ def law_steps(pen: Pen, shapes: LinkShapes, cam: Cam) -> tuple[tuple[int, ...], 
     return steps, (float(cam.sense), *codes)
 
 
-def plate_line(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
+def plate_line(pen: Pen, cam: Cam) -> int:
     """The path of the point of a plate that its guide leads.
 
     That of a cylinder's rod is drawn through the pin of the tube, which may stand beside it.
     """
     pair = pen.first_slide(cam.on)
     if ("through pin", *pair.links) not in pen.shared:
-        return path_of(pen, shapes, pair, cam.on, cam.pivot)
+        return path_of(pen, pair, cam.on, cam.pivot)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        return path_of_block(pen, shapes, pair, standing_guide(pen, shapes, pair), cam.pivot)
+        return path_of_block(pen, pair, standing_guide(pen, pair), cam.pivot)
 
 
-def plate_coordinate(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
+def plate_coordinate(pen: Pen, cam: Cam) -> int:
     """The coordinate of a plate on its guide, from where the guide of a moving link counts it."""
-    line = plate_line(pen, shapes, cam)
+    line = plate_line(pen, cam)
     if cam.carrier != FRAME:
-        line = standing_guide(pen, shapes, pen.first_slide(cam.on))
+        line = standing_guide(pen, pen.first_slide(cam.on))
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        return once(pen, ("plate", cam.on), along_guide, line, pen.the("position", cam.pivot))
+        return pen.draw_shared(("plate", cam.on), along_guide, line, pen.the("position", cam.pivot))
 
 
-def seen_axis(pen: Pen, shapes: LinkShapes, cam: Cam) -> int:
+def seen_axis(pen: Pen, cam: Cam) -> int:
     """The axis of a cam as its carrier sees it."""
     if cam.carrier == FRAME:
-        return axis(pen, shapes, cam.on)
-    key, carrier = ("cam seen", cam.on + cam.carrier), axis(pen, shapes, cam.carrier)
+        return axis(pen, cam.on)
+    key, carrier = ("cam seen", cam.on + cam.carrier), axis(pen, cam.carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if cam.on == FRAME:
-            return once(pen, key, seen_at_rest, carrier)
-        return once(pen, key, seen_from, axis(pen, shapes, cam.on), carrier)
+            return pen.draw_shared(key, seen_at_rest, carrier)
+        return pen.draw_shared(key, seen_from, axis(pen, cam.on), carrier)
 
 
 def law_actions(cam: Cam) -> tuple[Action, Action, Action]:
@@ -398,75 +398,66 @@ def law_actions(cam: Cam) -> tuple[Action, Action, Action]:
     return (table_lift, table_rate, table_bend) if cam.slopes else (lift, lift_rate, lift_bend)
 
 
-def once(pen: Pen, key: tuple[str, str], action: Action, *args: int, extra: Any = ()) -> int:
-    """A step that is drawn when first asked for under a key."""
-    if key not in pen.shared:
-        pen.draw_shared(key, action, *args, extra=extra)
-    return pen.shared[key]
-
-
-def lifted(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int]:
+def lifted(pen: Pen, follower: str) -> tuple[int, int]:
     """The radius on which the tip begins, and the displacement of a follower."""
     cam = pen.scene.cams[follower]
-    steps, extra = law_steps(pen, shapes, cam)
+    steps, extra = law_steps(pen, cam)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         prime = pen.given("length", cam.base)
         if cam.tip == "roller":
             roller = pen.given("length", cam.roller)
-            prime = once(pen, ("cam prime", follower), widened, prime, roller)
+            prime = pen.draw_shared(("cam prime", follower), widened, prime, roller)
         found, *_ = law_actions(cam)
-        return prime, once(pen, ("cam lift", follower), found, *steps, extra=extra)
+        return prime, pen.draw_shared(("cam lift", follower), found, *steps, extra=extra)
 
 
-def height(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
+def height(pen: Pen, follower: str) -> tuple[int, int, int]:
     """The path of a follower's point, the cam's pivot, and how high above this it stands."""
     cam = pen.scene.cams[follower]
-    path = path_of(pen, shapes, pen.first_slide(follower), follower, cam.point)
-    pivot, begun = pen.the("position", cam.pivot), lifted(pen, shapes, follower)
+    path = path_of(pen, pen.first_slide(follower), follower, cam.point)
+    pivot, begun = pen.the("position", cam.pivot), lifted(pen, follower)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         kind = height_of_face if cam.is_flat else height_of_tip
-        return path, pivot, once(pen, ("cam height", follower), kind, path, pivot, *begun)
+        return path, pivot, pen.draw_shared(("cam height", follower), kind, path, pivot, *begun)
 
 
-def over_plate(pen: Pen, shapes: LinkShapes, follower: str) -> tuple[int, int, int]:
+def over_plate(pen: Pen, follower: str) -> tuple[int, int, int]:
     """The path of a follower's point, that of the plate under it, and the follower's coordinate."""
     cam = pen.scene.cams[follower]
-    path = path_of(pen, shapes, pen.first_slide(follower), follower, cam.point)
-    plate, begun = plate_line(pen, shapes, cam), lifted(pen, shapes, follower)
+    path = path_of(pen, pen.first_slide(follower), follower, cam.point)
+    plate, begun = plate_line(pen, cam), lifted(pen, follower)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         key = "cam coordinate", follower
-        return path, plate, once(pen, key, coordinate_on_plate, path, plate, *begun)
+        return path, plate, pen.draw_shared(key, coordinate_on_plate, path, plate, *begun)
 
 
-def swing(
-    pen: Pen, shapes: LinkShapes, follower: str, lever: CamLever
-) -> tuple[int, int, int, int]:
+def swing(pen: Pen, follower: str, lever: CamLever) -> tuple[int, int, int, int]:
     """The cam's pivot or the path of a plate, the pin of a lever, its direction, and its length or
     how its face lies."""
     cam = pen.scene.cams[follower]
-    seat = plate_line(pen, shapes, cam) if cam.slides else pen.the("position", cam.pivot)
+    seat = plate_line(pen, cam) if cam.slides else pen.the("position", cam.pivot)
     ends = seat, pen.the("position", lever.pin)
     if cam.is_flat:
         with pen.on(Part.POSITION, Plane.NUMBERS):
             size = pen.given("length", lever.face)
     else:
-        size = shapes.length(follower, lever.pin, cam.point)
-    begun = lifted(pen, shapes, follower)
+        size = bar_length(pen, follower, lever.pin, cam.point)
+    begun = lifted(pen, follower)
     kind = swing_on_plate if cam.slides else swing_on_face if cam.is_flat else swing_on_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):
         steps = *ends, size, *begun
-        way = once(pen, ("cam swing", follower), kind, *steps, extra=(lever.side,))
+        way = pen.draw_shared(("cam swing", follower), kind, *steps, extra=(lever.side,))
     return *ends, way, size
 
 
-def set_lever(pen: Pen, shapes: LinkShapes, follower: str, lever: CamLever) -> None:
+def set_lever(pen: Pen, follower: str, lever: CamLever) -> None:
     """A lever as its cam's law swings it."""
     name = pen.scene.cams[follower].point
-    _, pin, way, _ = swing(pen, shapes, follower, lever)
-    locals_ = [shapes.local(follower, each) for each in (lever.pin, name)]
+    _, pin, way, _ = swing(pen, follower, lever)
+    locals_ = [local_place(pen, follower, each) for each in (lever.pin, name)]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         pen.want("axis", follower, pen.draw(axis_by_guide, way, *locals_))
-    arm = shapes.length(follower, lever.pin, name)
+    arm = bar_length(pen, follower, lever.pin, name)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         tip = pen.draw(lever_end, pin, way, arm, name=name)
         pen.make(SwungLever(link=follower, pin=lever.pin, name=name, tip=tip))
@@ -479,21 +470,21 @@ def widened(base: Real, roller: Real) -> Real:
     return base + roller
 
 
-def curvature_centre(pen: Pen, shapes: LinkShapes, name: str) -> int:
+def curvature_centre(pen: Pen, name: str) -> int:
     """The centre of curvature of a cam under its follower, in the plane."""
     follower = pen.scene.cam_centres[name]
     cam = pen.scene.cams[follower]
-    steps, extra = law_steps(pen, shapes, cam)
+    steps, extra = law_steps(pen, cam)
     extra_side: tuple[int, ...] = ()
     if cam.lever:
-        where: tuple[int, ...] = swing(pen, shapes, follower, cam.lever)
+        where: tuple[int, ...] = swing(pen, follower, cam.lever)
         kind = centre_under_swung_face if cam.is_flat else centre_under_lever
         kind = centre_over_plate_by_lever if cam.slides else kind
         extra_side = (cam.lever.side,)
     elif cam.slides:
-        where, kind = over_plate(pen, shapes, follower), centre_over_plate
+        where, kind = over_plate(pen, follower), centre_over_plate
     else:
-        path, pivot, above = height(pen, shapes, follower)
+        path, pivot, above = height(pen, follower)
         where = pivot, path, above
         kind = centre_under_face if cam.is_flat else centre_under_tip
     with pen.on(Part.POSITION, Plane.NUMBERS):

@@ -380,17 +380,14 @@ class Finder:
     def line(self, pair: Pair, over: str) -> LineOfCentres | None:
         """The line of the centres of a third link with two; None where both lie at infinity."""
         ends = [ordered(self.links, end, over) for end in pair]
-        if all(self.is_endless(end) for end in ends):
+        sizes = (self.where.get(end, (0.0, 0.0, 1.0))[2] for end in ends)
+        if all(abs(size) <= ENDLESS for size in sizes):
             return None
         m, n = (self.centre(end) for end in ends)
         with self.pen.hands_way():
             line = self.pen.draw(kennedy_line, m, n)
         letters = step_name(self.pen, m), step_name(self.pen, n)
         return self.pen.make(LineOfCentres(letters=letters, ends=(m, n), line=line))
-
-    def is_endless(self, pair: Pair) -> bool:
-        """Whether a centre lies at infinity at the scene's own numbers."""
-        return abs(self.where.get(pair, (0.0, 0.0, 1.0))[2]) <= ENDLESS
 
 
 def pair_name(first: str, second: str) -> str:

@@ -11,6 +11,7 @@ from msgspec import Struct
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, Trace, Values, as_of, evaluate
 from graphkin.numbers.arithmetic import FLOAT, Kind
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Ratio
 
 BLOCK = 2048
@@ -154,8 +155,6 @@ def is_array(value: Any) -> bool:
 
 def room_for(value: Any, size: int) -> Any:
     """Arrays of the whole length for what a block gives; what all variants share stays alone."""
-    import numpy as np
-
     if isinstance(value, Ratio):
         return Ratio(*(room_for(part, size) for part in value))
     return np.empty(size, value.dtype) if isinstance(value, np.ndarray) else value
@@ -163,8 +162,6 @@ def room_for(value: Any, size: int) -> Any:
 
 def put(value: Any, whole: Any, part: slice) -> None:
     """Put what a block gives at its place."""
-    import numpy as np
-
     if isinstance(value, Ratio):
         for mine, room in zip(value, whole, strict=True):
             put(mine, room, part)

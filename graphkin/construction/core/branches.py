@@ -207,7 +207,8 @@ def closure_of(scene: Scene, group: Higher) -> int:
     numbers = [branch.number for branch in stated.values() if isinstance(branch, Closure)]
     if numbers and len(stated) == 1:
         return numbers[0]
-    link = next(iter(stated), first_written(scene, group))
+    first = next(name for name in scene.links if name in group.links)
+    link = next(iter(stated), first)
     hint = "they close together in several ways; graphkin check lists them"
     found = MISSING
     if len(numbers) > 1:
@@ -225,8 +226,3 @@ def closure_of(scene: Scene, group: Higher) -> int:
             (Written('"closure 1"'),),
         )
     )
-
-
-def first_written(scene: Scene, group: Higher) -> str:
-    """The link of a group that is written first."""
-    return next(name for name in scene.links if name in group.links)

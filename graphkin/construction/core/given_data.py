@@ -324,17 +324,13 @@ def sides(scene: Scene, words: Words) -> Iterator[str]:
                 parted = bar(placing.first, placing.point)
                 yield words("page.on_line", point=symbol(placing.second), bar=parted)
             elif isinstance(placing, OnLine):
-                key = "page.on_line" if lies_between(placing) else "page.beyond"
+                is_between = (placing.start == placing.first) is (placing.sense > 0)
+                key = "page.on_line" if is_between else "page.beyond"
                 fields = {"point": symbol(placing.point), "start": symbol(placing.start)}
                 yield words(key, bar=bar(placing.first, placing.second), **fields)
     for point, branch in scene.branches.items():
         if isinstance(branch, Side):
             yield side(words, point, branch.first, branch.second, branch.side)
-
-
-def lies_between(placing: OnLine) -> bool:
-    """True for a point on the bar itself, false for one on the bar produced."""
-    return (placing.start == placing.first) is (placing.sense > 0)
 
 
 def side(words: Words, point: str, p: str, q: str, sign: int) -> str:

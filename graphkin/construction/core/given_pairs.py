@@ -20,45 +20,14 @@ from graphkin.scene.quantity import shortest
 from graphkin.scene.wheels import contact_letters
 from graphkin.text import Words
 
-WHEELS = {
-    (False, False): "page.wheel",
-    (False, True): "page.wheel_teeth",
-    (True, False): "page.ring",
-    (True, True): "page.ring_teeth",
-}
-"""The sentences of wheels and of rings, without teeth and with them."""
-GUIDES = {
-    (False, False): "page.guide",
-    (False, True): "page.guide_beside",
-    (True, False): "page.slot",
-    (True, True): "page.slot_beside",
-}
-"""The sentences of blocks on guides and of pins in slots, on the line and beside it."""
-ROLLS = {
-    (False, False): "page.rolls_wheel",
-    (False, True): "page.meshes",
-    (True, False): "page.rolls_fixed",
-    (True, True): "page.meshes_fixed",
-}
-"""The sentences of wheels on moving and on fixed ones, without teeth and with them."""
-BELTS = {
-    (False, False): "page.belt",
-    (False, True): "page.belt_crossed",
-    (True, False): "page.belt_fixed",
-    (True, True): "page.belt_crossed_fixed",
-}
-"""The sentences of belts to moving wheels and to fixed ones, open and crossed."""
-ALIKE = {False: "page.belt_alike", True: "page.belt_fixed_alike"}
-"""Those of open belts to moving wheels and to fixed ones of the same size."""
-
 
 def of_guide(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for a block's guide, for which of the two crossings it stands at, and what is plus."""
     fields = {"point": sliding_point(drawing, link), "way": which_way(drawing, link, slide)}
     fields["line"] = bar(*slide.along) if slide.along else straight(drawing, slide)
     fields["positive"] = positive(drawing, link, slide)
-    beside = not slide.offset.is_zero()
-    return drawing.words(GUIDES[slide.pin, beside], **fields, **aside(drawing, slide))
+    key = f"page.{'slot' if slide.pin else 'guide'}{'' if slide.offset.is_zero() else '_beside'}"
+    return drawing.words(key, **fields, **aside(drawing, slide))
 
 
 def sliding_point(drawing: Drawing, link: Link) -> str:
@@ -132,10 +101,11 @@ def wheels(scene: Scene, words: Words) -> Iterator[str]:
     for link in (scene.frame, *scene.links.values()):
         for wheel in link.wheels:
             sign = link.wheel_sign(wheel)
+            name = words("page.fixed") if link.name == FRAME else escape(link.name)
             yield words(
-                WHEELS[wheel.inside, wheel.teeth is not None],
+                f"page.{'ring' if wheel.inside else 'wheel'}{'_teeth' if wheel.teeth else ''}",
                 **centre_and_size(scene, words, wheel, sign),
-                k=escape(sign) if len(link.wheels) > 1 else link_name(words, link.name),
+                k=escape(sign) if len(link.wheels) > 1 else name,
             )
 
 
@@ -156,11 +126,6 @@ def module(scene: Scene, words: Words, wheel: Wheel) -> str:
     return f"{words.decimal(shortest(size))} {wheel.radius.unit}"
 
 
-def link_name(words: Words, name: str) -> str:
-    """The name of a link, of the frame in words."""
-    return words("page.fixed") if name == FRAME else escape(name)
-
-
 def tracks(drawing: Drawing) -> Iterator[str]:
     """What rolls on what in which point, and the start it counts from; that there is no slip."""
     scene, words = drawing.scene, drawing.words
@@ -172,12 +137,11 @@ def tracks(drawing: Drawing) -> Iterator[str]:
             if rolling.angle is None:
                 toothed = any(w.teeth for w in (*link.wheels, *scene.link(rolling.on).wheels))
                 start = start_on_wheel(drawing, link, rolling)
-                fixed = there == FRAME and len(scene.frame.wheels) < 2
-                key = ROLLS[fixed, toothed]
-                if rolling.belt is not None:
-                    key = BELTS[fixed, rolling.belt.crossed]
-                    if scene.turn_alike(link.name, rolling):
-                        key = ALIKE[fixed]
+                fixed = "_fixed" if there == FRAME and len(scene.frame.wheels) < 2 else ""
+                key = f"page.meshes{fixed}" if toothed else f"page.rolls{fixed or '_wheel'}"
+                if belt := rolling.belt:
+                    alike = "_alike" if scene.turn_alike(link.name, rolling) else ""
+                    key = f"page.belt{'_crossed' if belt.crossed else ''}{fixed}{alike}"
                 yield words(key, other=escape(there), start=start, **fields)
             else:
                 fields["side"] = words("page.beneath" if rolling.side < 0 else "page.upon")

@@ -59,6 +59,7 @@ class Pen:
         self.counted: set[str] = set()
         self.scale_step: int | None = None
         self.shared: dict[tuple[Any, ...], int] = {}
+        self.placed: dict[str, dict[str, int]] = {}
         self.peeked: dict[int, Any] = {}
         self.layers: list[dict[Target, int]] = []
         self.tried: list[dict[Target, int]] = []
@@ -135,8 +136,9 @@ class Pen:
         return construction
 
     def draw_shared(self, key: tuple[Any, ...], action: Action, *args: int, **more: Any) -> int:
-        """Add a step that others will ask for again under a key."""
-        self.shared[key] = self.draw(action, *args, **more)
+        """Add a step where it is first asked for under a key."""
+        if key not in self.shared:
+            self.shared[key] = self.draw(action, *args, **more)
         return self.shared[key]
 
     def choice(self, dyad: Dyad) -> tuple[tuple[int, ...], tuple[int, ...]]:

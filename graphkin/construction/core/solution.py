@@ -13,6 +13,7 @@ from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import QUANTITIES, Whose
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import Point, Real, least
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Ratio
 from graphkin.structure.pairs import is_in_scene
 
@@ -172,8 +173,6 @@ def without_touching(trace: Trace) -> Trace:
     At a sine below 8·sqrt(eps), 1.2e-7 for doubles, they become NaN: a sine that ought to be
     nought comes out that large, and by the 1-2-3 law a velocity has lost all but two digits.
     """
-    import numpy as np
-
     margin = smallest_margin(trace)
     if not isinstance(margin, np.ndarray):
         return trace
@@ -186,8 +185,6 @@ def without_touching(trace: Trace) -> Trace:
 
 def without(value: Any, some: Any) -> Any:
     """A value with NaN for some of its variants; what all variants share stays."""
-    import numpy as np
-
     if isinstance(value, Ratio):
         return Ratio(*(without(part, some) for part in value))
     return np.where(some, np.nan, value) if isinstance(value, np.ndarray) else value

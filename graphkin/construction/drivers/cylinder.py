@@ -18,15 +18,15 @@ from graphkin.construction.guides.guide_line import (
 from graphkin.construction.guides.guides import known_guide, local_line
 from graphkin.construction.links import position
 from graphkin.construction.links.dyad_by_arcs import draw_arc
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.structure.groups import Cylinder, Stretched
 from graphkin.structure.pairs import Pin
 
 
-def place(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
+def place(pen: Pen, group: Stretched) -> None:
     """The far pin on the arc of each cylinder, as long as that is, then the lines of the guides."""
-    ways = [way_between_pins(pen, shapes, each, inner_pin(group)) for each in group.cylinders]
+    ways = [way_between_pins(pen, each, inner_pin(group)) for each in group.cylinders]
     arcs = [
         arc_of_cylinder(pen, each, inner_pin(group), way)
         for each, way in zip(group.cylinders, ways, strict=True)
@@ -34,9 +34,9 @@ def place(pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
     if len(arcs) == 2:
         position.two_arcs(pen, group.dyad, *arcs)
     else:
-        position.dyad_on(pen, shapes, group.dyad, *arcs)
+        position.dyad_on(pen, group.dyad, *arcs)
     for each, way in zip(group.cylinders, ways, strict=True):
-        turn_to_pins(pen, shapes, each, inner_pin(group), way)
+        turn_to_pins(pen, each, inner_pin(group), way)
 
 
 def inner_pin(group: Stretched) -> str:
@@ -63,12 +63,12 @@ def place_foot(pen: Pen, cylinder: Cylinder) -> int:
     return pen.the("position", foot)
 
 
-def turn_to_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str, way: int) -> None:
+def turn_to_pins(pen: Pen, cylinder: Cylinder, far: str, way: int) -> None:
     """Both links of a cylinder turned as its pins stand, and the line of its guide."""
     near, (block, carrier) = cylinder.pin.point, cylinder.slide.links
     pins = {cylinder.near: near, cylinder.far: far}
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
-    ends = local_line(pen, shapes, cylinder.slide.slide, carrier)
+    ends = local_line(pen, cylinder.slide.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         turn = pen.draw(axis_stretched, *places, way)
         pen.want("axis", block, turn)
@@ -79,32 +79,32 @@ def turn_to_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str, way
     pen.shared["through pin", *cylinder.slide.links] = line
 
 
-def way_between_pins(pen: Pen, shapes: LinkShapes, cylinder: Cylinder, far: str) -> int:
+def way_between_pins(pen: Pen, cylinder: Cylinder, far: str) -> int:
     """The way from the pin of the link with the guide to that of the block, along the guide."""
     block, carrier = cylinder.slide.links
     pins = {cylinder.near: cylinder.pin.point, cylinder.far: far}
     first = pen.scene.link(block).points[0]
-    here = shapes.local(block, pins[block]), shapes.local(block, first)
-    end = shapes.local(carrier, pins[carrier])
-    ends = local_line(pen, shapes, cylinder.slide.slide, carrier)
+    here = local_place(pen, block, pins[block]), local_place(pen, block, first)
+    end = local_place(pen, carrier, pins[carrier])
+    ends = local_line(pen, cylinder.slide.slide, carrier)
     where = pen.drive(cylinder.driver).position
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         offset = pen.given("length", cylinder.slide.slide.offset)
         return pen.draw(stretch, *here, offset, end, *ends, where)
 
 
-def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: Stretched) -> None:
+def move(images: GroupImages, pen: Pen, group: Stretched) -> None:
     """A plan: what is given of each cylinder along its guide, then as a dyad."""
     move_one = move_foot if images.plan is VELOCITY else accelerate_foot
     for each in group.cylinders:
-        move_one(pen, shapes, each)
-    images.dyad(pen, shapes, group.dyad)
+        move_one(pen, each)
+    images.dyad(pen, group.dyad)
 
 
-def move_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
+def move_foot(pen: Pen, cylinder: Cylinder) -> None:
     """Image of the far link's point under the near pin: the given speed along the guide."""
     point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
-    start, line = pen.the("velocity", point), known_guide(pen, shapes, cylinder.slide)
+    start, line = pen.the("velocity", point), known_guide(pen, cylinder.slide)
     steps = start, line, pen.drive(cylinder.driver).speed
     place_foot(pen, cylinder)
     with VELOCITY.drawn(pen):
@@ -114,10 +114,10 @@ def move_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
     velocity_arrows(pen, foot, point)
 
 
-def accelerate_foot(pen: Pen, shapes: LinkShapes, cylinder: Cylinder) -> None:
+def accelerate_foot(pen: Pen, cylinder: Cylinder) -> None:
     """Second image of that point: the given acceleration along the guide that turns."""
     point, foot, block = cylinder.pin.point, cylinder.foot.point, cylinder.slide.block
-    line = known_guide(pen, shapes, cylinder.slide)
+    line = known_guide(pen, cylinder.slide)
     rate = pen.drive(cylinder.driver).acceleration
     images = pen.the("velocity", point), pen.the("velocity", foot)
     index = letter(foot) + letter(point)

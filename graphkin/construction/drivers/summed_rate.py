@@ -32,14 +32,11 @@ class SummedRate(Construction, frozen=True, kw_only=True):
         """The sign of the given rate."""
         return "+" if drawing.scene.drivers[self.driver].link == self.link else "−"
 
-    def given_rate(self, drawing: Drawing) -> str:
-        """Markup of the given rate."""
-        return f"*{drawing.rate.letter}*_{{{driver_index(drawing.scene.drivers[self.driver])}}}"
-
     def whole(self, drawing: Drawing) -> str:
         """Markup of the sum or the difference."""
         other = rate_symbol(drawing, self.other, drawing.rate.letter)
-        return f"{other} {self.sign(drawing)} {self.given_rate(drawing)}"
+        index = driver_index(drawing.scene.drivers[self.driver])
+        return f"{other} {self.sign(drawing)} *{drawing.rate.letter}*_{{{index}}}"
 
     def source_of_rate(self, drawing: Drawing) -> str:
         """The sum with its value."""

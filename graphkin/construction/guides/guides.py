@@ -24,7 +24,7 @@ from graphkin.construction.guides.guide_line import (
     shift_guide,
     way_between,
 )
-from graphkin.construction.links.link_shapes import LinkShapes, polar
+from graphkin.construction.links.link_shapes import local_place, polar
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, Apart, At, GuideOrTrack, OnLine, Slide
 from graphkin.structure.pairs import Sliding
@@ -50,67 +50,67 @@ class CarriedPlace(Construction, frozen=True, kw_only=True):
     place: int
 
 
-def axis(pen: Pen, shapes: LinkShapes, link: str) -> int:
+def axis(pen: Pen, link: str) -> int:
     """The direction of a link's x axis: known from its group, or from two of its points."""
     if not pen.has("axis", link):
         base = pen.bases[link]
         assert base.end is not None and not is_under(base.end)
         ends = [pen.the("position", point) for point in (base.start, base.end)]
-        here = [shapes.local(link, point) for point in (base.start, base.end)]
+        here = [local_place(pen, link, point) for point in (base.start, base.end)]
         with pen.on(Part.POSITION, Plane.NUMBERS):
             pen.want("axis", link, pen.draw(axis_of, *ends, *here))
     return pen.the("axis", link)
 
 
-def direction_on(pen: Pen, shapes: LinkShapes, link: str, direction: int) -> int:
+def direction_on(pen: Pen, link: str, direction: int) -> int:
     """A direction of a link's own axes, in the plane."""
     if link == FRAME:
         return direction
-    turn = pen.draw(direction_on_link, axis(pen, shapes, link), direction)
+    turn = pen.draw(direction_on_link, axis(pen, link), direction)
     return pen.make(CarriedDirection(link=link, turn=turn)).turn
 
 
-def local_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str) -> tuple[int, int]:
+def local_line(pen: Pen, slide: GuideOrTrack, on: str) -> tuple[int, int]:
     """A point of a guide or track and a second one ahead of it, in the axes of their link."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:
-        return shapes.local(on, along[0]), shapes.local(on, along[1])
+        return local_place(pen, on, along[0]), local_place(pen, on, along[1])
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         through = slide.through
         assert through is not None
         if isinstance(through, str):
-            start = shapes.local(on, through)
+            start = local_place(pen, on, through)
         else:
             start = pen.given("point", *through)
         return start, pen.draw(polar, start, pen.given("direction", slide.angle), pen.given("one"))
 
 
-def guide_line(pen: Pen, shapes: LinkShapes, slide: GuideOrTrack, on: str, name: str) -> int:
+def guide_line(pen: Pen, slide: GuideOrTrack, on: str, name: str) -> int:
     """A guide or track of a known link, in the plane; its point is where coordinates begin."""
     along = slide.along if isinstance(slide, Slide) else None
     if along is not None:
         return guide_along(pen, name, along)
     through = slide.through
     assert through is not None
-    turn = direction_on(pen, shapes, on, pen.given("direction", slide.angle))
+    turn = direction_on(pen, on, pen.given("direction", slide.angle))
     if isinstance(through, str):
         start, p = pen.the("position", through), through
     else:
-        start, p = point_on(pen, shapes, on, pen.given("point", *through)), ""
+        start, p = point_on(pen, on, pen.given("point", *through)), ""
     return guide_at(pen, name, (start, p), turn)
 
 
-def point_on(pen: Pen, shapes: LinkShapes, link: str, local: int) -> int:
+def point_on(pen: Pen, link: str, local: int) -> int:
     """A point given by coordinates on a link, in the plane."""
     if link == FRAME:
         return local
     start = pen.bases[link].start
-    where = pen.the("position", start), axis(pen, shapes, link), shapes.local(link, start)
+    where = pen.the("position", start), axis(pen, link), local_place(pen, link, start)
     place = pen.draw(point_on_link, *where, local)
     return pen.make(CarriedPlace(link=link, place=place)).place
 
 
-def known_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, sought: str = "") -> int:
+def known_guide(pen: Pen, pair: Sliding, sought: str = "") -> int:
     """The line of a guide in the plane, from the link that carries it or, if that is sought, from
     the block on it."""
     key = ("guide", *pair.links)
@@ -118,41 +118,41 @@ def known_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, sought: str = "") -
         block, on = pair.links
         with pen.on(Part.POSITION, Plane.MECHANISM):
             if on != sought:
-                line = guide_line(pen, shapes, pair.slide, on, block)
+                line = guide_line(pen, pair.slide, on, block)
             else:
                 first = pen.the("position", pen.scene.link(block).points[0])
                 offset = pen.given("length", pair.slide.offset)
-                line = guide_through(pen, block, first, axis(pen, shapes, block), offset)
+                line = guide_through(pen, block, first, axis(pen, block), offset)
         pen.shared[key] = line
     return pen.shared[key]
 
 
-def standing_guide(pen: Pen, shapes: LinkShapes, pair: Sliding) -> int:
+def standing_guide(pen: Pen, pair: Sliding) -> int:
     """The line of a guide once its link stands, from where the coordinates of its block count."""
     key = ("standing", *pair.links)
     if key not in pen.shared:
         with pen.on(Part.POSITION, Plane.NUMBERS):
-            pen.shared[key] = guide_line(pen, shapes, pair.slide, pair.links[1], pair.block)
+            pen.shared[key] = guide_line(pen, pair.slide, pair.links[1], pair.block)
     return pen.shared[key]
 
 
-def path_of(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, point: str) -> int:
+def path_of(pen: Pen, pair: Sliding, link: str, point: str) -> int:
     """The line on which a slide with a known link leads a point of the other, ``link``.
 
     The link's axis is known from then on: links that slide on one another turn together.
     """
-    line = known_guide(pen, shapes, pair, link)
+    line = known_guide(pen, pair, link)
     key = ("path", *pair.links, point)
     if key not in pen.shared:
         with pen.on(Part.POSITION, Plane.MECHANISM):
             if pair.block == link:
-                pen.shared[key] = path_of_block(pen, shapes, pair, line, point)
+                pen.shared[key] = path_of_block(pen, pair, line, point)
             else:
-                pen.shared[key] = path_of_carrier(pen, shapes, pair, line, point)
+                pen.shared[key] = path_of_carrier(pen, pair, line, point)
     return pen.shared[key]
 
 
-def path_of_block(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point: str) -> int:
+def path_of_block(pen: Pen, pair: Sliding, line: int, point: str) -> int:
     """The parallel to a guide on which a point of a block moves."""
     block = pair.block
     first = pen.scene.link(block).points[0]
@@ -162,30 +162,30 @@ def path_of_block(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point:
     if pair.slide.offset.number(pen.scene.values) != 0:
         line = shift_guide(pen, block, line, pen.given("length", pair.slide.offset))
     if not is_level(pen, block, point):
-        ends = shapes.local(block, first), shapes.local(block, point)
+        ends = local_place(pen, block, first), local_place(pen, block, point)
         line = shift_guide(pen, block, line, pen.draw(across, *ends))
     return line
 
 
-def path_of_carrier(pen: Pen, shapes: LinkShapes, pair: Sliding, line: int, point: str) -> int:
+def path_of_carrier(pen: Pen, pair: Sliding, line: int, point: str) -> int:
     """The parallel to a guide on which a point of the link that carries the guide moves."""
     carrier = pair.links[1]
-    ends = local_line(pen, shapes, pair.slide, carrier)
+    ends = local_line(pen, pair.slide, carrier)
     if not pen.has("axis", carrier):
         with pen.on(Part.POSITION, Plane.NUMBERS):
-            found = pen.draw(axis_by_guide, axis(pen, shapes, pair.block), *ends)
+            found = pen.draw(axis_by_guide, axis(pen, pair.block), *ends)
             pen.want("axis", carrier, found)
     if lies_on(pair.slide, point):
         return line
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        beside = beside_line(pen, shapes, carrier, point, ends)
+        beside = beside_line(pen, carrier, point, ends)
     return shift_guide(pen, pair.block, line, beside)
 
 
-def beside_line(pen: Pen, shapes: LinkShapes, link: str, point: str, ends: tuple[int, int]) -> int:
+def beside_line(pen: Pen, link: str, point: str, ends: tuple[int, int]) -> int:
     """How far a point of a link stands to the left of a guide through two places on the link."""
     along = pen.draw(way_between, *ends)
-    return pen.draw(beside_guide, shapes.local(link, point), ends[0], along)
+    return pen.draw(beside_guide, local_place(pen, link, point), ends[0], along)
 
 
 def lies_on(slide: Slide, point: str) -> bool:
@@ -211,7 +211,7 @@ def is_level(pen: Pen, block: str, point: str) -> bool:
     return point == link.points[0] or (first is not None and heights[point] == first)
 
 
-def height_of(pen: Pen, shapes: LinkShapes, pair: Sliding, pins: dict[str, str]) -> int | None:
+def height_of(pen: Pen, pair: Sliding, pins: dict[str, str]) -> int | None:
     """How far the block's pin stands to the left of the guide's own pin, across the guide.
 
     None where the scene is written so that the guide passes through both.
@@ -223,23 +223,23 @@ def height_of(pen: Pen, shapes: LinkShapes, pair: Sliding, pins: dict[str, str])
     if straight and lies_on(pair.slide, on_carrier):
         return None
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        here = pen.draw(across, shapes.local(block, first), shapes.local(block, on_block))
-        ends = local_line(pen, shapes, pair.slide, carrier)
-        there = beside_line(pen, shapes, carrier, on_carrier, ends)
+        here = pen.draw(across, local_place(pen, block, first), local_place(pen, block, on_block))
+        ends = local_line(pen, pair.slide, carrier)
+        there = beside_line(pen, carrier, on_carrier, ends)
         offset = pen.given("length", pair.slide.offset)
         return pen.draw(gap, offset, here, there)
 
 
-def turned_with(pen: Pen, shapes: LinkShapes, pair: Sliding, known: str) -> None:
+def turned_with(pen: Pen, pair: Sliding, known: str) -> None:
     """The axis of the other link of a slide, from that of one of them."""
     block, carrier = pair.links
     other = carrier if known == block else block
     if pen.has("axis", other):
         return
-    ends = local_line(pen, shapes, pair.slide, carrier)
+    ends = local_line(pen, pair.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if other == carrier:
-            found = pen.draw(axis_by_guide, axis(pen, shapes, block), *ends)
+            found = pen.draw(axis_by_guide, axis(pen, block), *ends)
         else:
-            found = pen.draw(axis_with_guide, axis(pen, shapes, carrier), *ends)
+            found = pen.draw(axis_with_guide, axis(pen, carrier), *ends)
         pen.want("axis", other, found)

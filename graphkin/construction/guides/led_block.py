@@ -9,7 +9,7 @@ from msgspec import Struct
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.guides.guides import axis, known_guide, local_line, path_of
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.plan import Plan
 from graphkin.scene.model import Driver
 from graphkin.structure.joints import partner
@@ -25,41 +25,41 @@ class LedBlock(Struct, frozen=True):
 
     pair: Sliding
 
-    def line(self, pen: Pen, shapes: LinkShapes) -> int:
+    def line(self, pen: Pen) -> int:
         """The line of the guide."""
-        return known_guide(pen, shapes, self.pair)
+        return known_guide(pen, self.pair)
 
-    def path(self, pen: Pen, shapes: LinkShapes, link: str, point: str) -> int:
+    def path(self, pen: Pen, link: str, point: str) -> int:
         """The line on which a point of the link is led."""
-        return path_of(pen, shapes, self.pair, link, point)
+        return path_of(pen, self.pair, link, point)
 
-    def direction(self, pen: Pen, shapes: LinkShapes) -> int:
+    def direction(self, pen: Pen) -> int:
         """A line along which the link moves against the known one."""
-        return known_guide(pen, shapes, self.pair)
+        return known_guide(pen, self.pair)
 
     def driven(self, pen: Pen, driver: Driver, which: str) -> int:
         """What a driver gives along the guide: position, speed or acceleration."""
         return int(getattr(pen.drive(driver), which))
 
-    def set_at(self, pen: Pen, shapes: LinkShapes, link: str, where: int) -> None:
+    def set_at(self, pen: Pen, link: str, where: int) -> None:
         """The link with its led point at a coordinate of the guide; it turns with the guide."""
         from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
 
         pair, point = self.pair, pen.bases[link].start
         sides = link, partner(pair, link)
         pen.leads[link] = sides[1]
-        line = path_of(pen, shapes, pair, link, point)
+        line = path_of(pen, pair, link, point)
         with pen.on(Part.POSITION, Plane.MECHANISM):
             if pair.block == link:
                 found = set_point(pen, point, sides, line, where)
             else:
-                zero = known_guide(pen, shapes, pair, link)
-                through = local_line(pen, shapes, pair.slide, link)[0]
-                ends = shapes.local(link, point), through, axis(pen, shapes, link)
+                zero = known_guide(pen, pair, link)
+                through = local_line(pen, pair.slide, link)[0]
+                ends = local_place(pen, link, point), through, axis(pen, link)
                 found = set_carrier(pen, point, sides, zero, where, *ends)
         pen.want("position", point, found)
 
-    def finish(self, pen: Pen, shapes: LinkShapes) -> None:
+    def finish(self, pen: Pen) -> None:
         """Nothing more is to be found once the led point stands."""
 
     def touch(self, pen: Pen, plan: Plan) -> None:

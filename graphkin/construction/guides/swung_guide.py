@@ -15,7 +15,6 @@ from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.guides.guides import height_of, local_line
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.scene.link_points import lettered
@@ -213,7 +212,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
 # --- drawing them --------------------------------------------------------------------------------
 
 
-def swing_guide(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+def swing_guide(pen: Pen, group: Dyad) -> None:
     """A dyad RPR: the guide through one pin and, at its height, the other; its link's axis."""
     assert isinstance(group.left, Pin) and isinstance(group.right, Pin)
     assert isinstance(group.inner, Sliding)
@@ -221,7 +220,7 @@ def swing_guide(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
     block, carrier = group.inner.links
     pins = {first: group.left.point, second: group.right.point}
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
-    height = height_of(pen, shapes, group.inner, pins)
+    height = height_of(pen, group.inner, pins)
     way, extra = pen.choice(group)
     sized = (*extra, breadth_about(pen, places[0]))
     own: dict[str, Any] = {"link": carrier, "block": block}
@@ -239,7 +238,7 @@ def swing_guide(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
         pen.make(GuideThroughPins(**own, turn=turn, line=line))
     else:
         pen.make(TangentGuide(**own, turn=turn, line=line, height=height, **by_hand))
-    ends = local_line(pen, shapes, group.inner.slide, carrier)
+    ends = local_line(pen, group.inner.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
         pen.want("axis", block, turn)

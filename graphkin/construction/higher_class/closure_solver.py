@@ -18,6 +18,7 @@ from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.trial import MOST, Trial
 from graphkin.numbers.arithmetic import FLOAT, phase
+from graphkin.numbers.arrays import np
 from graphkin.numbers.common_roots import solutions
 from graphkin.numbers.kinds import ball_kind, in_doubles, kind_of
 from graphkin.numbers.roots import roots_and_touches, roots_beside_poles
@@ -64,13 +65,6 @@ class Trying(Trial, frozen=True, dict=True):
         """The step that closes the group in the closure of a number, counted from one."""
         return Action(CLOSE, ClosureSolver(self, number))
 
-    def closed_again(self, known: tuple[Any, ...], number: int) -> tuple[Any, ...]:
-        """As closed, for scalars, and as balls have settled it where they were asked."""
-        if (closings := self.settled.get(known)) is not None:
-            settled: tuple[Any, ...] = self.chosen(closings, number)
-            return settled
-        return self.closed(known, number)
-
     @cached_property
     def kept(self) -> dict[tuple[Any, ...], Closures]:
         """The closures that were found last, by what was known."""
@@ -94,8 +88,6 @@ class Trying(Trial, frozen=True, dict=True):
         A scalar without that closure raises ClosingError, and MergingError where rounding leaves
         open which closure has the number; an element of an array gives NaN.
         """
-        import numpy as np
-
         if not any(hasattr(value, "shape") for value in known):
             closures = self.closures_of(known)
             row = closures.sure(number)[0]
@@ -131,8 +123,6 @@ class Trying(Trial, frozen=True, dict=True):
 
         The traces of a sheet, and those by which its scale is chosen, ask the same many times.
         """
-        import numpy as np
-
         asked = tuple(known)
         if asked not in self.kept:
             found = self.closures([np.atleast_1d(value) for value in known])
@@ -148,8 +138,6 @@ class Trying(Trial, frozen=True, dict=True):
 
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go all round, with the signs of a closure: (N,) each."""
-        import numpy as np
-
         arrays = [np.atleast_1d(each) for each in known]
         tried = self.grid(arrays, 1)[0]
         here = [np.broadcast_to(array, tried.shape) for array in arrays]
@@ -160,8 +148,6 @@ class Trying(Trial, frozen=True, dict=True):
 
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
-        import numpy as np
-
         size = len(known[0]) if known else 1
         windows = Windows(np.arange(size), self.shares(known, size))
         found = zip(*self.fits(known, self.scales(known, size), (), windows), strict=True)
@@ -179,7 +165,6 @@ class Trying(Trial, frozen=True, dict=True):
 
         ``windows`` are where the dyads of the signs that are set can be drawn.
         """
-        import numpy as np
 
         def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
             tried = self.valued(share[:, None], scales[owner])
@@ -229,8 +214,6 @@ class Trying(Trial, frozen=True, dict=True):
         self, known: Sequence[Any], size: int, owner: Any, tried: Any, signs: Any, touching: Any
     ) -> Closures:
         """The closures in the order of their numbers: by the angles of the group's links."""
-        import numpy as np
-
         here = [array[owner] for array in known]
         found = self.found(here, tried, signs)
         good = np.ones(len(owner), dtype=bool)
@@ -254,8 +237,6 @@ class Trying(Trial, frozen=True, dict=True):
 
         Where a step leads beyond what can be drawn it is not taken.
         """
-        import numpy as np
-
         turning = [one.turns for one in self.unknowns]
         step = STEP * np.where(turning, 1.0, np.maximum(abs(tried), 1e-3))
         size, here = len(self.unknowns), self.found(known, tried, signs)
@@ -278,8 +259,6 @@ def crossing_sines(misfits: Any, ways: Any) -> Any:
 
     An unknown moves while those within close; differences without a value count as a sine of zero.
     """
-    import numpy as np
-
     count, size, _ = misfits.shape
     least = np.ones(count)
     with np.errstate(all="ignore"):
@@ -315,9 +294,12 @@ class ClosureSolver(Struct, frozen=True):
     number: int
 
     def __call__(self, *known: Any) -> tuple[Any, ...]:
-        """Trial value, signs and the sine of crossing."""
+        """Trial value, signs and the sine of crossing; as balls have settled them, if asked."""
         if all(isinstance(value, float | complex) for value in known):
-            return self.trying.closed_again(known, self.number)
+            closings = self.trying.settled.get(known)
+            if closings is not None:
+                return self.trying.chosen(closings, self.number)  # type: ignore[no-any-return]
+            return self.trying.closed(known, self.number)
         kind = kind_of(*known)
         if kind.name in DOUBLES:
             return self.trying.closed(known, self.number)
@@ -360,8 +342,6 @@ class Closures(Struct, frozen=True):
 
     def picked(self, number: int) -> list[Any]:
         """The row of each element's closure of a number; NaN where it has none."""
-        import numpy as np
-
         rows = np.full((self.size, self.table.shape[1]), np.nan)
         owners = self.table[:, 0].astype(int)
         first = np.searchsorted(owners, np.arange(self.size))

@@ -18,9 +18,8 @@ from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.higher_class.divided_point import line_through
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point, plate_points
-from graphkin.construction.plan import Plan
+from graphkin.construction.plan import ACCELERATION, Plan
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import (
     rolled_on_wheel,
@@ -77,20 +76,16 @@ class SettledTurn(Determined, frozen=True, kw_only=True):
         )
 
 
-def position(pen: Pen, shapes: LinkShapes, group: CoupledTrain, each: Each) -> None:
+def position(pen: Pen, group: CoupledTrain, each: Each) -> None:
     """The tried link at its angle, and one wheel after the other on its pin."""
     link, (base,) = group.tried.link, bases(pen.scene, group.tried)
     pen.bases[link] = base
-    settle_turn(pen, link, turn_of_tried(pen, shapes, group))
+    settle_turn(pen, link, turn_of_tried(pen, group))
     if base.end is not None:
-        ends = shapes.local(link, base.start), shapes.local(link, base.end)
-        with pen.on(Part.POSITION, Plane.MECHANISM):
-            start, lead = pen.the("position", base.start), pen.the("axis", link)
-            found = place_point(pen, link, (base.start, base.end), start, lead, *ends)
-        pen.want("position", base.end, found)
-    plate_points(pen, shapes, base)
+        place_point(pen, link, base.start, base.end)
+    plate_points(pen, base)
     for wheel in group.chain:
-        each(pen, shapes, wheel, bases(pen.scene, wheel))
+        each(pen, wheel, bases(pen.scene, wheel))
     touch_last(pen, group.last)
 
 
@@ -109,16 +104,16 @@ def closing_turn(missed: Real, rate: Real) -> Real:
     return -missed / pick(below(abs(rate), FREE), 0 * rate, rate)
 
 
-def turn_of_tried(pen: Pen, shapes: LinkShapes, group: CoupledTrain) -> int:
+def turn_of_tried(pen: Pen, group: CoupledTrain) -> int:
     """How far the tried link has turned, in radians: where the last contact misses nothing."""
     own = group.closing
     with pen.on(Part.POSITION, Plane.NUMBERS):
         nought, one = pen.given("nought"), pen.given("one")
     turns, rates = {group.tried.link: nought}, {group.tried.link: one}
     for wheel in group.chain:
-        turns[wheel.link] = rolled_to(pen, shapes, wheel.contact, wheel.link, turns)
+        turns[wheel.link] = rolled_to(pen, wheel.contact, wheel.link, turns)
         rates[wheel.link] = rate_rolled(pen, wheel.contact, wheel.link, rates)
-    ends = rolled_to(pen, shapes, group.last, own, turns), rate_rolled(pen, group.last, own, rates)
+    ends = rolled_to(pen, group.last, own, turns), rate_rolled(pen, group.last, own, rates)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         missed = pen.draw(difference, turns[own], ends[0])
         rate = pen.draw(difference, rates[own], ends[1])
@@ -141,14 +136,16 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 
 
 def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
-    """The images of known wheels where those of a train touch them.
+    """The images of known wheels where those of a train touch them, before any trial.
 
-    The last of them by the name of the point of the train's own last wheel, which has the same
-    velocity.
+    Of velocities the last one by the name of the point of the train's own last wheel, which has the
+    same.
     """
     for contact in (*(wheel.contact for wheel in group.chain), group.last):
         for link in {*contact.links} - {*group.links}:
             rim = image_under(pen, link, contact_name(contact), plan)
+    if plan is ACCELERATION:
+        return {}
     return {under(contact_name(group.last), group.closing): rim}
 
 

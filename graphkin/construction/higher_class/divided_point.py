@@ -17,7 +17,6 @@ from graphkin.construction.core.relation import FINE, Relation, figure, within
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import TAGS, symbol
@@ -197,11 +196,7 @@ def trials_of(layers: list[dict[Target, int]], quantity: str, point: str) -> tup
 
 
 def crossings(
-    pen: Pen,
-    shapes: LinkShapes,
-    group: CoupledTrain | Higher,
-    images: GroupImages,
-    layers: list[dict[Target, int]],
+    pen: Pen, group: CoupledTrain | Higher, images: GroupImages, layers: list[dict[Target, int]]
 ) -> dict[str, CrossedLine]:
     """The point that a line known before the trials finds by a crossing, and how."""
     quantity = images.plan.quantity
@@ -211,7 +206,7 @@ def crossings(
     if point is None:
         return {}
     ends = trials_of(layers, quantity, point)
-    return {point: crossing(pen, shapes, group, images, point, ends)}
+    return {point: crossing(pen, group, images, point, ends)}
 
 
 def crossed_point(
@@ -231,35 +226,28 @@ def crossed_point(
 
 
 def crossing(
-    pen: Pen,
-    shapes: LinkShapes,
-    group: CoupledTrain | Higher,
-    images: GroupImages,
-    of: str,
-    ends: tuple[int, int],
+    pen: Pen, group: CoupledTrain | Higher, images: GroupImages, of: str, ends: tuple[int, int]
 ) -> CrossedLine:
     """Where the line through both trials of a point cuts the line on which it must lie."""
-    locus = locus_of(pen, shapes, group, images, of)
+    locus = locus_of(pen, group, images, of)
     with images.plan.drawn(pen), pen.hands_way():
         line = pen.draw(line_through, *ends)
         return pen.make(CrossedLine(*ends, locus, line, pen.draw(meet, line, locus)))
 
 
-def locus_of(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, images: GroupImages, of: str
-) -> int:
+def locus_of(pen: Pen, group: CoupledTrain | Higher, images: GroupImages, of: str) -> int:
     """The line on which a pin must lie in the plan: square to its bar, or parallel to its guide."""
     last, plan = group.last, images.plan
     assert isinstance(last, Tie)
     if isinstance(last.second, Sliding):
         with plan.drawn(pen):
-            start = images.known_end(pen, shapes, last.second, last.link, of)
-        guide = known_guide(pen, shapes, last.second)
+            start = images.known_end(pen, last.second, last.link, of)
+        guide = known_guide(pen, last.second)
         with plan.drawn(pen), pen.hands_way():
             return parallel_through(pen, start, guide, last.second.links[0])
     ends = last.first, last.second
     other = next(end.point for end in ends if isinstance(end, Pin) and end.point != of)
     bar = images.bar(other, of)
-    vector = bar.component(pen, shapes)
+    vector = bar.component(pen)
     with plan.drawn(pen), pen.hands_way():
-        return bar.line(pen, shapes, vector)[1]
+        return bar.line(pen, vector)[1]

@@ -20,7 +20,7 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.trial import Unknown
 from graphkin.construction.links.driven_crank import turn_about
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import bar_length, local_place
 from graphkin.construction.links.plate_points import plate_points
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
@@ -29,7 +29,7 @@ from graphkin.structure.groups import Dyad, Group, Higher, Stretched, Tie, Tried
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Pin, Sliding
 
-Each = Callable[[Pen, LinkShapes, Group, tuple[Base, ...]], None]
+Each = Callable[[Pen, Group, tuple[Base, ...]], None]
 """How one group is put down: the function of the compiler for one of the three plans."""
 
 
@@ -108,7 +108,7 @@ def spanned(start: Point, *rest: Any) -> Real:
     return total
 
 
-def position(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
+def position(pen: Pen, group: Higher, each: Each) -> None:
     """The mechanism to scale: the tried link where the locus says, then dyad by dyad."""
     trying, inputs = trial_of(pen, group, each)
     number, dyads = closure_of(pen.scene, group), choosing_dyads(group)
@@ -120,7 +120,7 @@ def position(pen: Pen, shapes: LinkShapes, group: Higher, each: Each) -> None:
     tried, sides = tuple(values[:unknowns]), tuple(values[unknowns:])
     pen.chosen |= {dyad.links: side for dyad, side in zip(dyads, sides, strict=True)}
     pen.make(ClosedGroup(group, number, counted, traced, closing, tried, sides))
-    build(pen, shapes, group, each, iter(tried))
+    build(pen, group, each, iter(tried))
 
 
 def counted_by(pen: Pen, group: Higher) -> str:
@@ -146,7 +146,6 @@ def choosing_dyads(group: Higher) -> list[Dyad]:
 
 def build(
     pen: Pen,
-    shapes: LinkShapes,
     group: Higher,
     each: Each,
     tried: Iterator[int],
@@ -156,36 +155,35 @@ def build(
 
     ``closed`` is called of each where its links stand, from the innermost outwards.
     """
-    place_trial(pen, shapes, group, next(tried))
+    place_trial(pen, group, next(tried))
     for member in group.chain:
         if isinstance(member, Higher):
-            build(pen, shapes, member, each, tried, closed)
+            build(pen, member, each, tried, closed)
         else:
-            each(pen, shapes, member, bases(pen.scene, member))
+            each(pen, member, bases(pen.scene, member))
     for last in ending(group):
-        each(pen, shapes, last, bases(pen.scene, last))
+        each(pen, last, bases(pen.scene, last))
     if not isinstance(group.last, Tie | Driver):
-        led_by(group.last).stand(pen, shapes)
+        led_by(group.last).stand(pen)
     closed(group)
 
 
-def place_trial(pen: Pen, shapes: LinkShapes, group: Higher, tried: int) -> None:
+def place_trial(pen: Pen, group: Higher, tried: int) -> None:
     """The tried link: turned about its pin, or set along its guide or track."""
     trial, (base,) = group.tried, bases(pen.scene, group.tried)
     pen.bases[trial.link] = base
     match trial.pair:
         case Pin(point=pivot):
             with pen.on(Part.POSITION, Plane.MECHANISM):
-                turn_about(pen, shapes, trial.link, (pivot, base.end), (), tried)
+                turn_about(pen, trial.link, (pivot, base.end), (), tried)
         case pair:
-            led_by(pair).set_at(pen, shapes, trial.link, tried)
-    plate_points(pen, shapes, base)
+            led_by(pair).set_at(pen, trial.link, tried)
+    plate_points(pen, base)
 
 
 def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     """The program of the trial, and the steps of what it takes as known."""
     fork = TrialPen(pen)
-    shapes = LinkShapes(fork)
     tried = {one.links: fork.input_step() for one in group.nested}
     dyads = choosing_dyads(group)
     signs = [fork.input_step() for _ in dyads]
@@ -194,17 +192,21 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
 
     def closed(one: Higher) -> None:
         with fork.on(Part.POSITION, Plane.NUMBERS):
-            found[one.links] = unknown(fork, shapes, one, group, tried[one.links])
+            found[one.links] = unknown(fork, one, group, tried[one.links])
 
-    build(fork, shapes, group, each, iter(tried.values()), closed)
+    build(fork, group, each, iter(tried.values()), closed)
     unknowns = tuple(found[links] for links in tried)
     with fork.on(Part.POSITION, Plane.NUMBERS):
         written = [name for name in pen.scene.links if name in group.links]
-        axes = tuple(axis(fork, shapes, name) for name in written)
+        axes = tuple(axis(fork, name) for name in written)
     traced = tuple(fork.the("position", point) for point in traced_points(pen, group))
     kept = (end for one in unknowns for end in one.ends)
     fork.keep_inputs(*kept, *axes, *traced)
-    kind = Trying if len(unknowns) == 1 else several_trials()
+    kind: type[Trying] = Trying
+    if len(unknowns) > 1:
+        from graphkin.construction.higher_class.several_trials import SeveralTrials
+
+        kind = SeveralTrials
     trying = kind(
         fork.program(),
         pen.scene.values,
@@ -217,19 +219,12 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
     return trying, list(fork.inputs.values())
 
 
-def several_trials() -> type[Trying]:
-    """The trial of several links at once, loaded where a group needs it."""
-    from graphkin.construction.higher_class.several_trials import SeveralTrials
-
-    return SeveralTrials
-
-
-def unknown(pen: TrialPen, shapes: LinkShapes, group: Higher, whole: Higher, tried: int) -> Unknown:
+def unknown(pen: TrialPen, group: Higher, whole: Higher, tried: int) -> Unknown:
     """What is tried of a group of a ``whole``, what closes it, and how far it is tried."""
-    fit, pair = misfit(pen, shapes, group), group.tried.pair
+    fit, pair = misfit(pen, group), group.tried.pair
     if isinstance(pair, Pin):
         return Unknown(tried, True, *fit)
-    far = reach_of(pen, shapes, group) if group is whole else span_of(pen, shapes, whole)
+    far = reach_of(pen, group) if group is whole else span_of(pen, whole)
     return Unknown(tried, False, *fit, far, led_by(pair).rim(pen))
 
 
@@ -259,7 +254,7 @@ class Misfit(NamedTuple):
     facing: int | None = None
 
 
-def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
+def misfit(pen: Pen, group: Higher) -> Misfit:
     """By how much the last link, or the driver that comes last, does not fit a trial.
 
     What a driver gives is read from how far the tried link moves: at a dead point that link moves
@@ -268,16 +263,16 @@ def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
     match group.last:
         case Tie(link, Pin(point=p), Pin(point=q)):
             ends = pen.the("position", p), pen.the("position", q)
-            length = shapes.length(link, p, q)
+            length = bar_length(pen, link, p, q)
             return Misfit(pen.draw(excess, *ends, length), pen.draw(from_to, *ends))
         case Tie(link, Pin(point=p), Sliding() as pair):
-            line = path_of(pen, shapes, pair, link, p)
+            line = path_of(pen, pair, link, p)
             place = pen.the("position", p)
             return Misfit(pen.draw(beside_line, line, place), pen.draw(on_line, line, place))
         case Driver(kind="turn") as driver:
-            return turn_misfit(pen, shapes, driver, group)
+            return turn_misfit(pen, driver, group)
         case Driver(kind="slide") as driver:
-            guide = standing_guide(pen, shapes, slide_of(pen, driver))
+            guide = standing_guide(pen, slide_of(pen, driver))
             first = pen.the("position", pen.scene.link(driver.link).points[0])
             found = pen.draw(
                 difference, pen.draw(coordinate, guide, first), pen.drive(driver).position
@@ -287,7 +282,7 @@ def misfit(pen: Pen, shapes: LinkShapes, group: Higher) -> Misfit:
             found = pen.draw(difference, pen.the("rolled", driver.link), pen.drive(driver).position)
             return Misfit(found, tried_point(pen, group.tried))
         case wheel if not isinstance(wheel, Tie):
-            return Misfit(led_by(wheel).slip(pen, shapes), tried_point(pen, group.tried))
+            return Misfit(led_by(wheel).slip(pen), tried_point(pen, group.tried))
     raise AssertionError(group.last)
 
 
@@ -298,18 +293,20 @@ def tried_point(pen: Pen, trial: TriedLink) -> int:
     return pen.the("position", far or base.start)
 
 
-def turn_misfit(pen: Pen, shapes: LinkShapes, driver: Driver, group: Higher) -> Misfit:
+def turn_misfit(pen: Pen, driver: Driver, group: Higher) -> Misfit:
     """By how much a link is turned otherwise than its driver says."""
-    lead = axis(pen, shapes, driver.link)
+    lead = axis(pen, driver.link)
     if driver.of:
-        lead = pen.draw(axis_with_guide, lead, *(shapes.local(driver.link, p) for p in driver.of))
+        lead = pen.draw(
+            axis_with_guide, lead, *(local_place(pen, driver.link, p) for p in driver.of)
+        )
     if driver.against != FRAME:
-        lead = pen.draw(turned_back, lead, axis(pen, shapes, driver.against))
+        lead = pen.draw(turned_back, lead, axis(pen, driver.against))
     wanted = pen.drive(driver).position
     sine = pen.draw(sine_between, lead, wanted)
-    moved = axis(pen, shapes, group.tried.link)
+    moved = axis(pen, group.tried.link)
     if not isinstance(group.tried.pair, Pin):
-        size = pen.draw(inverse, reach_of(pen, shapes, group))
+        size = pen.draw(inverse, reach_of(pen, group))
         moved = pen.draw(product, tried_point(pen, group.tried), size)
     return Misfit(sine, moved, pen.draw(cosine_between, lead, wanted))
 
@@ -320,41 +317,37 @@ def slide_of(pen: Pen, driver: Driver) -> Sliding:
     return next(Sliding(s, (driver.link, s.on)) for s in slides if s.on == driver.against)
 
 
-def reach_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
+def reach_of(pen: Pen, group: Higher) -> int:
     """How far along its guide the tried link may have to be looked for: what lengths allow."""
     pair = group.tried.pair
     assert not isinstance(pair, Pin)
-    line = led_by(pair).line(pen, shapes)
-    lengths = lengths_of(pen, shapes, group)
+    line = led_by(pair).line(pen)
+    lengths = lengths_of(pen, group)
     known = [pen.the("position", p) for p in known_points(pen, group)]
     return pen.draw(reach, line, *lengths, *known, extra=(len(lengths),))
 
 
-def span_of(pen: Pen, shapes: LinkShapes, group: Higher) -> int:
+def span_of(pen: Pen, group: Higher) -> int:
     """How far along a guide that moves a link of a group may have to be looked for."""
-    lengths = lengths_of(pen, shapes, group)
+    lengths = lengths_of(pen, group)
     known = [pen.the("position", p) for p in known_points(pen, group)]
     return pen.draw(span, *lengths, *known, extra=(len(lengths),))
 
 
-def lengths_of(pen: Pen, shapes: LinkShapes, group: Higher) -> list[int]:
+def lengths_of(pen: Pen, group: Higher) -> list[int]:
     """The lengths of the bars of a group, and those that its drivers set.
 
     A cam's centre of curvature is no end of a bar: it follows once the group stands.
     """
     lengths = [
-        shapes.length(name, points[0], point)
+        bar_length(pen, name, points[0], point)
         for name in group.links
         for points in (pen.scene.link(name).points,)
         for point in points[1:]
         if point not in pen.scene.cam_centres
     ]
-    return lengths + [pen.drive(d).position for d in slid_within(pen, group)]
-
-
-def slid_within(pen: Pen, group: Higher) -> list[Driver]:
-    """The drivers that slide a link of a group."""
-    return [d for d in pen.scene.drivers if d.kind != "turn" and d.link in group.links]
+    slid = (d for d in pen.scene.drivers if d.kind != "turn" and d.link in group.links)
+    return lengths + [pen.drive(driver).position for driver in slid]
 
 
 def known_points(pen: Pen, group: Higher) -> list[str]:

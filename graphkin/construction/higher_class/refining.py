@@ -45,11 +45,6 @@ class Closing(Struct, frozen=True):
     sine: Any
 
 
-def closings_of(closures: Any) -> list[Closing]:
-    """The closures of the first element as doubles find them."""
-    return [closing_of(row) for row in closures.table if row[0] == 0]
-
-
 def closing_of(row: Any) -> Closing:
     """The closure of a row of a table."""
     return Closing(float(row[1]), tuple(row[2:-1].tolist()), float(row[-1]))
@@ -206,7 +201,7 @@ def closed_in_balls(
 ) -> tuple[Any, ...]:
     """As closed_in, in balls: where rounding leaves open which closures there are balls decide."""
     closures = trying.closures_of(doubles)
-    closings = closings_of(closures)
+    closings = [closing_of(row) for row in closures.table if row[0] == 0]
     if merging := closures.merging_at(number):
         try:
             closings = merged(trying, known, closures, kind)

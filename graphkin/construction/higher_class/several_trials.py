@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 from graphkin.construction.core.batch import Ready, run_moving
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arrays import np
 from graphkin.numbers.common_roots import (
     Array,
     Cells,
@@ -50,8 +51,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
     def loci(self, known: Sequence[Any], value: Sequence[Any]) -> list[Any]:
         """Where the traced points go beside a closure while the outermost link is tried, those
         within closed each time: (N,) each, as far as they close."""
-        import numpy as np
-
         start = self.row_of(value)
         size, traced = len(self.unknowns), self.traced
         here = [np.broadcast_to(np.atleast_1d(each), 2) for each in known]
@@ -74,8 +73,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
     def closed_within(self, known: Sequence[Any], tried: Array, signs: Array) -> Array:
         """Trial values at which all groups within close, that of the outermost as it is."""
-        import numpy as np
-
         inner = self.unknowns[1:]
 
         def missed(row: Array, share: Array) -> Array:
@@ -93,7 +90,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
         NaN where it does not come to rest.
         """
-        import numpy as np
 
         def missed(row: Array, share: Array) -> Array:
             found = self.found([array[row] for array in known], share, signs[row])
@@ -103,8 +99,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
     def row_of(self, value: Sequence[Any]) -> Array:
         """A closure as numbers: trial values, signs, the sine of crossing."""
-        import numpy as np
-
         return np.array([*map(float, (*self.numbers(value), *value[len(self.unknowns) :]))])
 
     def together(self, known: Sequence[Any], size: int) -> int:
@@ -118,8 +112,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
     def closures(self, known: Sequence[Any]) -> Closures:
         """Every closure of every element of known values, in the order of their numbers."""
-        import numpy as np
-
         size = len(known[0]) if known else 1
         rows = sign_table(len(self.signs))
         table = np.array(rows, dtype=float).reshape(len(rows), len(self.signs))
@@ -148,8 +140,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
 
     def grid_of_shares(self) -> tuple[Array, Array]:
         """Where the shares of each unknown begin, and how far they go."""
-        import numpy as np
-
         start, way = np.array([one.shares for one in self.unknowns], dtype=float).T
         return start, way
 
@@ -201,8 +191,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         """The cells of the grid in which all misfits may vanish on known scalars, each by its row
         of signs and the number of its steps along each unknown, and how far each misfit ranges.
         """
-        import numpy as np
-
         row, place = np.zeros(1, dtype=int), np.empty((1, 0), dtype=int)
         ranges = np.zeros(len(self.unknowns))
         for stage in self.stages:
@@ -228,8 +216,6 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         """Cells (C, k) with each step along one more unknown, and each set of signs that it asks:
         what is found at their corners.
         """
-        import numpy as np
-
         size, across = place.shape[1], self.across
         start, way = self.grid_of_shares()
         corners = (place[:, None, :] + corners_of(size)).reshape(len(row) * 2**size, size)
@@ -297,16 +283,12 @@ class Corners(NamedTuple):
     def spans(self) -> list[Array]:
         """The least value of each misfit, where the middle ones begin and end, and the largest; NaN
         without any."""
-        import numpy as np
-
         shares = (0.0, (1 - MIDDLE) / 2, (1 + MIDDLE) / 2, 1.0)
         finite = (each[np.isfinite(each)] for each in self.misfits)
         return [np.quantile(x, shares) if x.size else np.full(len(shares), np.nan) for x in finite]
 
     def kept(self, ranges: Array, side: Array) -> tuple[Array, Array]:
         """The cells along one more unknown in which all misfits may vanish: rows and places."""
-        import numpy as np
-
         cells = len(self.row), self.shape[1], self.shape[2] - 1
         keep = np.ones(cells, dtype=bool)
         if self.misfits or self.reaches:
@@ -323,8 +305,6 @@ class Corners(NamedTuple):
 
     def ends(self, value: Array) -> tuple[Array, Array]:
         """The least and the largest at the corners of each cell."""
-        import numpy as np
-
         return self.over(np.fmin, value), self.over(np.fmax, value)
 
     def over(self, both: Any, value: Array) -> Array:
@@ -364,8 +344,6 @@ class DrawnChain:
 
     def at(self, row: Array, share: Array) -> tuple[list[Array], list[Array]]:
         """Each misfit, and how far each dyad can be drawn, in their order: (K,) each."""
-        import numpy as np
-
         found = self.trying.run(self.trying.looked_at, *self.trials(row, share))
         choices = [choice for choice in self.trying.choices if choice is not None]
         misfits = [found[one.misfit] for one in self.trying.unknowns]

@@ -15,6 +15,7 @@ from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import StepFailed, Values, run
 from graphkin.construction.core.vocabulary import meet
 from graphkin.numbers.arithmetic import Kind, batch_kind, phase, turn_by
+from graphkin.numbers.arrays import np
 from graphkin.numbers.kinds import middle
 from graphkin.numbers.plane import cross
 
@@ -53,12 +54,6 @@ class Unknown(Struct, frozen=True):
         return self.misfit, self.locus, self.facing, self.reach, self.rim
 
     @property
-    def is_guided(self) -> bool:
-        """Whether it is tried to both ends of a guide: other guides may lead the link farther than
-        bars reach."""
-        return not self.turns and self.rim is None
-
-    @property
     def shares(self) -> tuple[float, float]:
         """Where its shares begin and how far they go: a round, a guide, a way along a track."""
         if self.turns:
@@ -74,10 +69,11 @@ class Unknown(Struct, frozen=True):
         return turn_by(number) if self.turns else number
 
     def valued(self, share: Any, scale: Any) -> Any:
-        """Its trial values from shares: angles, or coordinates in parts of how far they reach."""
-        import numpy as np
+        """Its trial values from shares: angles, or coordinates in parts of how far they reach.
 
-        return scale * (np.tan(share) if self.is_guided else share)
+        A guide is tried to both ends: others may lead the link farther than bars reach.
+        """
+        return scale * (share if self.turns or self.rim is not None else np.tan(share))
 
 
 class Trial(Struct, frozen=True, dict=True):
@@ -146,23 +142,17 @@ class Trial(Struct, frozen=True, dict=True):
 
     def run(self, ready: Ready, known: Sequence[Any], tried: Any, signs: Any) -> Mapping[int, Any]:
         """What a part of the program gives for arrays of trial values and of signs."""
-        import numpy as np
-
         overrides = self.overrides(known, tried, signs)
         with np.errstate(all="ignore"):
             return run_moving(ready, self.values, batch_kind(), overrides=overrides).values
 
     def found(self, known: Sequence[Any], tried: Any, signs: Any) -> dict[int, Any]:
         """The results for arrays of trial values and of signs, known values given per element."""
-        import numpy as np
-
         found = self.run(self.ready, known, tried, signs)
         return {n: np.broadcast_to(found[n], len(tried)) for n in self.results}
 
     def misfits(self, known: Sequence[Any], tried: Any, signs: Any) -> Any:
         """The misfits alone (K, n); NaN where the chain cannot be drawn."""
-        import numpy as np
-
         found = self.run(self.missing, known, tried, signs)
         each = (np.broadcast_to(found[one.misfit], len(tried)) for one in self.unknowns)
         return np.stack([*each], axis=1)
@@ -184,8 +174,6 @@ class Trial(Struct, frozen=True, dict=True):
 
     def drawable(self, k: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
         """How far the dyad of a sign can be drawn: positive where it can, by the signs before."""
-        import numpy as np
-
         choice = self.choices[k]
         assert choice is not None
         ready, reaches, args = choice
@@ -205,8 +193,6 @@ class Trial(Struct, frozen=True, dict=True):
 
     def crossing(self, n: int, known: Sequence[Any], tried: Any, signs: Any) -> Any:
         """The area of the directions of two lines that cross: zero where they are parallel."""
-        import numpy as np
-
         ready, args = self.crossings[n]
         found = self.run(ready, known, tried, signs)
         with np.errstate(all="ignore"):
@@ -225,22 +211,16 @@ class Trial(Struct, frozen=True, dict=True):
     def scales(self, known: Sequence[Any], size: int) -> Any:
         """What the trial values of each element are measured by, a column for each unknown: for
         coordinates how far (m) they may have to be tried, as bars allow."""
-        import numpy as np
-
         each = (1.0 if u.reach is None else self.at_start(known, u.reach) for u in self.unknowns)
         return np.stack([np.broadcast_to(scale, size) for scale in each], axis=1)
 
     def valued(self, share: Any, scale: Any) -> Any:
         """Trial values from shares, both with a column for each unknown."""
-        import numpy as np
-
         columns = zip(self.unknowns, share.T, scale.T, strict=True)
         return np.stack([one.valued(*each) for one, *each in columns], axis=1)
 
     def shares(self, known: Sequence[Any], size: int) -> Any:
         """Where each element is tried: angles of a round, or shares of a way to both sides."""
-        import numpy as np
-
         if self.first.turns:
             return self.grid(known, size)
         if self.first.rim is None:
@@ -262,8 +242,6 @@ class Trial(Struct, frozen=True, dict=True):
 
     def grid(self, known: Sequence[Any], size: int) -> Any:
         """The trial values of each element: a round, or as far to both sides as can be needed."""
-        import numpy as np
-
         if self.first.turns:
             round_ = np.linspace(0, 2 * np.pi, SAMPLES + 1) + START
             return np.broadcast_to(round_, (size, SAMPLES + 1))
@@ -271,8 +249,6 @@ class Trial(Struct, frozen=True, dict=True):
 
     def at_start(self, known: Sequence[Any], step: int) -> Any:
         """A step that does not hang on what is tried."""
-        import numpy as np
-
         overrides = dict(zip(self.inputs, known, strict=True))
         with np.errstate(all="ignore"):
             needed = self.program.behind((step,))

@@ -42,25 +42,6 @@ SECOND = tuple(TAGS)[1]
 """The tag of the second of two trial plans."""
 
 
-INTRODUCED = {
-    (False, False): "step.trial-1",
-    (False, True): "step.trial-2",
-    (True, False): "step.trial-in-1",
-    (True, True): "step.trial-in-2",
-}
-"""The words for a plan with what it assumes: whether it lies within another, whether it is the
-second of its two."""
-NOT_ROUND = {"step.trial-2": "step.trial-2-near", "step.trial-in-2": "step.trial-in-2-near"}
-"""The words for a second plan whose number has more than two digits."""
-GOING_ON = {
-    "step.trial-1": "step.trial-1-on",
-    "step.trial-2": "step.trial-2-on",
-    "step.trial-in-1": "step.trial-in-1-on",
-    "step.trial-in-2": "step.trial-in-2-on",
-}
-"""The words for a further part of it."""
-
-
 class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
     """The plan of one ``rate`` of the tried ``link``; the ``first`` of two, or the one after it.
 
@@ -179,9 +160,8 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
         """Points of it line by line: the step of the point, that which ends a part, its words."""
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:
-                fallen = list(run)
-                key = "falls" if len(fallen) == 1 else "fall-together"
-                yield fallen[-1], fallen[-1], of_many(drawing, key, fallen, s=symbol(under))
+                fallen = [*run]
+                yield fallen[-1], fallen[-1], falling(drawing, fallen, under)
                 continue
             for number in run:
                 again = turned_again(drawing, number) if self.repeats else ""
@@ -190,22 +170,20 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
 
     def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
         """A part of it after what it is; in the ``first`` one, after what it assumes too."""
-        key = INTRODUCED[self.whole is not None, self.is_second]
+        key = f"step.trial{'' if self.whole is None else '-in'}-{2 if self.is_second else 1}"
         fields = {"plan": symbol(tag_words(self.whole.tag))} if self.whole is not None else {}
         if not first:
-            return drawing.words(GOING_ON[key], how=how, **fields)
+            return drawing.words(f"{key}-on", how=how, **fields)
         what, size = self.assumed(drawing, self.points(drawing))
-        if has_many_digits(float(drawing.trace.values[self.rate])):
-            key = NOT_ROUND.get(key, key)
+        if self.is_second and has_many_digits(float(drawing.trace.values[self.rate])):
+            key += "-near"
         return drawing.words(key, what=what, amount=size, how=how, **fields)
 
     def told_in_full(self, drawing: Drawing, named: Sequence[int]) -> Iterator[str]:
         """Its points one by one; those that fall on what they are drawn from in one."""
         for under, run in groupby(named, lambda number: self.falls_on(drawing, number)):
             if under:
-                fallen = list(run)
-                key = "falls" if len(fallen) == 1 else "fall-together"
-                yield of_many(drawing, key, fallen, s=symbol(under))
+                yield falling(drawing, [*run], under)
             else:
                 yield from (point_told(drawing, number) for number in run)
 
@@ -329,6 +307,12 @@ def turned_again(drawing: Drawing, number: int) -> str:
 def point_told(drawing: Drawing, number: int) -> str:
     """How a point of a trial plan is found."""
     return point_sentence(drawing, drawing.trace.program.steps[number])
+
+
+def falling(drawing: Drawing, numbers: Sequence[int], under: str) -> str:
+    """The words for points of a trial plan that fall on the one ``under`` them."""
+    key = "falls" if len(numbers) == 1 else "fall-together"
+    return of_many(drawing, key, numbers, s=symbol(under))
 
 
 def of_many(drawing: Drawing, key: str, numbers: Sequence[int], **fields: str) -> str:

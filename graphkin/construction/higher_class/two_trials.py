@@ -49,7 +49,6 @@ from graphkin.construction.higher_class.misclosure import (
 )
 from graphkin.construction.higher_class.right_plan import components, in_order, settle
 from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
@@ -311,9 +310,7 @@ def on_paper(drawing: Drawing) -> float:
 # --- planning them -------------------------------------------------------------------------------
 
 
-def two_trials(
-    images: GroupImages, pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, each: Each
-) -> None:
+def two_trials(images: GroupImages, pen: Pen, group: CoupledTrain | Higher, each: Each) -> None:
     """Two wrong plans give the right one: what is missed is linear in what is tried.
 
     What accelerations follow from velocities is known by then.
@@ -321,18 +318,18 @@ def two_trials(
     layers, gaps, begun = list[dict[Target, int]](), list[Misclosure](), []
     plan = images.plan
     first, second = plans_of(pen, group, plan)
-    rims = known_rims(pen, group, plan)
+    rims = coupled_train.known_rims(pen, group, plan) if isinstance(group, CoupledTrain) else {}
     for trial in (first, second):
         begun.append(len(pen.steps))
         with pen.aside(trial) as layer:
-            move_trial(pen, shapes, group, images, trial.rate)
+            move_trial(pen, group, images, trial.rate)
             for member in group.chain:
-                each(pen, shapes, member, bases(pen.scene, member))
-            gaps.append(missed(pen, shapes, group, images))
+                each(pen, member, bases(pen.scene, member))
+            gaps.append(missed(pen, group, images))
         layers.append(layer)
         pen.tried.append(layer)
     tried = range(begun[1], len(pen.steps))
-    crossed = crossings(pen, shapes, group, images, layers)
+    crossed = crossings(pen, group, images, layers)
     with pen.on(plan.part, Plane.NUMBERS):
         by_hand = None
         for line in crossed.values():
@@ -345,7 +342,7 @@ def two_trials(
     if plan is ACCELERATION and not pen.layers:
         components(pen, group, tried)
     for last in ending(group):
-        each(pen, shapes, last, bases(pen.scene, last))
+        each(pen, last, bases(pen.scene, last))
     if not pen.layers:
         pen.tried.clear()
         for link in group.links:
@@ -366,17 +363,6 @@ def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialP
     if whole is not None:
         whole.within[group.links] = first
     return first, second
-
-
-def known_rims(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> dict[str, int]:
-    """The images of known wheels where those of a coupled train touch them, before any trial.
-
-    Velocities are by the name of the point of the train's own last wheel, which has the same.
-    """
-    if not isinstance(group, CoupledTrain):
-        return {}
-    found = coupled_train.known_rims(pen, group, plan)
-    return {} if plan is ACCELERATION else found
 
 
 def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
@@ -413,9 +399,7 @@ def places_of(pen: Pen, group: CoupledTrain | Higher) -> list[int]:
     return [pen.the("position", point) for point in points]
 
 
-def move_trial(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, images: GroupImages, value: int
-) -> None:
+def move_trial(pen: Pen, group: CoupledTrain | Higher, images: GroupImages, value: int) -> None:
     """The tried link in a trial plan."""
     trial, base, plan = group.tried, pen.bases[group.tried.link], images.plan
     match trial.pair:
@@ -424,13 +408,11 @@ def move_trial(
             if base.end is not None:
                 plan.turn(pen, trial.link, pivot, base.end, steady=False, along=pivot)
         case _ as pair:
-            images.slide_on(pen, shapes, pair, trial.link, value)
-    images.plate_points(pen, shapes, base)
+            images.slide_on(pen, pair, trial.link, value)
+    images.plate_points(pen, base)
 
 
-def missed(
-    pen: Pen, shapes: LinkShapes, group: CoupledTrain | Higher, images: GroupImages
-) -> Misclosure:
+def missed(pen: Pen, group: CoupledTrain | Higher, images: GroupImages) -> Misclosure:
     """What a trial plan misses at the link or driver that comes last."""
     last, plan = group.last, images.plan
     if not isinstance(last, Tie | Driver):
@@ -439,15 +421,15 @@ def missed(
         case Tie(link, Pin(point=p), Pin(point=q)):
             p, q = in_order((p, q), [of for what, of in pen.layers[-1] if what == plan.quantity])
             ends = [pen.the(what, x) for what in ("position", plan.quantity) for x in (p, q)]
-            origin, known = pen.given("origin"), images.bar(p, q).component(pen, shapes)
+            origin, known = pen.given("origin"), images.bar(p, q).component(pen)
             wanted = origin if known is None else known
             with pen.on(plan.part, Plane.NUMBERS):
                 size = pen.draw(lacks, *ends, wanted)
             roles = dict(zip(("p", "q", "foot", "tip"), ends, strict=True))
             return BarMisclosure(size=size, wanted=wanted, **roles)
         case Tie(link, Pin(point=p), Sliding() as pair):
-            line = known_guide(pen, shapes, pair)
-            start = images.known_end(pen, shapes, pair, link, p)
+            line = known_guide(pen, pair)
+            start = images.known_end(pen, pair, link, p)
             tip = pen.the(plan.quantity, p)
             with pen.on(plan.part, Plane.NUMBERS):
                 size = pen.draw(lacks_across, line, start, tip)
@@ -462,17 +444,17 @@ def missed(
                 size = pen.draw(difference, own, given)
             return DrivenMisclosure(size=size, driver=driver, found=own)
         case Driver() as driver:
-            return missed_slide(pen, shapes, driver, images)
+            return missed_slide(pen, driver, images)
     raise AssertionError(last)
 
 
-def missed_slide(pen: Pen, shapes: LinkShapes, driver: Driver, images: GroupImages) -> Misclosure:
+def missed_slide(pen: Pen, driver: Driver, images: GroupImages) -> Misclosure:
     """What a trial plan misses of a given sliding speed or acceleration."""
     pair, plan = slide_of(pen, driver), images.plan
     first = pen.scene.link(driver.link).points[0]
     given = getattr(pen.drive(driver), plan.given)
-    line = known_guide(pen, shapes, pair)
-    start = images.known_end(pen, shapes, pair, driver.link, first)
+    line = known_guide(pen, pair)
+    start = images.known_end(pen, pair, driver.link, first)
     with pen.on(plan.part, Plane.NUMBERS):
         tip = pen.the(plan.quantity, first)
         found = pen.draw(part_along, line, start, tip)

@@ -16,7 +16,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import in_degrees
 from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_line import axis_by_guide
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import bar_length, local_place
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line
@@ -118,12 +118,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
 
 
 def turn_about(
-    pen: Pen,
-    shapes: LinkShapes,
-    link: str,
-    ends: tuple[str, str | None],
-    line: tuple[str, ...],
-    turn: int,
+    pen: Pen, link: str, ends: tuple[str, str | None], line: tuple[str, ...], turn: int
 ) -> None:
     """Set a link at its pivot so that one of its lines (its x axis if none) has a direction."""
     pivot, tip = ends
@@ -132,15 +127,15 @@ def turn_about(
         pen.want("axis", link, turn)
     if tip is None:
         if line:
-            here = [shapes.local(link, point) for point in line]
+            here = [local_place(pen, link, point) for point in line]
             pen.want("axis", link, pen.draw(axis_by_guide, turn, *here))
         return
     if line == (pivot, tip):
         way = pen.draw(ray, start, turn)
-        found = pen.draw(mark_off, way, shapes.length(link, pivot, tip), name=tip)
+        found = pen.draw(mark_off, way, bar_length(pen, link, pivot, tip), name=tip)
         pen.make(DrivenCrank(link=link, pivot=pivot, name=tip, line=way, tip=found))
     else:
-        locals_ = [shapes.local(link, point) for point in (*line, pivot, tip)]
+        locals_ = [local_place(pen, link, point) for point in (*line, pivot, tip)]
         found = pen.draw(arm if line else arm_by_axis, start, turn, *locals_, name=tip)
         pen.make(TurnedLink(link=link, pivot=pivot, name=tip, turn=turn, tip=found))
     pen.want("position", tip, found)

@@ -94,8 +94,9 @@ def wish(
     """Where a link's number is to stand: at its plate, its bar, its block or its wheel."""
     aside = number_side(drawing, field, link.name)
     if body is not None and body.corners:
-        inside = label_inside(link, body, others)
-        return inside or labelled(link, beside_plate(body))
+        (start, end), *_ = body.sides
+        first = (start.real, start.imag), (end.real, end.imag)
+        return label_inside(link, body, others) or labelled(link, first)
     short = body is None or abs(body.sides[0][1] - body.sides[0][0]) < LONG
     if aside and (short or any(slide.on == FRAME for slide in link.slides)):
         return labelled(link, aside)
@@ -173,12 +174,6 @@ def label_beside(link: Link, start: complex, end: complex, others: Sequence[Body
     middle, half = start + share * (end - start), min(HALF, 0.2 * length) * way
     low, high, away = middle - half, middle + half, side * off / abs(off)
     return labelled(link, ((low.real, low.imag), (high.real, high.imag)), (away.real, away.imag))
-
-
-def beside_plate(body: Body) -> tuple[XY, XY]:
-    """The first side of a plate."""
-    (start, end) = body.sides[0]
-    return (start.real, start.imag), (end.real, end.imag)
 
 
 def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:

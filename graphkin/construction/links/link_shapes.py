@@ -17,15 +17,12 @@ from graphkin.scene.model import (
     Angled,
     Apart,
     At,
-    Link,
     OnLine,
     Placing,
     Polar,
     Triangle,
     lengths_of,
 )
-
-Placed = dict[str, int]
 
 
 @action("step-along")
@@ -54,83 +51,65 @@ def brought_back(start: Point, point: Point, axis: Point, here: Point) -> Point:
     return here + (point - start) * axis.conjugate()
 
 
-class LinkShapes:
-    """Local positions of the points of each link, written down when first asked for."""
-
-    def __init__(self, pen: Pen) -> None:
-        self.pen = pen
-        self.placed: dict[str, Placed] = {}
-        self.ratios: dict[tuple[str, str, str, str], int] = {}
-
-    def local(self, link: str, point: str) -> int:
-        """Position of a point in its link's axes."""
-        if link not in self.placed:
-            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
-                self.placed[link] = place_all(self.pen, self.pen.scene.link(link))
-        if point not in self.placed[link]:
-            self.placed[link][point] = self.found(link, point)
-        return self.placed[link][point]
-
-    def found(self, link: str, point: str) -> int:
-        """The local position of a point that a cam's law sets, from where it stands.
-
-        In the bar of an equivalent linkage the axis leads from the centre to the roller's.
-        """
-        if link in self.pen.scene.cam_links:
-            points = self.pen.scene.link(link).points
-            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
-                if point == points[0]:
-                    return self.pen.given("origin")
-                length = self.pen.draw(distance, *(self.pen.the("position", p) for p in points))
-                return self.pen.draw(lay_off, self.pen.given("origin"), length)
-        if link == FRAME:
-            return self.pen.the("position", point)
-        start = self.pen.bases[link].start
-        ends = (self.pen.the("position", each) for each in (start, point))
-        here = self.local(link, start)
-        with self.pen.on(Part.SHAPE, Plane.NUMBERS):
-            return self.pen.draw(brought_back, *ends, self.pen.the("axis", link), here)
-
-    def ratio(self, link: str, base: str, end: str, point: str) -> int:
-        """(C - A)/(B - A) of three points of a link."""
-        key = (link, base, end, point)
-        if key not in self.ratios:
-            locals_ = [self.local(link, name) for name in (base, end, point)]
-            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
-                self.ratios[key] = self.pen.draw(in_proportion, *locals_)
-        return self.ratios[key]
-
-    def ratio_of(self, base: Base, point: str) -> int:
-        """The ratio of a point of a link on its base; from places where the base is not its own."""
-        assert base.end is not None
-        if not is_under(base.end):
-            return self.ratio(base.link, base.start, base.end, point)
-        key = (base.link, base.start, base.end, point)
-        if key not in self.ratios:
-            places = [self.pen.the("position", name) for name in (base.start, base.end, point)]
-            with self.pen.on(Part.SHAPE, Plane.NUMBERS):
-                self.ratios[key] = self.pen.draw(in_proportion, *places)
-        return self.ratios[key]
-
-    def length(self, link: str, p: str, q: str) -> int:
-        """Length of a bar: as the scene gives it where it does, else from the shape."""
-        for placing in self.pen.scene.link(link).placings:
-            for first, second, quantity in lengths_of(placing):
-                if {first, second} == {p, q}:
-                    return self.pen.given("length", quantity, name=p + q)
-        with self.pen.on(Part.SHAPE, Plane.NUMBERS):
-            return self.pen.draw(distance, self.local(link, p), self.local(link, q))
+def local_place(pen: Pen, link: str, point: str) -> int:
+    """Position of a point in its link's axes; all of a link are written down with the first."""
+    if link not in pen.placed:
+        placed = pen.placed[link] = {}
+        with pen.on(Part.SHAPE, Plane.NUMBERS):
+            for placing in pen.scene.link(link).placings:
+                placed[placing.point] = place(pen, placing, placed)
+    if point not in pen.placed[link]:
+        pen.placed[link][point] = place_found(pen, link, point)
+    return pen.placed[link][point]
 
 
-def place_all(pen: Pen, link: Link) -> Placed:
-    """Every point of a link in its own axes."""
-    placed: Placed = {}
-    for placing in link.placings:
-        placed[placing.point] = place(pen, placing, placed)
-    return placed
+def place_found(pen: Pen, link: str, point: str) -> int:
+    """The local position of a point that a cam's law sets, from where it stands.
+
+    In the bar of an equivalent linkage the axis leads from the centre to the roller's.
+    """
+    if link in pen.scene.cam_links:
+        points = pen.scene.link(link).points
+        with pen.on(Part.SHAPE, Plane.NUMBERS):
+            if point == points[0]:
+                return pen.given("origin")
+            length = pen.draw(distance, *(pen.the("position", p) for p in points))
+            return pen.draw(lay_off, pen.given("origin"), length)
+    if link == FRAME:
+        return pen.the("position", point)
+    start = pen.bases[link].start
+    ends, here = pen.both("position", start, point), local_place(pen, link, start)
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.draw(brought_back, *ends, pen.the("axis", link), here)
 
 
-def place(pen: Pen, placing: Placing, placed: Placed, name: str = "") -> int:
+def ratio_of(pen: Pen, base: Base, point: str) -> int:
+    """(C - A)/(B - A) of a point C of a link on its base; from places where that is not its own."""
+    assert base.end is not None
+    key = ("ratio", base.link, base.start, base.end, point)
+    if key not in pen.shared:
+        names = base.start, base.end, point
+        own = not is_under(base.end)
+        places = [
+            local_place(pen, base.link, name) if own else pen.the("position", name)
+            for name in names
+        ]
+        with pen.on(Part.SHAPE, Plane.NUMBERS):
+            pen.draw_shared(key, in_proportion, *places)
+    return pen.shared[key]
+
+
+def bar_length(pen: Pen, link: str, p: str, q: str) -> int:
+    """Length of a bar: as the scene gives it where it does, else from the shape."""
+    for placing in pen.scene.link(link).placings:
+        for first, second, quantity in lengths_of(placing):
+            if {first, second} == {p, q}:
+                return pen.given("length", quantity, name=p + q)
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        return pen.draw(distance, local_place(pen, link, p), local_place(pen, link, q))
+
+
+def place(pen: Pen, placing: Placing, placed: dict[str, int], name: str = "") -> int:
     """One point of a link in its own axes, from the points placed before it."""
     match placing:
         case At(_, x, y):

@@ -56,20 +56,17 @@ def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
-    """The letter of a point: of the frame's beside its pivot, of others away from their bars."""
+    """The letter of a point: of the frame's aside of its ground, of others away from their bars."""
     at = field(drawing.positions[name])
-    fixed = name in drawing.scene.fixed_points
-    away = off_ground(drawing, field, name) if fixed else outward(drawing, field, name)
+    if name in drawing.scene.fixed_points:
+        ground = ground_ways(drawing, field.mm).get(name, -1j)
+        away: XY | None = field.way(ground * (-0.6 - 0.8j))
+    else:
+        away = outward(drawing, field, name)
     radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
     board.labels.append(
         Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=radius)
     )
-
-
-def off_ground(drawing: Drawing, field: Field, name: str) -> XY:
-    """The way from a point of the frame to its letter: aside of its ground, and away from it."""
-    ground = ground_ways(drawing, field.mm).get(name, -1j)
-    return field.way(ground * (-0.6 - 0.8j))
 
 
 def moving_points(drawing: Drawing) -> set[str]:

@@ -17,10 +17,9 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guide_line import point_on_link
-from graphkin.construction.guides.guides import axis
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
-from graphkin.construction.links.link_shapes import LinkShapes, step_along
+from graphkin.construction.links.link_shapes import bar_length, local_place, ratio_of, step_along
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, cross, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
@@ -95,12 +94,14 @@ def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
     return found
 
 
-def place_point(pen: Pen, link: str, ends: tuple[str, str], *values: int) -> int:
-    """A point of a link laid off from another: ``ends`` are both, ``values`` those of the step."""
-    start, name = ends
-    point = pen.draw(point_on_link, *values, name=name)
+def place_point(pen: Pen, link: str, start: str, name: str) -> int:
+    """A point of a link that stands at another, ``start``, and is turned to its axis."""
+    ends = local_place(pen, link, start), local_place(pen, link, name)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        here = pen.the("position", start), pen.the("axis", link)
+        point = pen.draw(point_on_link, *here, *ends, name=name)
     pen.make(PlacedPoint(link=link, start=start, name=name, point=point))
-    return point
+    return pen.want("position", name, point)
 
 
 CLEAR_CROSSING = 0.342
@@ -179,8 +180,9 @@ class PointInLine(PlatePoint, frozen=True, kw_only=True):
         p, q, name = map(symbol, self.points)
         laid = stated_bar(drawing, (self.start, self.name), self.length)
         fields = {"bar": bar(self.start, self.end), "laid": laid, "name": name}
-        places = map(drawing.standing.spot, self.points)
-        share = share_of(*places)
+        start, end, point = map(drawing.standing.spot, self.points)
+        way = end - start
+        share = dot(way, point - start) / dot(way, way)
         if 0 <= share <= 1:
             return drawing.words("step.step-along", **fields)
         return drawing.words("step.step-along-beyond", start=p if share < 0 else q, **fields)
@@ -204,22 +206,16 @@ class PointOnLever(Construction, frozen=True, kw_only=True):
         return drawing.words("step.mark-off-lever", p=symbol(self.start), q=name, name=name)
 
 
-def share_of(start: complex, end: complex, point: complex) -> float:
-    """Where a point of a line stands between two others."""
-    way = end - start
-    return float(dot(way, point - start) / dot(way, way))
-
-
 # --- drawing them --------------------------------------------------------------------------------
 
 
-def arc(pen: Pen, shapes: LinkShapes, link: str, centre: str, point: str) -> int:
+def arc(pen: Pen, link: str, centre: str, point: str) -> int:
     """The arc on which a point of a bar lies about its other end."""
-    length = shapes.length(link, centre, point)
+    length = bar_length(pen, link, centre, point)
     return draw_arc(pen, (centre, point), pen.the("position", centre), length)
 
 
-def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
+def plate_points(pen: Pen, base: Base) -> None:
     """The other points of a link: by hand two arcs, in value the figure similar to the link."""
     for point in base.others:
         if pen.has("position", point):
@@ -229,15 +225,15 @@ def plate_points(pen: Pen, shapes: LinkShapes, base: Base) -> None:
                 continue  # with the follower, whose carrier may stand later
             from graphkin.construction.cams.cam_centre import curvature_centre
 
-            found = curvature_centre(pen, shapes, point)
+            found = curvature_centre(pen, point)
         elif base.end is None or is_under(base.end):
-            found = set_by_axis(pen, shapes, base, point)
+            found = set_by_axis(pen, base, point)
         else:
-            found = set_by_base(pen, shapes, base, point)
+            found = set_by_base(pen, base, point)
         pen.want("position", point, found)
 
 
-def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
+def set_by_axis(pen: Pen, base: Base, name: str) -> int:
     """A point of a link that is turned to its axis already; on its own guide it is laid off.
 
     Once a point stands on the guide that turned the link, the others follow from it and the pivot.
@@ -246,18 +242,18 @@ def set_by_axis(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
     on_guide, sense = guide_point(pen, base, line) if line is not None else (None, 1)
     if line is not None and name == on_guide:
         with pen.on(Part.POSITION, Plane.MECHANISM):
-            length, back = shapes.length(base.link, base.start, name), (sense,) if sense < 0 else ()
+            length, back = (
+                bar_length(pen, base.link, base.start, name),
+                (sense,) if sense < 0 else (),
+            )
             point = pen.draw(mark_off, line, length, extra=back, name=name)
         pen.make(PointOnLever(start=base.start, name=name, point=point))
         return point
     if on_guide is not None:
         if not pen.has("position", on_guide):
-            pen.want("position", on_guide, set_by_axis(pen, shapes, base, on_guide))
-        return set_by_base(pen, shapes, Base(base.link, base.start, on_guide, ()), name)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        here = (pen.the("position", base.start), axis(pen, shapes, base.link))
-        ends = shapes.local(base.link, base.start), shapes.local(base.link, name)
-        return place_point(pen, base.link, (base.start, name), *here, *ends)
+            pen.want("position", on_guide, set_by_axis(pen, base, on_guide))
+        return set_by_base(pen, Base(base.link, base.start, on_guide, ()), name)
+    return place_point(pen, base.link, base.start, name)
 
 
 def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:
@@ -274,18 +270,18 @@ def guide_point(pen: Pen, base: Base, line: int) -> tuple[str | None, int]:
     return None, 1
 
 
-def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
+def set_by_base(pen: Pen, base: Base, name: str) -> int:
     """A point of a link on its base: by hand an arc about each end, on its line the distance."""
     base = own_line(pen, base, name)
     assert base.end is not None
     ends = pen.the("position", base.start), pen.the("position", base.end)
-    ratio = shapes.ratio(base.link, base.start, base.end, name)
+    ratio = ratio_of(pen, base, name)
     own: dict[str, Any] = {"start": base.start, "end": base.end, "name": name}
     value = pen.peek(ratio)
     if not value:
         return similar_on(pen, PlatePoint(**own, point=0), *ends, ratio)
     if abs(value.imag) <= IN_LINE * abs(value):
-        length = shapes.length(base.link, base.start, name)
+        length = bar_length(pen, base.link, base.start, name)
         with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
             sense = 1 if value.real > 0 else -1
             corner = pen.draw(step_along, ends[0], *ends, length, extra=(sense,))
@@ -293,8 +289,8 @@ def set_by_base(pen: Pen, shapes: LinkShapes, base: Base, name: str) -> int:
             pen, PointInLine(**own, point=0, corner=corner, length=length), *ends, ratio
         )
     with pen.on(Part.POSITION, Plane.MECHANISM), pen.hands_way():
-        near = arc(pen, shapes, base.link, base.start, name)
-        far = arc(pen, shapes, base.link, base.end, name)
+        near = arc(pen, base.link, base.start, name)
+        far = arc(pen, base.link, base.end, name)
         corner = pen.draw(arcs_meet, near, far, extra=(1 if value.imag > 0 else -1,))
     by_arcs = PlatePointByArcs(**own, point=0, corner=corner, near=near, far=far)
     return similar_on(pen, by_arcs, *ends, ratio)

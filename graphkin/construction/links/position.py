@@ -11,7 +11,7 @@ from graphkin.construction.guides.guides import axis, direction_on, path_of, tur
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import meet_arcs
-from graphkin.construction.links.link_shapes import LinkShapes, place
+from graphkin.construction.links.link_shapes import bar_length, local_place, place
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Apart, Link
@@ -35,21 +35,21 @@ def frame(pen: Pen) -> None:
 # --- driven links --------------------------------------------------------------------------------
 
 
-def crank(pen: Pen, shapes: LinkShapes, group: Crank) -> None:
+def crank(pen: Pen, group: Crank) -> None:
     """The tip of a driven bar: the line at the driver's angle, and the bar laid off on it."""
     driver, link = group.driver, group.link
     given, ends = pen.drive(driver).position, (group.pivot, crank_tip(pen.scene, group))
     with pen.on(Part.POSITION, Plane.MECHANISM):
         if driver.link == link:
             line = driver.of or axis_line(pen.scene.link(link))
-            turn = direction_on(pen, shapes, driver.against, given)
-            turn_about(pen, shapes, link, ends, line, turn)
+            turn = direction_on(pen, driver.against, given)
+            turn_about(pen, link, ends, line, turn)
         else:
-            lead = axis(pen, shapes, driver.link)
+            lead = axis(pen, driver.link)
             if driver.of:
-                locals_ = [shapes.local(driver.link, point) for point in driver.of]
+                locals_ = [local_place(pen, driver.link, point) for point in driver.of]
                 lead = pen.draw(axis_with_guide, lead, *locals_)
-            turn_about(pen, shapes, link, ends, (), pen.draw(turned_back, lead, given))
+            turn_about(pen, link, ends, (), pen.draw(turned_back, lead, given))
 
 
 def axis_line(link: Link) -> tuple[str, ...]:
@@ -57,44 +57,44 @@ def axis_line(link: Link) -> tuple[str, ...]:
     return link.points[:2] if any(isinstance(each, Apart) for each in link.placings) else ()
 
 
-def driven(pen: Pen, shapes: LinkShapes, group: Driven) -> None:
+def driven(pen: Pen, group: Driven) -> None:
     """A point of a driven slider, or the centre of a driven wheel, at its coordinate."""
     led = led_by(group.pair)
-    led.set_at(pen, shapes, group.link, led.driven(pen, group.driver, "position"))
+    led.set_at(pen, group.link, led.driven(pen, group.driver, "position"))
 
 
 # --- dyads and ties ------------------------------------------------------------------------------
 
 
-def dyad(pen: Pen, shapes: LinkShapes, group: Dyad) -> None:
+def dyad(pen: Pen, group: Dyad) -> None:
     """What two links and three pairs leave free: one crossing of two loci."""
     match group.left, group.inner, group.right:
         case Pin(), Pin(), _:
-            dyad_on(pen, shapes, group, first_arc(pen, shapes, group))
+            dyad_on(pen, group, first_arc(pen, group))
         case Pin(), Sliding(), Pin():
             from graphkin.construction.guides.swung_guide import swing_guide
 
-            swing_guide(pen, shapes, group)
+            swing_guide(pen, group)
         case _, Pin(point=pin), _:
-            two_guides(pen, shapes, pin, (group.left, group.right), group.links)
+            two_guides(pen, pin, (group.left, group.right), group.links)
         case Pin(), Sliding() as inner, Sliding() as right:
             first, second = group.links
             led = pen.scene.link(second).points[0]
-            path_of(pen, shapes, right, second, led)
-            turned_with(pen, shapes, inner, second)
-            plate_points(pen, shapes, pen.bases[first])
-            two_guides(pen, shapes, led, (inner, right), (second, second))
+            path_of(pen, right, second, led)
+            turned_with(pen, inner, second)
+            plate_points(pen, pen.bases[first])
+            two_guides(pen, led, (inner, right), (second, second))
 
 
-def dyad_on(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
+def dyad_on(pen: Pen, group: Dyad, near: int) -> None:
     """The inner pin of a dyad whose first bar keeps it on an arc that is drawn already."""
     if isinstance(group.right, Pin):
         with pen.on(Part.POSITION, Plane.MECHANISM):
             assert isinstance(group.inner, Pin)
-            far = arc(pen, shapes, group.links[1], group.right.point, group.inner.point)
+            far = arc(pen, group.links[1], group.right.point, group.inner.point)
         two_arcs(pen, group, near, far)
     else:
-        bar_and_guide(pen, shapes, group, near)
+        bar_and_guide(pen, group, near)
 
 
 def two_arcs(pen: Pen, group: Dyad, near: int, far: int) -> None:
@@ -108,63 +108,61 @@ def two_arcs(pen: Pen, group: Dyad, near: int, far: int) -> None:
     pen.want("position", pin, found)
 
 
-def bar_and_guide(pen: Pen, shapes: LinkShapes, group: Dyad, near: int) -> None:
+def bar_and_guide(pen: Pen, group: Dyad, near: int) -> None:
     """The inner pin of a dyad RRP: the arc of the bar cuts the line that the guide leads it on."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
     assert not isinstance(group.right, Pin)
     left, pin, link = group.left.place, group.inner.point, group.links[1]
     led = led_by(group.right)
-    path = led.path(pen, shapes, link, pin)
+    path = led.path(pen, link, pin)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         way, extra = pen.choice(group)
         found = cut_line(pen, pin, left, (path, near), *way, sign=extra)
     pen.want("position", pin, found)
-    led.finish(pen, shapes)
+    led.finish(pen)
 
 
-def first_arc(pen: Pen, shapes: LinkShapes, group: Dyad) -> int:
+def first_arc(pen: Pen, group: Dyad) -> int:
     """The arc on which the first bar of a dyad keeps its inner pin."""
     assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        return arc(pen, shapes, group.links[0], group.left.point, group.inner.point)
+        return arc(pen, group.links[0], group.left.point, group.inner.point)
 
 
-def two_guides(
-    pen: Pen, shapes: LinkShapes, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]
-) -> None:
+def two_guides(pen: Pen, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]) -> None:
     """A point that two guides lead: where their lines cross."""
     sides = zip(pairs, links, strict=True)
     leading = [(led_by(pair), link) for pair, link in sides if not isinstance(pair, Pin)]
-    paths = [led.path(pen, shapes, link, point) for led, link in leading]
+    paths = [led.path(pen, link, point) for led, link in leading]
     with pen.on(Part.POSITION, Plane.MECHANISM):
         found = cross_guides(pen, point, *paths)
     pen.want("position", point, found)
     for led, _ in leading:
-        led.finish(pen, shapes)
+        led.finish(pen)
 
 
-def tie(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+def tie(pen: Pen, group: Tie) -> None:
     """A link between two known points: only its turning is left to know, on a guide."""
     if isinstance(group.first, Sliding):
         point = pen.bases[group.link].start
-        two_guides(pen, shapes, point, (group.first, group.second), (group.link, group.link))
+        two_guides(pen, point, (group.first, group.second), (group.link, group.link))
     elif isinstance(group.second, Sliding):
         assert isinstance(group.first, Pin)
-        path_of(pen, shapes, group.second, group.link, group.first.point)
+        path_of(pen, group.second, group.link, group.first.point)
 
 
-def refuse_misfit(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
+def refuse_misfit(pen: Pen, group: Tie) -> None:
     """Raise StructureError for an idle link that its neighbours leave no room for."""
     if not isinstance(group.first, Pin) or not isinstance(group.second, Pin | Sliding):
         return
     link, p = group.link, group.first.point
     place = pen.peek(pen.the("position", p))
     if isinstance(group.second, Sliding):
-        found = beside_guide(pen, shapes, group.second, link, p)
+        found = beside_guide(pen, group.second, link, p)
         expected = "a guide through it: the link is idle, the rest moves without it"
     else:
         q = group.second.point
-        end, length = pen.peek(pen.the("position", q)), pen.peek(shapes.length(link, p, q))
+        end, length = pen.peek(pen.the("position", q)), pen.peek(bar_length(pen, link, p, q))
         if None in (place, end, length) or abs(abs(end - place) - length) <= FITS * length:
             return
         found = (
@@ -184,12 +182,12 @@ def refuse_misfit(pen: Pen, shapes: LinkShapes, group: Tie) -> None:
     )
 
 
-def beside_guide(pen: Pen, shapes: LinkShapes, pair: Sliding, link: str, point: str) -> str:
+def beside_guide(pen: Pen, pair: Sliding, link: str, point: str) -> str:
     """How far an idle block's pin stands beside its guide; nothing where that is as printed."""
     from graphkin.construction.guides.swung_guide import breadth_about
 
     at = pen.the("position", point)
-    line, place = pen.peek(path_of(pen, shapes, pair, link, point)), pen.peek(at)
+    line, place = pen.peek(path_of(pen, pair, link, point)), pen.peek(at)
     if line is None or place is None:
         return ""
     away = abs(cross(line.along, place - line.point)) / abs(line.along)

@@ -26,7 +26,6 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.normal_component.normal_component import (
     PICKED,
     PRIMES,
@@ -196,7 +195,9 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         fields["w"] = symbol(f"v_{self.q}")
         fields["omega"] = rate_symbol(drawing, self.omega)
         fields |= self.corner_symbols(drawing, *self.lettered)
-        fields["more"] = in_plan(drawing)
+        times = drawing.scales.of_bar("acceleration")  # as large as what the circles give
+        larger = drawing.words("step.klein-larger", m=figure(drawing, times))
+        fields["more"] = "" if times == 1 else larger
         yield self.corner, drawing.words("step.klein", **fields)
         yield self.over, drawing.words("step.klein-circles", **fields)
         yield self.vector, drawing.words("step.klein-chord", **fields)
@@ -204,12 +205,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     def section(self, drawing: Drawing) -> str:
         """The section of the calculation that holds its relation."""
         return "normals_klein"
-
-
-def in_plan(drawing: Drawing) -> str:
-    """How many times as long the plan draws what the circles give; nothing where it is as long."""
-    times = drawing.scales.of_bar("acceleration")
-    return "" if times == 1 else drawing.words("step.klein-larger", m=figure(drawing, times))
 
 
 # --- planning it ---------------------------------------------------------------------------------
@@ -234,15 +229,13 @@ def crank_of(pen: Pen, sides: list[tuple[Joint, str]]) -> Base | None:
     return None
 
 
-def klein_component(
-    pen: Pen, shapes: LinkShapes, crank: Base, sides: list[tuple[Joint, str]], pin: str
-) -> int:
+def klein_component(pen: Pen, crank: Base, sides: list[tuple[Joint, str]], pin: str) -> int:
     """The normal component of the slider's pin about the crank pin, by Klein's construction."""
     (pivot,) = (pair.point for pair, _ in sides if isinstance(pair, Pin))
     (slide,) = (pair for pair, _ in sides if isinstance(pair, Sliding))
     places = pen.the("position", pivot), pen.the("position", pin)
     centre, omega = pen.the("position", crank.start), pen.the(OMEGA, crank.link)
-    guide, point = known_guide(pen, shapes, slide), bare(letter(pin))
+    guide, point = known_guide(pen, slide), bare(letter(pin))
 
     def drawn(index: str) -> dict[str, int]:
         names = [f"{point}{primes}_{index}" for primes in PRIMES]
@@ -264,14 +257,12 @@ def klein_component(
     return normal_component(pen, pivot, pin, kind, drawn)
 
 
-def component_in_dyad(
-    pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]], pivot: str, pin: str
-) -> int:
+def component_in_dyad(pen: Pen, sides: list[tuple[Joint, str]], pivot: str, pin: str) -> int:
     """The normal component of a pin about one of its dyad's pivots, as the scene wants it drawn."""
     crank = crank_of(pen, sides)
     if crank is None:
         return normal_component(pen, pivot, pin)
-    return klein_component(pen, shapes, crank, sides, pin)
+    return klein_component(pen, crank, sides, pin)
 
 
 def refuse_unused(pen: Pen) -> None:

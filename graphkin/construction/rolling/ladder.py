@@ -51,7 +51,11 @@ class Ladder:
 
     def __init__(self, pen: Pen) -> None:
         self.pen, self.scene = pen, pen.scene
-        self.meshes = [each for each in contacts(pen.scene) if is_mesh(each)]
+        self.meshes = [
+            each
+            for each in contacts(pen.scene)
+            if each.track is not None and each.rolling.belt is None and each.arm is not None
+        ]
         self.centres: dict[str, OnAxis] = {}
         self.on: dict[str, list[OnAxis]] = {}
         self.axis, self.seconds = 0, 0
@@ -191,7 +195,7 @@ class Ladder:
         if moves:
             velocity = self.velocity(point)
             known = foot, self.axis, *ends, o, velocity
-            tip = pen.draw(tip_over, *known, extra=(side,), name=tip_name(point))
+            tip = pen.draw(tip_over, *known, extra=(side,), name=f"{image(point)}_x")
         pen.make(
             LadderPoint(point=str(point), before=start.foot, velocity=velocity, foot=foot, tip=tip)
         )
@@ -280,11 +284,6 @@ class Ladder:
         )
 
 
-def is_mesh(contact: Contact) -> bool:
-    """Whether two wheels touch whose centres are kept apart."""
-    return contact.track is not None and contact.rolling.belt is None and contact.arm is not None
-
-
 def centres_of(contact: Contact) -> tuple[str, str]:
     """The centres of two wheels that touch."""
     assert contact.track is not None
@@ -294,11 +293,6 @@ def centres_of(contact: Contact) -> tuple[str, str]:
 def foot_name(point: str) -> str:
     """The letter of a point on the axis."""
     return f"{point}_x"
-
-
-def tip_name(point: str) -> str:
-    """The letter of the tip over it."""
-    return f"{image(point)}_x"
 
 
 def problem(found: str) -> Problem:

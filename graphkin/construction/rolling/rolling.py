@@ -26,7 +26,7 @@ from graphkin.construction.links.counted_turn import (
     counted_near,
     turned_ahead,
 )
-from graphkin.construction.links.link_shapes import LinkShapes
+from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.rolling.contact_points import (
     CentreOfBelt,
@@ -136,13 +136,13 @@ def axis_turned(turn: Real) -> Point:
 
 
 @by_contact
-def track_of(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+def track_of(pen: Pen, contact: Contact) -> int:
     """The line of a straight track in the plane."""
     key = ("track", *contact.links)
     if key not in pen.shared:
         wheel, on = contact.links
         with pen.on(Part.POSITION, Plane.MECHANISM):
-            line = guide_line(pen, shapes, contact.rolling, on, wheel)
+            line = guide_line(pen, contact.rolling, on, wheel)
         sign = contact.sign_of(pen.scene, wheel)
         pen.make(Track(wheel=wheel, sign=sign, rolling=contact.rolling, line=line))
         pen.shared[key] = pen.want("track", wheel, line)
@@ -168,9 +168,9 @@ def radius_of(pen: Pen, contact: Contact, wheel: bool = True) -> int:
 
 
 @by_contact
-def path_of_centre(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+def path_of_centre(pen: Pen, contact: Contact) -> int:
     """The line on which a wheel's centre moves along a straight track."""
-    track = track_of(pen, shapes, contact)
+    track = track_of(pen, contact)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         line = pen.draw(radius_along, track, radius_of(pen, contact))
     wheel = contact.links[0]
@@ -198,28 +198,28 @@ def driven_way(pen: Pen, driver: Driver, contact: Contact) -> int:
 
 
 @by_contact
-def set_on_track(pen: Pen, shapes: LinkShapes, contact: Contact, centre: str, way: int) -> None:
+def set_on_track(pen: Pen, contact: Contact, centre: str, way: int) -> None:
     """A wheel that has rolled a way along a straight track: centre, contact, axis."""
-    path = path_of_centre(pen, shapes, contact)
+    path = path_of_centre(pen, contact)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         found = set_point(pen, centre, contact.links, path, way)
     pen.want("position", centre, found)
-    touch_and_turn(pen, shapes, contact)
+    touch_and_turn(pen, contact)
 
 
 @by_contact
-def touch(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
+def touch(pen: Pen, contact: Contact) -> None:
     """Where a wheel touches that stands, with what it rolls on."""
     if contact.track is not None:
         touch_wheels(pen, contact, contact.links[0])
     else:
-        touch_track(pen, shapes, contact)
+        touch_track(pen, contact)
 
 
 @by_contact
-def touch_track(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+def touch_track(pen: Pen, contact: Contact) -> int:
     """Where a wheel touches its straight track, as far along that."""
-    line, centre = track_of(pen, shapes, contact), pen.the("position", contact.wheel.centre)
+    line, centre = track_of(pen, contact), pen.the("position", contact.wheel.centre)
     kind = partial(ContactOnTrack, sign=contact.sign_of(pen.scene, contact.links[0]))
     touching = mark_contact(pen, contact, kind, contact_on_track, line, centre)
     with pen.on(Part.POSITION, Plane.NUMBERS):
@@ -227,36 +227,36 @@ def touch_track(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
 
 
 @by_contact
-def slip(pen: Pen, shapes: LinkShapes, contact: Contact) -> int:
+def slip(pen: Pen, contact: Contact) -> int:
     """By how much a wheel has turned farther than it has rolled, as a length at its rim."""
     own = contact.links[0]
     if contact.track is None:
-        rolled = turned_along(pen, shapes, contact, touch_track(pen, shapes, contact))
+        rolled = turned_along(pen, contact, touch_track(pen, contact))
     else:
-        rolled = rolled_to(pen, shapes, contact, own)
-    turn = pen.draw(difference, angle_of(pen, shapes, own), rolled)
+        rolled = rolled_to(pen, contact, own)
+    turn = pen.draw(difference, angle_of(pen, own), rolled)
     return pen.draw(product, turn, radius_of(pen, contact))
 
 
 @by_contact
-def touch_and_turn(pen: Pen, shapes: LinkShapes, contact: Contact) -> None:
+def touch_and_turn(pen: Pen, contact: Contact) -> None:
     """A wheel whose centre stands: its contact with the straight track, and its axis."""
     wheel, _ = contact.links
-    way = touch_track(pen, shapes, contact)
+    way = touch_track(pen, contact)
     pen.want("rolled", wheel, way)
     if pen.has("axis", wheel):
         return
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        settle_turn(pen, wheel, turned_along(pen, shapes, contact, way))
+        settle_turn(pen, wheel, turned_along(pen, contact, way))
     pen.want("turned from", wheel, start_turn(pen, contact, wheel))
 
 
 @by_contact
-def turned_along(pen: Pen, shapes: LinkShapes, contact: Contact, way: int) -> int:
+def turned_along(pen: Pen, contact: Contact, way: int) -> int:
     """The angle of a wheel that touches its straight track so far along it."""
     wheel, on = contact.links
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        lead, start = angle_of(pen, shapes, on), start_turn(pen, contact, wheel)
+        lead, start = angle_of(pen, on), start_turn(pen, contact, wheel)
         return pen.draw(rolled_on_track, lead, start, way, radius_of(pen, contact))
 
 
@@ -275,18 +275,18 @@ def mark_contact(
 
 
 @by_contact
-def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+def geared(pen: Pen, group: Geared) -> None:
     """A wheel on its pin, a rack on its guide, or a roller between two tracks: where it stands."""
     match group.pair:
         case Contact() as own:
-            roller(pen, shapes, group, own)
+            roller(pen, group, own)
         case Sliding() as slide:
-            rack(pen, shapes, group, slide)
+            rack(pen, group, slide)
         case Pin():
             if group.contact.track is None:
-                touch_and_turn(pen, shapes, group.contact)
+                touch_and_turn(pen, group.contact)
             else:
-                wheel_on_wheel(pen, shapes, group)
+                wheel_on_wheel(pen, group)
 
 
 class ContactSide(Struct, frozen=True):
@@ -308,14 +308,14 @@ def seen_from(pen: Pen, contact: Contact, link: str) -> ContactSide:
     return ContactSide(contact.links[0], contact.track, contact.wheel, its, mine)
 
 
-def wheel_on_wheel(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+def wheel_on_wheel(pen: Pen, group: Geared) -> None:
     """A wheel on its pin: the contact on the line of centres, its turning by the radii."""
     contact, link = group.contact, group.link
     assert contact.arm is not None
     if not contact.alike:
         touch_wheels(pen, contact, link)
     if not pen.has("axis", link):
-        roll_round(pen, shapes, contact, link)
+        roll_round(pen, contact, link)
 
 
 def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
@@ -334,27 +334,21 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
         mark_contact(pen, contact, kind, contact_of_wheels, *ends, *radii)
 
 
-def roll_round(pen: Pen, shapes: LinkShapes, contact: Contact, link: str) -> None:
+def roll_round(pen: Pen, contact: Contact, link: str) -> None:
     """The axis of a wheel from its contact with another."""
-    settle_turn(pen, link, rolled_to(pen, shapes, contact, link))
+    settle_turn(pen, link, rolled_to(pen, contact, link))
     pen.want("turned from", link, start_turn(pen, contact, link))
 
 
 @by_contact
-def rolled_to(
-    pen: Pen,
-    shapes: LinkShapes,
-    contact: Contact,
-    link: str,
-    tried: Mapping[str, int] | None = None,
-) -> int:
+def rolled_to(pen: Pen, contact: Contact, link: str, tried: Mapping[str, int] | None = None) -> int:
     """The angle of a wheel from how far its arm and the wheel that it rolls on have turned.
 
     ``tried`` are the angles of links that do not stand.
     """
     side, arm = seen_from(pen, contact, link), contact.arm
     assert arm is not None
-    turns = [turned_by(pen, shapes, contact, each, tried) for each in (arm, side.other)]
+    turns = [turned_by(pen, contact, each, tried) for each in (arm, side.other)]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         since = pen.draw(rolled_on_wheel, *turns, side.track_radius, side.radius)
         return pen.draw(sum_of, start_turn(pen, contact, link), since)
@@ -368,45 +362,34 @@ def settle_turn(pen: Pen, link: str, turn: int) -> None:
 
 
 @by_contact
-def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
+def train(pen: Pen, group: Train) -> None:
     """The arm of a planet between two wheels: how far they have turned says where it is."""
     sides = [seen_from(pen, contact, group.wheel) for contact in group.contacts]
     contact, centre = group.contacts[0], group.centre.point
     both = list(zip(group.contacts, sides, strict=True))
-    turns = [turned_by(pen, shapes, each, side.other) for each, side in both]
+    turns = [turned_by(pen, each, side.other) for each, side in both]
     starts = [start_turn(pen, each, group.arm) for each in group.contacts]
     planets = [start_turn(pen, each, group.wheel) for each in group.contacts]
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radii = [side.track_radius for side in sides] + [side.radius for side in sides]
         turn = pen.draw(arm_between, *turns, *starts, *planets, *radii)
         settle_turn(pen, group.arm, turn)
-    ends = shapes.local(group.arm, group.pivot.point), shapes.local(group.arm, centre)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        start, lead = pen.the("position", group.pivot.point), pen.the("axis", group.arm)
-        both_ends = group.pivot.point, centre
-        found = place_point(pen, group.arm, both_ends, start, lead, *ends)
-    pen.want("position", centre, found)
+    place_point(pen, group.arm, group.pivot.point, centre)
     for each in group.contacts:
         touch_wheels(pen, each, group.wheel)
-    roll_round(pen, shapes, contact, group.wheel)
+    roll_round(pen, contact, group.wheel)
 
 
-def turned_by(
-    pen: Pen,
-    shapes: LinkShapes,
-    contact: Contact,
-    link: str,
-    tried: Mapping[str, int] | None = None,
-) -> int:
+def turned_by(pen: Pen, contact: Contact, link: str, tried: Mapping[str, int] | None = None) -> int:
     """How far a link has turned since the start of a contact."""
-    angle = tried[link] if tried and link in tried else angle_of(pen, shapes, link)
+    angle = tried[link] if tried and link in tried else angle_of(pen, link)
     if link == FRAME or link not in contact.rolling.start:
         return angle
     with pen.on(Part.POSITION, Plane.NUMBERS):
         return pen.draw(difference, angle, start_turn(pen, contact, link))
 
 
-def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
+def angle_of(pen: Pen, link: str) -> int:
     """The angle of a link's x axis in radians.
 
     Whole turns are counted for driven links, for what contacts turn and for what slides along
@@ -419,15 +402,15 @@ def angle_of(pen: Pen, shapes: LinkShapes, link: str) -> int:
             return pen.the("turned", link)
         driver = gives_angle(pen.scene, link)
         if driver is not None and stands(pen, driver.against):
-            return pen.want("turned", link, driven_turn(pen, shapes, driver))
+            return pen.want("turned", link, driven_turn(pen, driver))
         known = turned_with(pen.scene, link, pen.counted)
         if known is not None and stands(pen, known):
-            axes = axis(pen, shapes, link), axis(pen, shapes, known)
-            found = pen.draw(counted_near, *axes, angle_of(pen, shapes, known))
+            axes = axis(pen, link), axis(pen, known)
+            found = pen.draw(counted_near, *axes, angle_of(pen, known))
             return pen.want("turned", link, found)
         near = pen.near.get(link, exact(0, "deg"))
         ends = pen.given("direction", near, of=link), pen.given("number", near, of=link)
-        found = pen.draw(counted_near, axis(pen, shapes, link), *ends)
+        found = pen.draw(counted_near, axis(pen, link), *ends)
         if pen.turns(link):
             pen.make(CountedTurn(link=link, heading=ends[0], radians=ends[1], turn=found))
         return pen.want("turned", link, found)
@@ -482,68 +465,68 @@ def slid_on(link: Link) -> list[str]:
     return [slide.on for slide in link.slides]
 
 
-def driven_turn(pen: Pen, shapes: LinkShapes, driver: Driver) -> int:
+def driven_turn(pen: Pen, driver: Driver) -> int:
     """The angle of a driven link's x axis, whole turns counted."""
-    before = angle_of(pen, shapes, driver.against)
+    before = angle_of(pen, driver.against)
     angle = pen.driven_angle(driver)
     if driver.of:
-        ends = [shapes.local(driver.link, point) for point in driver.of]
+        ends = [local_place(pen, driver.link, point) for point in driver.of]
     else:
         ends = [pen.given("origin"), pen.given("ahead")]
     return pen.draw(turned_to, before, angle, *ends)
 
 
-def roller(pen: Pen, shapes: LinkShapes, group: Geared, own: Contact) -> None:
+def roller(pen: Pen, group: Geared, own: Contact) -> None:
     """A roller between two parallel tracks: where on the first it stands, then as any wheel."""
     other = group.contact
-    lines = [track_of(pen, shapes, each) for each in (own, other)]
+    lines = [track_of(pen, each) for each in (own, other)]
     values = [pen.peek(line) for line in lines]
     way = -1 if all(values) and (values[0].along.conjugate() * values[1].along).real < 0 else 1
     leads = []
     for each in (own, other):
-        angle = angle_of(pen, shapes, each.links[1])
+        angle = angle_of(pen, each.links[1])
         with pen.on(Part.POSITION, Plane.NUMBERS):
             leads.append(pen.draw(sum_of, angle, start_turn(pen, each, group.link)))
     with pen.on(Part.POSITION, Plane.NUMBERS):
         lean = pen.draw(difference, *leads)
         radii = radius_of(pen, own), radius_of(pen, other)
         where = pen.draw(between_tracks, *lines, lean, *radii, extra=(way,))
-    path = path_of_centre(pen, shapes, own)
+    path = path_of_centre(pen, own)
     with pen.on(Part.POSITION, Plane.MECHANISM):
         centre = own.wheel.centre
         found = pen.draw(set_at, path, where, name=centre)
     pen.make(RollerCentre(path=path, lean=lean, radii=radii, where=where, centre=found))
     pen.want("position", centre, found)
     for each in (own, other):
-        touch_and_turn(pen, shapes, each)
+        touch_and_turn(pen, each)
 
 
-def rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
+def rack(pen: Pen, group: Geared, slide: Sliding) -> None:
     """A rack on its guide: the wheel's turning says how far it has come along the track."""
     contact, link = group.contact, group.link
     point, wheel = pen.scene.link(link).points[0], contact.links[0]
     if wheel == link or contact.track is not None:
         raise no_construction(group)
-    path_of(pen, shapes, slide, link, point)
-    ends = local_line(pen, shapes, contact.rolling, link)
-    radius, axis_ = radius_of(pen, contact), axis(pen, shapes, link)
+    path_of(pen, slide, link, point)
+    ends = local_line(pen, contact.rolling, link)
+    radius, axis_ = radius_of(pen, contact), axis(pen, link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        turn = angle_of(pen, shapes, wheel)
+        turn = angle_of(pen, wheel)
         if pen.turns(link):
             known = partner(slide, link)
             if known in pen.scene.keepers and contact.rolling.angle is not None:
                 lean = pen.given("number", contact.rolling.angle)
-                own = pen.draw(difference, angle_of(pen, shapes, known), lean)
+                own = pen.draw(difference, angle_of(pen, known), lean)
             else:
-                own = angle_of(pen, shapes, link)
+                own = angle_of(pen, link)
             turn = pen.draw(difference, turn, own)
         else:
             turn = pen.draw(less_axis, turn, axis_)
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        where = centre, axis_, *ends, shapes.local(link, point), radius, way
+        where = centre, axis_, *ends, local_place(pen, link, point), radius, way
         found = pen.want("position", point, pen.draw(rack_at, *where, name=point))
     pen.make(RackPoint(rack=link, wheel=wheel, way=way, point=found))
-    plate_points(pen, shapes, pen.bases[link])  # its track may pass through another point of it
-    touch_and_turn(pen, shapes, contact)
+    plate_points(pen, pen.bases[link])  # its track may pass through another point of it
+    touch_and_turn(pen, contact)

@@ -14,7 +14,6 @@ from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import turned_with
 from graphkin.construction.higher_class.higher import Each
 from graphkin.construction.links.counted_turn import counted_near
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.links.plate_points import place_point
 from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.rolling import rolling, wheel_images
@@ -28,16 +27,16 @@ from graphkin.structure.pairs import Pin
 # --- the mechanism -------------------------------------------------------------------------------
 
 
-def place(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
+def place(pen: Pen, group: Spun) -> None:
     """The driven link at its angle, and its holder where that has brought it."""
-    turn = rolling.angle_of(pen, shapes, group.link)
+    turn = rolling.angle_of(pen, group.link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         if not pen.has("axis", group.link):
             pen.want("axis", group.link, pen.draw(axis_turned, turn))
     if isinstance(group.held, Pin):
-        set_arm(pen, shapes, group, group.held.point, turn)
+        set_arm(pen, group, group.held.point, turn)
     else:
-        turned_with(pen, shapes, group.held, group.link)
+        turned_with(pen, group.held, group.link)
         with pen.on(Part.POSITION, Plane.NUMBERS):
             if group.holder in pen.scene.keepers:
                 lean = pen.given("number", group.contact.rolling.angle)
@@ -46,25 +45,21 @@ def place(pen: Pen, shapes: LinkShapes, group: Spun) -> None:
                 axes = (pen.the("axis", each) for each in group.links)
                 held = pen.draw(counted_near, *axes, turn)
             pen.want("turned", group.holder, held)
-        rolling.rack(pen, shapes, as_rack(group), group.held)
+        rolling.rack(pen, as_rack(group), group.held)
 
 
 @by_contact
-def set_arm(pen: Pen, shapes: LinkShapes, group: Spun, centre: str, turn: int) -> None:
+def set_arm(pen: Pen, group: Spun, centre: str, turn: int) -> None:
     """The arm turned about its pin, the wheel's centre, and where the wheel touches."""
     contact, arm, pivot = group.contact, group.holder, group.pivot.point
     side = rolling.seen_from(pen, contact, group.link)
     ends = turn, rolling.start_turn(pen, contact, group.link)
-    since = rolling.turned_by(pen, shapes, contact, side.other)
+    since = rolling.turned_by(pen, contact, side.other)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         radii = side.track_radius, side.radius
         start = rolling.start_turn(pen, contact, arm)
         rolling.settle_turn(pen, arm, pen.draw(arm_rolled, *ends, since, start, *radii))
-    local = shapes.local(arm, pivot), shapes.local(arm, centre)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        here, lead = pen.the("position", pivot), pen.the("axis", arm)
-        found = place_point(pen, arm, (pivot, centre), here, lead, *local)
-    pen.want("position", centre, found)
+    place_point(pen, arm, pivot, centre)
     rolling.touch_wheels(pen, contact, group.link)
 
 
@@ -76,7 +71,7 @@ def as_rack(group: Spun) -> Geared:
 # --- the plans -----------------------------------------------------------------------------------
 
 
-def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: Spun) -> None:
+def move(images: GroupImages, pen: Pen, group: Spun) -> None:
     """A plan: it turns at the given rate, and where it touches moves as the other's point does;
     their accelerations differ along the normal alone."""
     images.turn_driven(pen, group)
@@ -84,7 +79,7 @@ def move(images: GroupImages, pen: Pen, shapes: LinkShapes, group: Spun) -> None
         move_centre(pen, group, group.held.point, images.plan)
     else:
         draw = wheel_images.geared if images.plan is VELOCITY else wheel_images.second_geared
-        draw(pen, shapes, as_rack(group))
+        draw(pen, as_rack(group))
 
 
 @by_contact
@@ -99,9 +94,7 @@ def move_centre(pen: Pen, group: Spun, centre: str, plan: Plan) -> None:
 # --- wheels pinned at the instant where they touch their tracks -----------------------------------
 
 
-def move_pinned(
-    images: GroupImages, pen: Pen, shapes: LinkShapes, group: Higher, each: Each
-) -> None:
+def move_pinned(images: GroupImages, pen: Pen, group: Higher, each: Each) -> None:
     """A plan: where wheels touch their tracks they have one velocity, and their accelerations
     differ towards the centres only."""
     for wheel in group.wheels:
@@ -112,4 +105,4 @@ def move_pinned(
         found = tuple(map(own_first, bases(pen.scene, member)))
         pen.bases |= {base.link: base for base in found}
         pen.leads |= leads_of(member)
-        each(pen, shapes, member, found)
+        each(pen, member, found)

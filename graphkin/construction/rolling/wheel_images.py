@@ -20,7 +20,6 @@ from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
 from graphkin.construction.guides.coincident_points import found_by_turning, image_under
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
@@ -114,7 +113,7 @@ def touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 
 
 @by_contact
-def geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+def geared(pen: Pen, group: Geared) -> None:
     """A wheel or rack: the contact has the velocity of what it touches."""
     link, contact = group.link, group.contact
     if contact.alike:
@@ -185,7 +184,7 @@ def second_touched(pen: Pen, contact: Contact, link: str, known: str) -> int:
 
 
 @by_contact
-def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
+def train(pen: Pen, group: Train) -> None:
     """A planet between two wheels: its centre divides the line of its contacts' images."""
     link, centre = group.wheel, group.centre.point
     names = [contact_name(contact) for contact in group.contacts]
@@ -195,7 +194,7 @@ def train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
 
 
 @by_contact
-def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
+def second_train(pen: Pen, group: Train) -> None:
     """Second image of a planet's centre: normal about the arm's pin, and as the contacts move.
 
     Along the arm the wheels push the planet as they like; across it the contacts' second images
@@ -219,7 +218,7 @@ def second_train(pen: Pen, shapes: LinkShapes, group: Train) -> None:
 
 
 @by_contact
-def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
+def second_geared(pen: Pen, group: Geared) -> None:
     """A wheel or rack in the acceleration plan, from the contact that settles it."""
     link, contact = group.link, group.contact
     if contact.alike:
@@ -230,7 +229,7 @@ def second_geared(pen: Pen, shapes: LinkShapes, group: Geared) -> None:
         case Pin():
             second_touched(pen, contact, link, partner(contact, link))
         case Sliding() as slide:
-            second_rack(pen, shapes, group, slide)
+            second_rack(pen, group, slide)
         case Contact() as own:
             second_roller(pen, group, own)
 
@@ -252,7 +251,7 @@ def second_about_fixed_pin(pen: Pen, contact: Contact, link: str, known: str) ->
             turn_from_rim(pen, link, start, point, ACCELERATION)
 
 
-def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> None:
+def second_rack(pen: Pen, group: Geared, slide: Sliding) -> None:
     """Second image of a rack's point: on the line of its guide, and square to it from the wheel."""
     link, contact = group.link, group.contact
     if pen.turns(link):
@@ -262,7 +261,7 @@ def second_rack(pen: Pen, shapes: LinkShapes, group: Geared, slide: Sliding) -> 
     name = contact_name(contact)
     start = image_under(pen, partner(slide, link), point, ACCELERATION)
     other = image_under(pen, wheel, name, ACCELERATION)
-    guide = known_guide(pen, shapes, slide)
+    guide = known_guide(pen, slide)
     with ACCELERATION.drawn(pen):
         line = parallel_through(pen, start, guide, link)
         along = common_normal(pen, other, (contact.wheel.centre, name))
@@ -353,17 +352,17 @@ class LedWheel(Struct, frozen=True):
 
     pair: Contact
 
-    def line(self, pen: Pen, shapes: LinkShapes) -> int:
+    def line(self, pen: Pen) -> int:
         """The line of the track."""
-        return rolling.track_of(pen, shapes, self.pair)
+        return rolling.track_of(pen, self.pair)
 
-    def path(self, pen: Pen, shapes: LinkShapes, link: str, point: str) -> int:
+    def path(self, pen: Pen, link: str, point: str) -> int:
         """The line on which its centre is led."""
-        return rolling.path_of_centre(pen, shapes, self.pair)
+        return rolling.path_of_centre(pen, self.pair)
 
-    def direction(self, pen: Pen, shapes: LinkShapes) -> int:
+    def direction(self, pen: Pen) -> int:
         """A line along which its centre moves against the track."""
-        return rolling.path_of_centre(pen, shapes, self.pair)
+        return rolling.path_of_centre(pen, self.pair)
 
     def driven(self, pen: Pen, driver: Driver, which: str) -> int:
         """What a driver gives its centre along the track: position, speed or acceleration."""
@@ -371,22 +370,22 @@ class LedWheel(Struct, frozen=True):
             return rolling.driven_way(pen, driver, self.pair)
         return given_speed(pen, driver, self.pair, which)
 
-    def set_at(self, pen: Pen, shapes: LinkShapes, link: str, where: int) -> None:
+    def set_at(self, pen: Pen, link: str, where: int) -> None:
         """The wheel where it has rolled a way along the track."""
         centre = self.pair.led_point(pen.scene, link)
-        rolling.set_on_track(pen, shapes, self.pair, centre, where)
+        rolling.set_on_track(pen, self.pair, centre, where)
 
-    def finish(self, pen: Pen, shapes: LinkShapes) -> None:
+    def finish(self, pen: Pen) -> None:
         """Its point of contact and its turning, once its centre stands."""
-        rolling.touch_and_turn(pen, shapes, self.pair)
+        rolling.touch_and_turn(pen, self.pair)
 
-    def stand(self, pen: Pen, shapes: LinkShapes) -> None:
+    def stand(self, pen: Pen) -> None:
         """Where it touches what stands, whether it slips or not."""
-        rolling.touch(pen, shapes, self.pair)
+        rolling.touch(pen, self.pair)
 
-    def slip(self, pen: Pen, shapes: LinkShapes) -> int:
+    def slip(self, pen: Pen) -> int:
         """By how much it has turned farther than it has rolled, as a length at its rim."""
-        return rolling.slip(pen, shapes, self.pair)
+        return rolling.slip(pen, self.pair)
 
     def touch(self, pen: Pen, plan: Plan) -> None:
         """The image of its point of contact."""

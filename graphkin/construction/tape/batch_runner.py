@@ -21,6 +21,7 @@ from graphkin.construction.tape.emitted import Emitted
 from graphkin.construction.tape.traced import UntraceableError
 from graphkin.construction.tape.tracer import parts_named, traced
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arrays import np
 
 EMITTED_FROM = 2_000
 """Variants from which source is written: a few such batches make up for it."""
@@ -56,8 +57,6 @@ class BatchRequest(Struct, frozen=True):
 
     def inputs(self) -> dict[str, Any]:
         """Plain arrays of floats for all inputs by name, two for a point."""
-        import numpy as np
-
         found = {name: value for name, value in self.values.items() if is_array(value)}
         for number, array in self.overrides.items():
             if is_array(array):

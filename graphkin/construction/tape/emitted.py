@@ -14,6 +14,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.tape.emit import Column, loop_source, numpy_source
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.traced import TracedNumber
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 BLOCK = 8192
@@ -57,10 +58,10 @@ class Emitted(Struct, frozen=True, dict=True):
     @cached_property
     def by_numpy(self) -> tuple[Callable[..., None], int]:
         """The source for arrays as a function, and how many scratch arrays it wants."""
-        import numpy as np
+        import numpy
 
         source, rooms = numpy_source(self.graph, self.outputs)
-        names: dict[str, Any] = {**vars(np), "inf": math.inf, "nan": math.nan}
+        names: dict[str, Any] = {**vars(numpy), "inf": math.inf, "nan": math.nan}
         exec(compile(source, "<emitted for numpy>", "exec"), names)
         return names["block"], rooms
 
@@ -91,8 +92,6 @@ class Emitted(Struct, frozen=True, dict=True):
 
     def in_blocks(self, arrays: Mapping[str, Any], filled: Sequence[Any], size: int) -> None:
         """Fill arrays by numpy, a block at a time."""
-        import numpy as np
-
         flat = [(y.real, y.imag) if y.dtype.kind == "c" else (y,) for y in filled]
         columns = [part for parts in flat for part in parts]
         block, rooms = self.by_numpy
@@ -105,8 +104,6 @@ class Emitted(Struct, frozen=True, dict=True):
 
 def rooms_for(columns: Sequence[Column], size: int) -> list[Any]:
     """An array for each column, all those of a kind in one piece of memory: quickest to be had."""
-    import numpy as np
-
     points = sum(len(column) == 2 for column in columns)
     of_points = iter(np.empty((points, size), complex))
     of_numbers = iter(np.empty((len(columns) - points, size)))
@@ -129,8 +126,6 @@ def refilled(value: Any, filled: Iterator[Any]) -> Any:
 
 def loop_names(numba: Any) -> dict[str, Any]:
     """The functions that an emitted loop calls."""
-    import numpy as np
-
     within = numba.njit(error_model="numpy", inline="always")
     return {
         "zeros": np.zeros,

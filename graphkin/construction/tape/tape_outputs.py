@@ -13,6 +13,7 @@ from typing import Any
 
 from graphkin.construction.tape.graph import FOLD, Graph, Node
 from graphkin.construction.tape.traced import COMPARE, TracedNumber, Truth, entered
+from graphkin.numbers.arrays import np
 
 TRUTHS: Mapping[str, Callable[..., Any]] = {
     **COMPARE,
@@ -101,8 +102,6 @@ def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> 
 
 def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
     """Some outputs as a function of arrays of inputs, each array of the same length."""
-    import numpy as np
-
     from graphkin.construction.tape.emit import ARRAYS
     from graphkin.construction.tape.emit import TRUTHS as CONDITIONS
 

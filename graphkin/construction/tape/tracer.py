@@ -13,6 +13,7 @@ from graphkin.construction.core.run import Trace, Values
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.traced import Traced, TracedNumber
 from graphkin.numbers.arithmetic import Kind, nearest_quarter, quarter_turns
+from graphkin.numbers.arrays import np
 
 
 class TracedKind(Kind, frozen=True):
@@ -36,7 +37,6 @@ class TracedKind(Kind, frozen=True):
 
 def traced_kind() -> TracedKind:
     """Numbers that write down what is done to them."""
-    import numpy as np
 
     def number(exact: Any) -> Any:
         return exact if isinstance(exact, Traced) else float(Fraction(exact))

@@ -11,7 +11,6 @@ from graphkin.construction.core.vocabulary import join, part_along
 from graphkin.construction.guides.coincident_points import image_under, source_of
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
-from graphkin.construction.links.link_shapes import LinkShapes
 from graphkin.construction.plan import VELOCITY
 from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
 from graphkin.scene.link_points import ends_of, is_under, under
@@ -22,9 +21,7 @@ from graphkin.structure.pairs import Joint, Leading, Sliding
 class BoundVelocity(Struct, frozen=True):
     """What a pair says of the velocity of a point: a line on which its image lies."""
 
-    def component(
-        self, pen: Pen, shapes: LinkShapes, sides: list[tuple[Joint, str]] | None = None
-    ) -> None:
+    def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> None:
         """No part of it is known."""
 
     def rest(self, pen: Pen, end: int, found: int) -> None:
@@ -41,7 +38,7 @@ class BarVelocity(BoundVelocity, frozen=True):
         """The image of the pivot."""
         return pen.the("velocity", self.pivot)
 
-    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+    def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
         """That, and the perpendicular to the bar through it."""
         return self.end(pen, vector), perpendicular_through(pen, self.pivot, self.point)
 
@@ -67,9 +64,9 @@ class GuideVelocity(BoundVelocity, frozen=True):
         own = known in pen.bases and pen.bases[known].start == point and pen.has("velocity", point)
         return pen.the("velocity", point) if own else image_under(pen, known, point, VELOCITY)
 
-    def line(self, pen: Pen, shapes: LinkShapes, vector: int | None) -> tuple[int, int]:
+    def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
         """That, and the parallel to the guide through it."""
-        along = led_by(self.pair).direction(pen, shapes)
+        along = led_by(self.pair).direction(pen)
         end = self.end(pen, vector)
         return end, parallel_through(pen, end, along, self.pair.links[0])
 
@@ -81,13 +78,13 @@ class GuideVelocity(BoundVelocity, frozen=True):
         led_by(self.pair).touch(pen, VELOCITY)
 
 
-def sliding(pen: Pen, shapes: LinkShapes, block: str) -> None:
+def sliding(pen: Pen, block: str) -> None:
     """Speed of a block along its guide."""
     pair = pen.first_slide(block)
     first = pen.scene.link(block).points[0]
     start = image_under(pen, pair.links[1], first, VELOCITY)
     with pen.on(Part.RESULT, Plane.NUMBERS):
-        guide = known_guide(pen, shapes, pair)
+        guide = known_guide(pen, pair)
         found = pen.draw(part_along, guide, start, pen.the("velocity", first))
     pen.want("slide speed", block, found)
     slide_arrow(pen, pair, block, first)
