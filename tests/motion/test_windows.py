@@ -205,7 +205,7 @@ def test_the_parts_of_a_long_way_overlap_by_four_steps_in_any_unit(monkeypatch, 
 
 def test_bounds_are_in_the_unit_of_the_driver_that_is_swept():
     """Millimetres of a slide become metres; degrees of a turn, and seconds, stay."""
-    slide = 'turn = 1\nangle = 40\nspeed = 3\n[[drivers]]\nslide = 2\nposition = 10\nspeed = 1\n'
+    slide = "turn = 1\nangle = 40\nspeed = 3\n[[drivers]]\nslide = 2\nposition = 10\nspeed = 1\n"
     block = 'links.2]\nB = [0, 0]\nslides = { on = 0, through = "O", angle = 0 }\n[[drivers]'
     text = DRIVEN.format(slide).replace("[drivers]", block, 1)
     scene = read_text(text, "driven.toml")
