@@ -37,6 +37,8 @@ ENDLESS = 300
 """Seconds of a processor after which a mutant counts as found: it does not come to an end."""
 WAITS = 4 * ENDLESS
 """Seconds after which one that only waits counts as found."""
+RIGHT = -1
+"""The number of no mutant."""
 failed: list[str] = []
 
 
@@ -74,14 +76,29 @@ def pytest_runtestloop(session: pytest.Session) -> bool | None:
     items = {item.nodeid: item for item in session.items}
     with path.with_suffix(".fates").open("w", encoding="utf-8") as fates:
         for number, tests in json.loads(path.read_text(encoding="utf-8")):
-            fate = tried(number, [items[test] for test in tests if test in items])
+            fate = found_by(number, [items[test] for test in tests if test in items])
             fates.write(f"{number}\t{fate}\n")
             fates.flush()
     return True
 
 
+def found_by(number: int, items: Sequence[pytest.Item]) -> str:
+    """The first test that finds a mutant; nothing if it survives all.
+
+    One that fails finds it only if it fails by itself, too, and does not where nothing is wrong:
+    in another order a test may fail of what others before it have kept.
+    """
+    while fate := tried(number, items):
+        places = [place for place, item in enumerate(items) if item.nodeid == fate]
+        alone = [items[place] for place in places]
+        if not alone or (tried(number, alone) and not tried(RIGHT, alone)):
+            return fate
+        items = items[places[0] + 1 :]
+    return ""
+
+
 def tried(number: int, items: Sequence[pytest.Item]) -> str:
-    """The first test that a mutant fails; nothing if it survives all."""
+    """The first test that fails with a mutant at work; nothing if none does."""
     out, into = os.pipe()
     if (child := os.fork()) == 0:
         os.setpgid(0, 0)

@@ -26,7 +26,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from importlib.util import cache_from_source
 from itertools import accumulate
@@ -178,12 +178,12 @@ def come_by(rooms: Sequence[str], jobs: int, as_known: bool) -> list[Come]:
             (copy / "sitecustomize.py").write_text(SAYS, encoding="utf-8")
             files = {room: Path(folder) / f"{room}.come" for room in missing}
             runs = {
-                room: pool.submit(run, copy, [f"tests/{room}"], COME=str(path))
+                pool.submit(run, copy, [f"tests/{room}"], COME=str(path)): room
                 for room, path in files.items()
             }
-            for room, ran in runs.items():
+            for ran in as_completed(runs):
                 assert ran.result() >= 0
-                keep(room, files[room], names)
+                keep(runs[ran], files[runs[ran]], names)
     return [found for room in rooms if (found := kept(room, True))]
 
 

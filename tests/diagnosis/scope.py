@@ -29,6 +29,11 @@ def shipped(name: str) -> Mechanism:
     return load(FILES[name])
 
 
+def untouched(mechanism: Mechanism) -> Mechanism:
+    """The same, of which nothing has been run: what is kept of it is not run again."""
+    return Mechanism(mechanism.scene)
+
+
 @cache
 def asking(name: str, ask: Ask) -> Mechanism:
     """The same scene, asked for something else."""

@@ -11,7 +11,7 @@ from graphkin.documents.sheet_documents import hand_out, targets_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
 from tests.chosen import CHOSEN
-from tests.diagnosis.scope import accelerations, asking, counted, shipped
+from tests.diagnosis.scope import accelerations, asking, counted, shipped, untouched
 
 BEYOND = (Part.ACCELERATION, Part.NORMAL, Part.POLE)
 
@@ -19,7 +19,8 @@ BEYOND = (Part.ACCELERATION, Part.NORMAL, Part.POLE)
 @pytest.mark.parametrize("name", ["pump", "oscillating-slide", "gears-rack", "centrodes-cardan"])
 def test_velocities_alone_give_no_acceleration_sheet_and_run_no_acceleration(name, monkeypatch):
     shipped_too = Ask(velocity=shipped(name).scene.ask.velocity)
-    mechanism = asking(name, replace(shipped_too, centrodes=shipped(name).scene.ask.centrodes))
+    ask = replace(shipped_too, centrodes=shipped(name).scene.ask.centrodes)
+    mechanism = untouched(asking(name, ask))
     assert mechanism.program
     with counted(monkeypatch) as ran:
         handed = hand_out(mechanism, language="en")

@@ -35,6 +35,7 @@ from tests.diagnosis.scope import (
     shipped,
     steps,
     turning_guides,
+    untouched,
     velocities,
 )
 from tests.loops.loops_alone import as_solution
@@ -93,7 +94,7 @@ def test_centrodes_alone_follow_the_centres_that_are_asked_anyway(name):
 
 @EVERY
 def test_no_more_is_run_than_what_is_asked_needs(name, monkeypatch):
-    mechanism = shipped(name)
+    mechanism = untouched(shipped(name))
     needed = steps(mechanism)
     with counted(monkeypatch) as ran:
         mechanism.solve(asked=True)
@@ -102,7 +103,7 @@ def test_no_more_is_run_than_what_is_asked_needs(name, monkeypatch):
 
 @EVERY
 def test_a_velocity_runs_no_step_of_an_acceleration(name, monkeypatch):
-    mechanism = velocities(name)
+    mechanism = untouched(velocities(name))
     with counted(monkeypatch) as ran:
         mechanism.solve(asked=True)
     assert ran

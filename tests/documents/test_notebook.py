@@ -103,6 +103,26 @@ def test_letters_and_arrowheads_of_all_drawings_in_a_figure_are_of_one_size(late
         assert signs(ax) == pytest.approx([SIGN.height] * len(signs(ax)))
 
 
+def test_signs_stay_at_their_places_where_one_looks_closer():
+    """Pins and points, round ones, keep their size, and lie where the lines that meet there do."""
+    ax = load("pump", n=7).plot(axes(), "mechanism")
+
+    def boxes():
+        every = (patch.get_path().get_extents(patch.get_transform()) for patch in ax.patches)
+        return [(complex(*(box.min + box.max) / 2), box.width, box.height) for box in every]
+
+    before, place = boxes(), ax.transData.inverted()
+    kept = [complex(*place.transform((z.real, z.imag))) for z, _, _ in before]
+    (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    ax.set(xlim=(low, (low + high) / 2), ylim=(bottom, (bottom + top) / 2))
+    round_ones = 0
+    for (z, wide, high), (_, *size), at in zip(boxes(), before, kept, strict=True):
+        if (wide, high) == pytest.approx((*size,)) and wide == pytest.approx(high):
+            assert abs(complex(*ax.transData.transform((at.real, at.imag))) - z) < 1e-6
+            round_ones += 1
+    assert round_ones >= 6
+
+
 def test_axes_too_small_for_the_letters_are_refused():
     ax = Figure((1.2, 1)).subplots()
     with pytest.raises(PageError, match="axes of 24 × 20 mm are too small: does not fit"):

@@ -159,6 +159,21 @@ def test_words_stand_to_the_right_of_their_lines_but_for_the_last():
     assert [at for at, right in sides.items() if not right] == [max(sides)]
 
 
+@pytest.mark.parametrize(("name", "unit", "most"), [("roller", "mm", 20), ("rocker", "deg", 24)])
+def test_a_picture_of_a_cam_shows_the_rise_of_its_law_in_its_unit(name, unit, most):
+    """The rise of a slide in the unit of the scene, that of a lever in degrees."""
+    found = sampled(cycle(load(f"{SCENES}/cam-{name}.toml"), steps=24))
+    with look():
+        lift, pressure = pictures(found)["cams"]().axes
+    rise = lift.lines[0].get_ydata()
+    assert (lift.get_ylabel(), pressure.get_ylabel()) == (unit, "deg")
+    assert (rise.min(), rise.max()) == pytest.approx((0, most), abs=1e-9)
+    if name == "roller":  # base 40, roller 10, offset 10: tan α = (s' - e)/(s + √(50² - e²))
+        slope = np.gradient(rise, np.radians(found.at))
+        angle = np.degrees(np.arctan((slope - 10) / (rise + np.sqrt(50**2 - 10**2))))
+        assert pressure.lines[0].get_ydata() == pytest.approx(abs(angle), abs=0.02)
+
+
 def test_a_path_has_a_dot_at_every_twelfth_of_a_turn():
     found = sampled(cycle(load(f"{SCENES}/crank-rocker.toml"), steps=24), 24)
     dots = dotted(found, found.at + 0j)

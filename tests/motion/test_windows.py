@@ -15,6 +15,7 @@ from graphkin.motion import ends
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.driving import GRID
+from graphkin.motion.sweep import bounds_in_si
 from graphkin.motion.window import turn_evenly, whole_turn, window
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
@@ -200,3 +201,15 @@ def test_the_parts_of_a_long_way_overlap_by_four_steps_in_any_unit(monkeypatch, 
     parts.clear()
     assert ends.next_event(course, 0.0, way * 30 * GRID * step).kind == "dead"
     assert 7 * GRID < parts[-1][1] < 8 * GRID
+
+
+def test_bounds_are_in_the_unit_of_the_driver_that_is_swept():
+    """Millimetres of a slide become metres; degrees of a turn, and seconds, stay."""
+    slide = "turn = 1\nangle = 40\nspeed = 3\n[[drivers]]\nslide = 2\nposition = 10\nspeed = 1\n"
+    block = 'links.2]\nB = [0, 0]\nslides = { on = 0, through = "O", angle = 0 }\n[[drivers]'
+    text = DRIVEN.format(slide).replace("[drivers]", block, 1)
+    scene = read_text(text, "driven.toml")
+    assert bounds_in_si(scene, 1, 10, 20) == (10, 20)
+    assert bounds_in_si(scene, 2, 10, 20) == pytest.approx((0.01, 0.02))
+    assert bounds_in_si(scene, 2, None, 20) == (None, pytest.approx(0.02))
+    assert bounds_in_si(scene, None, 10, 20) == (10, 20)

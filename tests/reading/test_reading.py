@@ -951,6 +951,9 @@ def test_others_leave_a_line_at_its_node() -> None:
     assert ink.node(215 + 100j, 1 + 0j, 4.0) is None
     (first, *_) = ink.nodes(200 + 100j, 1 + 0j, 60.0)
     assert abs(first - (232 + 100j)) < 1.5
+    lines = (200 + 100j, 260 + 100j), (225 + 100j, 230 + 120j), (228.2 + 100j, 223.2 + 80j)
+    found = ink_of(*lines).nodes(200 + 100j, 1 + 0j, 60.0)
+    assert sorted(each.real for each in found) == pytest.approx([225, 228.2], abs=0.5)
 
 
 def test_a_square_far_from_all_lines_begins_where_the_first_are(

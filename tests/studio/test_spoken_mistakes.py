@@ -190,3 +190,12 @@ def test_the_page_hears_its_own_language(tmp_path, language, words):
     wrong = PUMP.replace("turn = 1", "turn = 9")
     answer = desk_in(tmp_path).look(ordered(text=wrong, language=language, number=1))
     assert words in [each["found"] for each in answer["problems"]]
+
+
+@pytest.mark.parametrize("language", FOREIGN)
+def test_a_sentence_without_words_is_not_said_by_halves(language):
+    """Members of a list have words by themselves only where the list stands in a sentence."""
+    say, known = sentences(language), "take it out"
+    assert say(known) != known
+    assert say(f"what nobody says, {known}") == f"what nobody says, {known}"
+    assert say(f"what nobody says; {known}") == f"what nobody says; {say(known)}"

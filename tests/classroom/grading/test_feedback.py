@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import combinations
 from math import pi
 
 import pytest
@@ -14,7 +15,7 @@ from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
 from graphkin.classroom.grading.feedback_rows import rows
 from graphkin.classroom.grading.graded import Answer, Graded, Result, Status
 from graphkin.classroom.grading.marks_tables import marks_table, read_marks
-from graphkin.drawing.marks import Page, Text
+from graphkin.drawing.marks import Page, Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.text import LANGUAGES, words
 from tests.classroom.grading.students import book_of, given, key_answers, marker_of, taker
@@ -224,3 +225,13 @@ def test_a_name_of_any_length_stays_on_the_page(name):
         page.check()
         written = "".join(plain(m.markup) for m in page.marks if isinstance(m, Text))
         assert "".join(name.split()) in "".join(written.split())
+
+
+@pytest.mark.parametrize("lab", ["pump", "slotted-lever"])
+def test_no_text_on_a_page_stands_on_another(lab):
+    rubric = marker_of(lab, 7).standard.rubric
+    for page in feedback_pages(graded({}, lab), "Lab", rubric, words("en")):
+        boxes = [reach(mark) for mark in page.marks if isinstance(mark, Text)]
+        for one, other in combinations(boxes, 2):
+            wide, high = (min(one[i], other[i]) - max(one[i - 2], other[i - 2]) for i in (2, 3))
+            assert min(wide, high) <= 1e-6, (one, other)

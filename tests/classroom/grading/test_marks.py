@@ -8,9 +8,14 @@ from math import pi
 import pytest
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.form_relations import Own, computed
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
-from graphkin.classroom.grading.standard import Standard
+from graphkin.classroom.grading.standard import Standard, standard
+from graphkin.classroom.lab.items import all_fields
+from graphkin.classroom.lab.lab_model import Rubric
+from graphkin.mechanism import load
+from tests.chosen import FOLDER
 from tests.classroom.grading.students import LABS, given, key_answers, marker_of, marker_with, taker
 
 MORE = ("v_BA_mm", "v_BA", "a_BA_nu_mm", "a_BA_nu", "a_BA_tau_mm", "a_BA_tau")
@@ -221,3 +226,33 @@ def test_what_only_a_drawing_tells_after_a_slip_is_told_by_the_slip():
     assert told.earned == found["omega_3"].earned == told.points * Fraction("0.8")
     assert (found["omega_3"].status, found["omega_3"].source) == (Status.FOLLOWS, "v_A3")
     assert found["omega_3"].slip == "rpm_as_rad"
+
+
+ROLLING = {
+    "wheel-in-ring": ("omega_1", "a_TP_nu", 0.05 * 0.15 / (0.15 - 0.05)),
+    "rod-and-wheel": ("omega_3", "a_TC_nu", 0.06),
+    "bar-on-drive-roller": ("omega_1", "a_TO_nu", None),
+}
+"""Wheels with the rate, the component and the length by which its square is multiplied: r·R/(R - r)
+in a ring (Euler, Savary), r on a rail; none where what is rolled on turns, too."""
+
+
+@pytest.mark.parametrize("scene", ROLLING)
+def test_the_component_of_a_wheel_follows_from_an_own_rate(scene):
+    rate, field, length = ROLLING[scene]
+    mechanism = load(FOLDER / f"{scene}.toml")
+    form = all_fields(mechanism)
+    asked = [form[name] for name in (rate, f"{rate}_sense", field)]
+    points = dict.fromkeys((rate, field), Fraction(1))
+    found = standard(mechanism, asked, Rubric(points=points, follow=0.8))
+    own = 1.2 * abs(found.key[rate])
+    told = [*computed(found, {rate: Own(own, 0.0, rate)}, field, 0.0)]
+    if length is None:
+        assert told == []
+        return
+    (only,) = told
+    assert only.sources == (rate,)
+    assert only.value == pytest.approx(own**2 * length)
+    marks = marked(Marker(found), **{rate: own, field: own**2 * length})
+    assert (marks[field].status, marks[field].source) == (Status.FOLLOWS, rate)
+    assert marks[field].earned == Fraction("0.8")

@@ -25,6 +25,7 @@ from graphkin.classroom.grading.likelihood import (
     scattered,
 )
 from graphkin.classroom.grading.one_drawing import is_one_drawing
+from graphkin.classroom.grading.own_ways import by_own_scales
 from graphkin.classroom.grading.same_digits import (
     FEW,
     AnswerSheet,
@@ -42,6 +43,7 @@ from graphkin.classroom.roster.taker import Taker
 from tests.chosen import EVERY
 from tests.classroom.grading import hand
 from tests.classroom.grading.classes import LABS, Kind, book_of, row
+from tests.classroom.grading.students import marker_of
 
 FINE = Kind("fine", (0.25, 0.25))
 ORDINARY = Kind("ordinary", (0.5, 0.5), digits=3)
@@ -255,3 +257,22 @@ def test_mistakes_are_spread_so_that_half_lie_within_a_factor_of_two_or_10_mm():
         within = (far[1:] <= inner[1]) & (far[:-1] >= inner[0])
         assert parts.sum() == pytest.approx(1.0, abs=0.04)
         assert parts[within].sum() == pytest.approx(0.5, abs=0.002)
+
+
+@pytest.mark.parametrize("lab", ("pump", "slotted-lever"))
+@pytest.mark.parametrize(("velocities", "accelerations"), [(2.0, 1.0), (1.0, 0.3), (1.3, 0.7)])
+def test_scales_of_one_s_own_are_told_plan_by_plan(lab, velocities, accelerations):
+    """Lengths are measured whatever the scale is; a scale nearly right is none of one's own."""
+    keys = Keys.of([marker_of(lab, 7).standard.expectation])
+    begins = {("v", "omega"): velocities, ("a", "epsilon"): accelerations}
+    times = np.ones(len(keys.fields))
+    for place, field in enumerate(keys.fields):
+        for names, factor in begins.items():
+            if field.startswith(tuple(f"{name}_" for name in names)) and not field.endswith("_mm"):
+                times[place] = factor
+    sizes, every = keys.sizes[0], ~np.isnan(keys.sizes[0])
+    (way,) = by_own_scales(sizes * times, keys, 0, every)
+    assert way.times == pytest.approx(times)
+    assert way.sizes == pytest.approx(sizes * times)
+    assert not [*by_own_scales(sizes * times, keys, 0, every & (times == 1))]
+    assert not [*by_own_scales(sizes * 1.2, keys, 0, every)]

@@ -236,6 +236,13 @@ def test_a_loop_calls_the_library_before_the_rest():
     np.testing.assert_allclose(found, b * np.cos(a + b) + np.arctan2(a, b) * a, rtol=1e-14)
 
 
+def test_plain_numbers_of_numpy_go_into_a_loop_on_either_side():
+    """A number of numpy's asks its own function what it makes with a traced one."""
+    a, two = np.linspace(1, 3, 100), np.float64(2)
+    found = run_loop(lambda p: two * p - (two - p) / (two + p) + np.subtract(p, two), a)
+    np.testing.assert_allclose(found, 2 * a - (2 - a) / (2 + a) + a - 2, rtol=1e-15, atol=1e-15)
+
+
 def test_a_choice_is_made_for_each_variant():
     a, b = np.linspace(-1, 1, 100), np.linspace(1, -1, 100)
     found = run_loop(lambda p, q: pick((p < q) | (p > 0.9), p, 2 * q), a, b)
