@@ -61,7 +61,8 @@ def value_of(figures: str) -> float:
     """The value of printed figures."""
     text = POWER.sub(lambda m: f"*1e{int(m[1].translate(SUPERSCRIPTS))}", figures)
     text = text.replace(",", ".").replace("·", "*").replace("^", "**").replace("−", "-")
-    text = re.sub(r"cos ([\d.]+)°", r"cos(\1)", text.replace("√", "sqrt")).replace("π", repr(pi))
+    text = re.sub(r"cos ([\d.]+)°", r"cos(\1)", text.replace("√", "sqrt"))
+    text = text.replace("°", "").replace("π", repr(pi))
     known = {"sqrt": sqrt} | {f.__name__: lambda x, f=f: f(radians(x)) for f in (sin, cos, tan)}
     assert set(re.findall(r"[a-df-z]+\w*", text)) <= {*known}, figures
     return float(eval(text, {"__builtins__": {}} | known))
