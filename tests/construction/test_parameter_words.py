@@ -7,12 +7,34 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.parameter_words import other_parameters, parameter, variant
+from graphkin.construction.core.parameter_words import (
+    law,
+    other_parameters,
+    parameter,
+    variant,
+)
 from graphkin.mechanism import load
 from graphkin.text import words
 from tests.documents.sheet_tools import drawing_of
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+NUMBERED = """
+graphkin = 1
+title = "Crank"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[parameters]
+n = { value = 5, min = 1, max = 9, step = 1 }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = "70 + n"
+[[drivers]]
+turn = 1
+angle = "20 + 10*n"
+speed = "-(60 + 2*n)"
+[ask]
+velocity = ["A"]
+"""
 
 
 @pytest.mark.parametrize(
@@ -30,6 +52,17 @@ def test_a_parameter_has_the_unit_of_what_grows_as_it_does(name, wanted):
     """A number of steps (15 degrees for each n) and a factor have none."""
     scene = load(SCENES / f"{name}.toml").scene
     assert [parameter(scene, words("en"), each) for each in scene.values] == wanted
+
+
+def test_a_number_that_moves_lengths_and_angles_has_no_unit(tmp_path):
+    """The crank is 70 + n long and stands at 20 + 10n degrees: n is a student's number."""
+    path = tmp_path / "scene.toml"
+    path.write_text(NUMBERED)
+    scene = load(path).scene
+    assert parameter(scene, words("en"), "n") == "*n* = 5"
+    (driver,) = scene.drivers
+    assert law(scene, words("en"), driver.position) == "(20 + 10·*n*)°"
+    assert law(scene, words("en"), driver.speed) == "−(60 + 2·*n*) rev/min"
 
 
 def test_a_parameter_that_no_expression_takes_is_not_named():

@@ -7,7 +7,9 @@ from math import cos, pi, radians, sin, sqrt, tan
 
 import pytest
 
+from graphkin.construction.core.given_data import given
 from graphkin.construction.core.solution import Verdict
+from graphkin.construction.drivers.driver_relations import of_scales
 from graphkin.construction.rate_relations import of_gears
 from graphkin.construction.result_tables import vector_rows
 from graphkin.documents.calculation import (
@@ -44,7 +46,7 @@ WHICH += [(name, None, "en") for name in (*OTHERS, *CHOSEN)]
 SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 POWER = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
 RESULT = re.compile(r"(−?\d+(?:[.,]\d+)?)((?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?)(.*)")
-FIGURES = re.compile(r"(?:[\d.,·/^+\-−*()π ⁻⁰¹²³⁴⁵⁶⁷⁸⁹]|sin|cos|tan|sqrt)+")
+FIGURES = re.compile(r"(?:[\d.,·/^+\-−*()π√° ⁻⁰¹²³⁴⁵⁶⁷⁸⁹]|sin|cos|tan|sqrt)+")
 REMARK = re.compile(r" \((?:[^()]|\([^()]*\))*\)$")
 """What stands in parentheses behind a result, or a place in them within."""
 
@@ -59,7 +61,8 @@ def value_of(figures: str) -> float:
     """The value of printed figures."""
     text = POWER.sub(lambda m: f"*1e{int(m[1].translate(SUPERSCRIPTS))}", figures)
     text = text.replace(",", ".").replace("·", "*").replace("^", "**").replace("−", "-")
-    text = text.replace("π", repr(pi))
+    text = re.sub(r"cos ([\d.]+)°", r"cos(\1)", text.replace("√", "sqrt"))
+    text = text.replace("°", "").replace("π", repr(pi))
     known = {"sqrt": sqrt} | {f.__name__: lambda x, f=f: f(radians(x)) for f in (sin, cos, tan)}
     assert set(re.findall(r"[a-df-z]+\w*", text)) <= {*known}, figures
     return float(eval(text, {"__builtins__": {}} | known))
@@ -111,6 +114,26 @@ def test_every_bar_for_which_the_compass_is_opened_has_its_drawn_length(name):
     told = {r.left for _, found in relations([drawing]) for r in found if r.unit == "mm"}
     told = {each.removesuffix("/*k*_L") for left in told for each in left.split(" = ")}
     assert opened and opened <= told, opened - told
+
+
+@pytest.mark.parametrize(
+    ("name", "third", "told"),
+    [
+        ("six-bar", "BC", ["*C* right of *O*_{2}→*B*", "∠*B**O*_{2}*C* = 70°"]),
+        ("cam-conjugate", "BC", ["*C* left of *Q*→*B*", "∠*B**Q**C* = 70°"]),
+    ],
+)
+def test_the_bar_between_the_arms_of_an_angle_follows_by_the_law_of_cosines(name, third, told):
+    """A minus on an angle tells nobody its sense: the side does."""
+    drawing = drawings(name)[0]
+    (relation,) = [r for r in of_scales(drawing) if "cos " in r.symbols]
+    assert relation.left == "".join(map(symbol, third))
+    length = drawing.length(abs(drawing.standing.spot(third[0]) - drawing.standing.spot(third[1])))
+    metres = length * {"mm": 1e-3, "cm": 1e-2, "m": 1}[drawing.scene.units["length"]]
+    figures = re.sub(r"\*(\S)\*", r"\1", relation.figures)
+    assert value_of(figures) == pytest.approx(metres, rel=1e-4)
+    assert value_of(relation.result) == pytest.approx(metres, rel=1e-4)
+    assert {*told} <= {*given(drawing)}
 
 
 BY_BAR = re.compile(r"\*[va]\*_\{[^}]*\}(?:\^\{τ\}|\^2)?/\*?[A-Z].*|2·\*ω\*.*")

@@ -5,19 +5,24 @@ from __future__ import annotations
 import re
 from cmath import phase
 from math import cos, degrees, sin, sqrt
+from pathlib import Path
 
 import pytest
 
 from graphkin.construction.cams.cam_centre import CurvatureCentre
-from graphkin.construction.cams.cam_relations import of_cams
+from graphkin.construction.cams.cam_relations import FORMS, of_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.documents.calculation import calculation
+from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
+from graphkin.mechanism import load
+from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.numbers.plane import cross
-from graphkin.text import LANGUAGES
+from graphkin.text import LANGUAGES, words
 from tests.documents.sheet_tools import drawings
+from tests.documents.test_calculation import last_digit, value_of
 
 LEVERS = ("cam-rocker", "cam-conjugate", "cam-fixed-lever")
 GUIDED = ("cam-roller", "cam-knife", "cam-table")
@@ -28,7 +33,7 @@ def told(name: str, language: str = "en") -> tuple[Drawing, CurvatureCentre, str
     """The velocity sheet of a scene with one cam, its centre, and how that is told to follow."""
     drawing = drawings(name, None, language)[0]
     centre, *_ = constructions(drawing.trace.program, CurvatureCentre)
-    how = next(r for r in of_cams(drawing, []) if not r.result)
+    *_, how = (r for r in of_cams(drawing, []) if not r.result)
     return drawing, centre, " ".join((how.left, *how.more))
 
 
@@ -71,6 +76,30 @@ def test_the_radius_under_a_guided_tip_is_what_its_formula_gives(name, language)
     assert b + (pole - b) / abs(pole - b) * found == pytest.approx(k, abs=1e-9)
 
 
+@pytest.mark.parametrize("motion", [*FORMS])
+def test_each_motion_is_printed_as_it_is_computed(motion):
+    """Lift and derivatives of a piece 1.7 rad long that lifts by 3, in both halves of it."""
+    name, late, _ = motion.partition("-late")
+    for share in (0.7,) if late else (0.2, 0.4):
+        found = MOTIONS[name](share)
+        wanted = (3 * found.at, 3 * found.rate / 1.7, 3 * found.bend / 1.7**2)
+        printed = (form.format(h="3", x=str(share), b="1.7") for form in FORMS[motion])
+        assert [value_of(each) for each in printed] == pytest.approx(wanted)
+
+
+@pytest.mark.parametrize("angle", [50, 240])
+@pytest.mark.parametrize("name", ["cam-roller", "cam-rocker", "cam-fixed-lever"])
+def test_the_law_is_told_by_the_piece_that_holds(name, angle):
+    """In a return with the lift before it; what swings is put in in radians."""
+    mechanism = load(Path("examples/scenes") / f"{name}.toml", angle=angle)
+    drawing = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))[0]
+    told = [r for r in of_cams(drawing, []) if r.figures]
+    assert len(told) >= 5
+    for relation in told:
+        printed, unit = last_digit(relation.result)
+        assert value_of(relation.figures) == pytest.approx(printed, abs=unit), relation
+
+
 def test_the_centre_under_a_flat_face_stands_where_the_law_says():
     drawing, centre, how = told("cam-flat")
     cam, spot, values = drawing.scene.cams[centre.follower], drawing.standing.spot, drawing.trace
@@ -92,10 +121,10 @@ def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follo
         for mark in page.marks
         if isinstance(mark, Text)
     ]
-    begin = ["ψ2 = .", "ψ′2 = .", "ψ″2 = .", f"O{cam.centre} = .", f"v{cam.centre} = ω1·O"]
+    begin = ["ψ2 = ", "ψ′2 = ", "ψ″2 = ", f"O{cam.centre} = .", f"v{cam.centre} = ω1·O"]
     places = [next(i for i, line in enumerate(lines) if line.startswith(b)) for b in begin]
     assert places == sorted(places)
     values = found[0].trace.values
     centre, *_ = constructions(found[0].trace.program, CurvatureCentre)
-    (swing, *_) = [r.result for r in of_cams(found[0], [])]
+    swing = next(r.result for r in of_cams(found[0], []) if r.unit == "°")
     assert float(swing) == pytest.approx(degrees(values[centre.lift]), abs=5e-4)

@@ -22,7 +22,9 @@ from tests.mechanisms import SHIPPED
 
 SLOTTED = ("shaper", "geneva-wheel", "cam-lever", "plank-hinged", "oscillating-slide")
 """Scenes in which a driven point slides on a link that turns."""
-NAMES = dict.fromkeys((*HALVES[0], *SLOTTED, "crank-slot", "platform-3rpr", "geneva-dwell"))
+NAMES = dict.fromkeys(
+    (*HALVES[0], *SLOTTED, "crank-slot", "platform-3rpr", "geneva-dwell", "cylinders-two")
+)
 WHICH = [*((name, None) for name in NAMES), *((lab, 7) for lab in SHIPPED)]
 VECTOR = re.compile(r"\*[va]\*_\{[^}]*\}(?:\^\{[^}]*\})?")
 
@@ -39,16 +41,15 @@ def terms_of(equation: VectorEquation) -> list[Term]:
 
 
 def laid_off(drawing) -> set[str]:
-    """The accelerations of points that are laid off from known ones by relations of their own."""
-    kinds = (
-        (step, construction(step), number in drawing.auxiliary)
-        for number, step in enumerate(drawing.trace.program.steps)
-        if step.plane is drawing.plane
-    )
+    """The accelerations of points that are laid off by relations of their own: from known ones,
+    and of what a driver slides from the pole."""
+    steps = drawing.trace.program.steps
+    kinds = ((step, construction(step)) for step in steps if step.plane is drawing.plane)
     ends = [
         step.letter.replace("′", "").partition("_")
-        for step, kind, tried in kinds
-        if isinstance(kind, RollingNormal) or (isinstance(kind, DrivenSlide) and not tried)
+        for step, kind in kinds
+        if isinstance(kind, RollingNormal)
+        or (isinstance(kind, DrivenSlide) and steps[kind.start].name == drawing.pole)
     ]
     points = (under(point.upper(), link) if link else point.upper() for point, _, link in ends)
     return {symbol(f"{drawing.vector.letter}_{lettered(point)}") for point in points}

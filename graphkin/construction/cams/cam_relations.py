@@ -2,15 +2,47 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Container, Iterator
+from functools import partial
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
-from graphkin.construction.core.relation import Relation, as_read, length_of
+from graphkin.construction.core.relation import Relation, as_read, figure, length_of
 from graphkin.drawing.richtext import words_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.numbers.cam_motions import BORDER, turned
 
+FORMS = {
+    "uniform": ("{h}·{x}", "{h}/{b}", "0"),
+    "parabolic": ("2·{h}·{x}^2", "4·{h}·{x}/{b}", "4·{h}/{b}^2"),
+    "parabolic-late": ("{h}·(1 − 2·(1 − {x})^2)", "4·{h}·(1 − {x})/{b}", "−4·{h}/{b}^2"),
+    "harmonic": (
+        "{h}·(1 − cos(180°·{x}))/2",
+        "π·{h}·sin(180°·{x})/(2·{b})",
+        "π^2·{h}·cos(180°·{x})/(2·{b}^2)",
+    ),
+    "cycloidal": (
+        "{h}·({x} − sin(360°·{x})/(2·π))",
+        "{h}·(1 − cos(360°·{x}))/{b}",
+        "2·π·{h}·sin(360°·{x})/{b}^2",
+    ),
+    "3-4-5": (
+        "{h}·(10·{x}^3 − 15·{x}^4 + 6·{x}^5)",
+        "30·{h}·{x}^2·(1 − {x})^2/{b}",
+        "60·{h}·{x}·(1 − {x})·(1 − 2·{x})/{b}^2",
+    ),
+    "4-5-6-7": (
+        "{h}·(35·{x}^4 − 84·{x}^5 + 70·{x}^6 − 20·{x}^7)",
+        "140·{h}·{x}^3·(1 − {x})^3/{b}",
+        "420·{h}·{x}^2·(1 − {x})^2·(1 − 2·{x})/{b}^2",
+    ),
+}
+"""Lift, first and second derivative of the motions by rise h, share x and length b of a piece."""
 POLES = tuple("PSTUVWXYZ") + tuple(f"P{k}" for k in range(1000))
 """What the point may be called in which a cam and its follower move alike."""
 
@@ -31,15 +63,96 @@ def of_cams(drawing: Drawing, used: Container[tuple[str, str]] = ()) -> Iterator
 
 
 def of_law(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
-    """The displacement and its two derivatives."""
-    words = drawing.words
-    key = (
-        "calculation.law_plate"
-        if drawing.scene.cams[centre.follower].slides
-        else "calculation.law_cam"
+    """The displacement and its two derivatives, by the formulas of the piece that holds."""
+    words, slides = drawing.words, drawing.scene.cams[centre.follower].slides
+    remark = words(f"calculation.law_{'plate' if slides else 'cam'}", g=escape(centre.link))
+    piece = None if slides else piece_at(drawing, centre)
+    told = list(of_piece(drawing, piece)) if piece else []
+    yield from told[:-3]
+    formulas = told[-3:] or [Relation("")] * 3
+    for (name, number, unit), formula in zip(centre.law_values(drawing), formulas, strict=True):
+        said = "" if formula.symbols else remark
+        yield replace(formula, left=name, result=number, unit=unit, remark=said)
+
+
+class Piece(Struct, frozen=True):
+    """A piece of a cam's law that moves the follower, in radians and the scene's own unit of lift.
+
+    ``angle`` is that of the cam from where the law begins; the piece begins at ``begin`` with the
+    lift ``start``, is ``span`` long and adds ``rise``. ``sense`` is that of the law.
+    """
+
+    motion: str
+    letter: str
+    angle: float
+    begin: float
+    span: float
+    start: float
+    rise: float
+    sense: int
+
+
+def piece_at(drawing: Drawing, centre: CurvatureCentre) -> Piece | None:
+    """The piece that holds where a cam stands; None in a dwell, and of tables."""
+    cam, values = drawing.scene.cams[centre.follower], drawing.scene.values
+    if cam.slopes:
+        return None
+    steps = drawing.trace.values
+    axis, start = (steps[each] for each in drawing.trace.program.steps[centre.lift].args[:2])
+    turn = axis * start.conjugate()
+    angle = turned(turn if cam.sense > 0 else turn.conjugate())
+    one = math.degrees(1) if cam.lever else drawing.length(1.0)
+    begin = lifted = 0.0
+    for piece in cam.law:
+        end, rise = (float(each.si(values)) for each in (piece.to, piece.rise))
+        if angle < end - BORDER:
+            break
+        begin, lifted = end, lifted + rise
+    if not rise:
+        return None
+    letter = "ψ" if cam.lever else "s"
+    found = (angle, begin, end - begin, lifted * one, rise * one)
+    return Piece(piece.motion, letter, *found, cam.sense)
+
+
+def of_piece(drawing: Drawing, piece: Piece) -> Iterator[Relation]:
+    """How far a piece has gone, its length in radians, then lift and derivatives as formulas.
+
+    Nothing of motions that are made of several sines.
+    """
+    late = piece.motion == "parabolic" and piece.angle - piece.begin >= piece.span / 2
+    forms = FORMS.get(piece.motion + ("-late" if late else ""))
+    if forms is None:
+        return
+    put, words = partial(figure, drawing, digits=6), drawing.words
+    degrees = drawing.scene.units["angle"] == "deg"
+    angle, begin, span = (
+        put(math.degrees(each) if degrees else each)
+        for each in (piece.angle, piece.begin, piece.span)
     )
-    for name, number, unit in centre.law_values(drawing):
-        yield Relation(name, "", "", number, unit, words(key, g=escape(centre.link)))
+    share, radians = put((piece.angle - piece.begin) / piece.span), put(piece.span)
+    yield Relation(words("calculation.law_piece", s=f"*{piece.letter}*_0"))
+    yield Relation("*x*", "(*θ* − *θ*_0)/*β*", f"({angle} − {begin})/{span}", share)
+    yield Relation("*β*", "", f"π·{span}/180" if degrees else "", radians, "rad")
+    turned_rise = math.radians(piece.rise) if piece.letter == "ψ" else piece.rise
+    if piece.letter == "ψ":
+        yield Relation("*H*", "", f"π·{bracketed(put(piece.rise))}/180", put(turned_rise), "rad")
+    for number, form in enumerate(forms):
+        rise = turned_rise if number else piece.rise
+        ahead = (
+            ("", "")
+            if number or not piece.start
+            else (f"*{piece.letter}*_0 + ", f"{put(piece.start)} + ")
+        )
+        minus = "−" if number == 1 and piece.sense < 0 else ""
+        symbols = form.format(h="*H*", x="*x*", b="*β*")
+        figures = form.format(h=bracketed(put(rise)), x=share, b=radians)
+        yield Relation("", f"{ahead[0]}{minus}{symbols}", f"{ahead[1]}{minus}{figures}")
+
+
+def bracketed(number: str) -> str:
+    """A printed number as a factor: in brackets where it is negative."""
+    return f"({number})" if number.startswith("−") else number
 
 
 def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
@@ -305,7 +306,9 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 if placing.clockwise:  # written from the point that it places
                     arms, angle = arms[::-1], angle.negative()
                 name = f"∠{arms[0]}{symbol(placing.vertex)}{arms[1]}"
-                yield Datum(name=name, value=quantity_text(scene, words, angle))
+                told = quantity_text(scene, words, angle)
+                within = abs(float(angle.si(scene.values))) < math.pi  # the side tells its sense
+                yield Datum(name=name, value=told.removeprefix("−") if within else told)
 
 
 def place_of(scene: Scene, words: Words, placing: At) -> str:
@@ -320,6 +323,12 @@ def sides(scene: Scene, words: Words) -> Iterator[str]:
         for placing in link.placings:
             if isinstance(placing, Triangle):
                 yield side(words, placing.point, placing.first, placing.second, placing.side)
+            elif isinstance(placing, Angled):
+                way = math.sin(float(placing.angle.si(scene.values)))
+                if abs(way) > 1e-9:
+                    yield side(
+                        words, placing.point, placing.vertex, placing.arm, 1 if way > 0 else -1
+                    )
             elif isinstance(placing, OnLine) and placing.by_parts:
                 parted = bar(placing.first, placing.point)
                 yield words("page.on_line", point=symbol(placing.second), bar=parted)

@@ -125,7 +125,8 @@ def law(scene: Scene, words: Words, quantity: Quantity) -> str:
     """The expression of a quantity with its unit: 15·n°, (30 + 2·n) rev/min."""
     text, unit = expression(scene, words, quantity, values=False), quantity.unit
     unit = words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
-    text = f"({text})" if re.search(r"[^^(][+−-]", text) else text
+    bare = re.sub(r"\([^()]*\)", "", text)
+    text = f"({text})" if re.search(r"[^^(][+−-]", bare) else text
     return f"{text}{'' if unit == '°' else ' '}{unit}"
 
 
@@ -153,11 +154,19 @@ def unit_of(scene: Scene, name: str) -> str:
     """The unit of a parameter, where what grows as it does has one; nothing for a mere number.
 
     A fixed length of which others are multiples has the unit of these, what is put into sines
-    that of angles.
+    that of angles. What has a range and moves lengths and turns alike, as the number of a student
+    may, is a mere number.
     """
     if any(is_angle(quantity.text, name) for quantity in quantities(scene)):
         return scene.units["angle"]
     fixed = name in scene.parameters and scene.parameters[name].minimum is None
+    kinds = {
+        quantity.unit.split("/")[0] in LENGTHS
+        for quantity in quantities(scene)
+        if name in quantity.uses() and quantity.unit and slope_of(scene, quantity, name)
+    }
+    if not fixed and len(kinds) > 1:
+        return ""
     units = {
         quantity.unit
         for quantity in quantities(scene)

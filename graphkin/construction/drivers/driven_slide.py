@@ -137,10 +137,12 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return super().slider(drawing, sought)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide; of what is tried the motion along it, by that."""
+        """What is given along the guide, then the motion along it on a guide that moves; of what
+        is tried that motion alone."""
         rate = self.rate_given(drawing)
+        motion = self.motion_of(drawing, self.point, rate)
         if self.image in drawing.auxiliary:
-            yield self.motion_of(drawing, self.point, rate)
+            yield motion
             return
         default = symbol(f"{drawing.vector.letter}_{self.point}")
         yield Relation(
@@ -151,6 +153,8 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
             drawing.vector.caret_unit,
             f"∥ {self.way(drawing)}",
         )
+        if drawing.trace.program.steps[self.start].name != drawing.pole:
+            yield motion
 
 
 def slide_image(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import partial
 
@@ -29,7 +30,7 @@ from graphkin.construction.core.relation import (
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
-from graphkin.scene.model import FRAME, Driver
+from graphkin.scene.model import FRAME, Angled, Driver
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
 
@@ -37,6 +38,8 @@ OMEGA = 6
 """Significant digits of the driver's angular velocity, from which all else follows."""
 IN_RADIANS = tuple(rate.unit for rate in RATES)
 """The units of rates of turning that follow from no other rate."""
+COSINES = "√({0}^2 + {1}^2 − 2·{0}·{1}·cos {2})"
+"""The third side of a triangle by two and the angle between them, in symbols or in figures."""
 KV, KA = "(m/s)/mm", "(m/s^2)/mm"
 """Units of the scale factors of plans."""
 
@@ -166,6 +169,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),
     )
+    yield from by_cosines(drawing)
     for name, length in drawn_bars(drawing):
         yield Relation(
             name,
@@ -218,6 +222,33 @@ def laid_bars(drawing: Drawing) -> Iterator[tuple[str, str]]:
             continue
         if laid := kind.laid_length(step.role):
             yield laid
+
+
+def by_cosines(drawing: Drawing) -> Iterator[Relation]:
+    """The bars between the arms of given angles that are laid off: by the law of cosines."""
+    laid = {frozenset(ends): bar(*ends) for ends in laid_bars(drawing)}
+    for link in drawing.scene.every_link:
+        for placing in link.placings:
+            if isinstance(placing, Angled):
+                name = laid.get(frozenset((placing.arm, placing.point)))
+                if name:
+                    yield opposite(drawing, name, placing)
+
+
+def opposite(drawing: Drawing, name: str, placing: Angled) -> Relation:
+    """The side of a triangle that is called ``name`` by two and the angle between them."""
+    p, o, q = placing.arm, placing.vertex, placing.point
+    one, other, third = (length_of(drawing, *ends) for ends in ((o, p), (o, q), (p, q)))
+    degrees = abs(math.degrees(float(placing.angle.si(drawing.scene.values))))
+    corner = f"∠{symbol(p)}{symbol(o)}{symbol(q)}"
+    figures = figure(drawing, one), figure(drawing, other), f"{figure(drawing, degrees)}°"
+    return Relation(
+        name,
+        COSINES.format(bar(o, p), bar(o, q), corner),
+        COSINES.format(*figures),
+        figure(drawing, third),
+        "m",
+    )
 
 
 def drawn_bars(drawing: Drawing) -> Iterator[tuple[str, float]]:
