@@ -187,11 +187,11 @@ def read_off(drawing: Drawing) -> Iterator[Relation]:
         vector = plan_vector(step)
         if vector is None or not isinstance(value, Vector) or is_laid_off(drawing, step):
             continue
+        size = drawing.settled(abs(value.tip - value.tail))
         if is_by_rate(drawing, step):
-            if not is_by_driver(drawing, step):
+            if size and not is_by_driver(drawing, step):
                 yield laid_off_length(drawing, step, value)
             continue
-        size = drawing.settled(abs(value.tip - value.tail))
         read = as_read(drawing, drawn_in(drawing, drawing.plane, size), scale / 1000)
         symbols = f"{k}·{segment_of(drawing, step)}"
         yield Relation(symbol(vector.symbol), symbols, *read, unit)
@@ -220,15 +220,17 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
 
 
 def is_by_rate(drawing: Drawing, step: Step) -> bool:
-    """True for a whole vector that is laid off by a rate, which has a relation of its own."""
-    if plan_vector(step) is None or sign_of(step):
+    """True for a whole vector, or what a driver gives along a guide, that is laid off by a rate,
+    which has a relation of its own.
+    """
+    if plan_vector(step) is None:
         return False
     kind = construction(drawing.trace.program.steps[step.args[1]])
-    if isinstance(kind, TurnedAcceleration) and not kind.is_steady:
+    if isinstance(kind, DrivenSlide):
+        return kind.start == step.args[0]
+    if sign_of(step) or (isinstance(kind, TurnedAcceleration) and not kind.is_steady):
         return False
-    if not isinstance(kind, TurnedVelocity | TurnedAcceleration | DrivenSlide):
-        return False
-    return kind.start == step.args[0]
+    return isinstance(kind, TurnedVelocity | TurnedAcceleration) and kind.start == step.args[0]
 
 
 def is_by_driver(drawing: Drawing, step: Step) -> bool:

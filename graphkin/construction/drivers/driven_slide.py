@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
-from graphkin.construction.core.component import end_before
+from graphkin.construction.core.component import end_before, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import (
     driver_index,
@@ -137,7 +137,9 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
         return super().slider(drawing, sought)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """What is given along the guide; of what is tried the motion along it, by that."""
+        """What is given along the guide, and where that turns what it adds to; of what is tried
+        the motion along it, by that.
+        """
         rate = self.rate_given(drawing)
         if self.image in drawing.auxiliary:
             yield self.motion_of(drawing, self.point, rate)
@@ -151,6 +153,8 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
             drawing.vector.caret_unit,
             f"∥ {self.way(drawing)}",
         )
+        if laid_off(drawing.trace.program, self.start) is not None:
+            yield self.motion_of(drawing, self.point, rate)
 
 
 def slide_image(
