@@ -25,7 +25,7 @@ from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Wording, construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.pen import PRIME, Pen, letter
-from graphkin.construction.core.plan_vector import PlanVector, foot_of
+from graphkin.construction.core.plan_vector import PlanVector, foot_of, plan_vector
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import (
     Relation,
@@ -51,7 +51,7 @@ from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.link_points import lettered, under
+from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
 from graphkin.text.markup import AND, COMMA, NOTHING, saying
@@ -145,15 +145,11 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     lean: int | None = None
     top: int | None = None
 
-    @property
-    def speed(self) -> str:
-        """Name of the velocity along the guide that it follows from."""
-        return f"v_{self.index}"
-
-    @property
-    def indexed_by(self) -> tuple[str, ...]:
-        """The point of the guide under the one that slides on it."""
-        return (lettered(under(self.point, self.guide)),)
+    def speed(self, drawing: Drawing) -> str:
+        """Name of the velocity along the guide that it follows from, as its plan has it."""
+        arrow = drawing.joins.get((self.tail, self.tip))
+        vector = plan_vector(arrow) if arrow else None
+        return vector.symbol if vector else f"v_{self.index}"
 
     def corner_letter(self, role: str) -> str:
         """One of two letters that no point bears."""
@@ -194,7 +190,8 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
                 name = f"v_{self.pin_name}" + ("" if fixed else self.pivot_name)
                 canvas.vector(name, "relative-velocity", value(self.pin), value(self.velocity))
             case "foot":
-                canvas.vector(f"2v_{self.index}", "relative-velocity", pivot, value(self.foot))
+                twice = f"2{self.speed(drawing)}"
+                canvas.vector(twice, "relative-velocity", pivot, value(self.foot))
                 canvas.point(self.letter(drawing, role), value(self.foot))
             case "edge":
                 if canvas.line():
@@ -231,7 +228,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def formula(self, drawing: Drawing) -> str:
         """2·ω·v."""
-        speed = symbol(self.speed)
+        speed = symbol(self.speed(drawing))
         return saying(f"2{rate_symbol(drawing, self.omega)}·{speed}", speed)
 
     def sentence(self, drawing: Drawing, *, first: bool) -> Wording:
@@ -256,10 +253,11 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     def fields(self, drawing: Drawing) -> dict[str, str]:
         """Its symbol, its velocity, twice that as it is set and in the plan, and the rate."""
         segment = NOTHING.join(drawing.lettered(end) for end in (self.tail, self.tip))
+        speed = symbol(self.speed(drawing))
         return {
             "a": self.symbol,
-            "v": symbol(self.speed),
-            "two": saying(f"2·{symbol(self.speed)}", symbol(self.speed)),
+            "v": speed,
+            "two": saying(f"2·{speed}", speed),
             "segment": twice_set(drawing, segment),
             "shorter": self.why_set(drawing),
             "why": self.why_computed(drawing),
@@ -292,7 +290,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         turned = drawing.rate_size(self.omega) / (drawing.fastest or 1.0)
         least = max(NOISE, min(slid, turned))
         if slid <= least:
-            yield f"{symbol(self.speed)} = 0"
+            yield f"{symbol(self.speed(drawing))} = 0"
         if turned <= least:
             yield f"{rate_symbol(drawing, self.omega)} = 0"
 
@@ -356,7 +354,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def picked_from(self, picks: Picks) -> tuple[str | None, ...]:
         """The turning of the guide, and the relative velocity."""
-        arrow = picks.arrow(self.tail, self.tip, symbol(self.speed))
+        arrow = picks.arrow(self.tail, self.tip, symbol(f"v_{self.index}"))
         return picks.rate(self.omega), arrow
 
     def shown_between(self) -> tuple[int | None, ...]:
@@ -372,7 +370,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         values = drawing.trace.values
         omega = drawing.rate_size(self.omega)
         speed = abs(values[self.tip] - values[self.tail])
-        rate, v = rate_symbol(drawing, self.omega), symbol(self.speed)
+        rate, v = rate_symbol(drawing, self.omega), symbol(self.speed(drawing))
         size = drawing.settled(2 * omega * speed)
         result = answer(drawing, size)
         figures = put_in(drawing, result, lambda w, v: 2 * w * v, omega, speed)

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.component import components
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.pen import PRIME, image_name
@@ -59,11 +58,7 @@ def explained(drawing: Drawing) -> Iterator[IndexNote]:
 
 def vectors_of(drawing: Drawing, point: str) -> Iterator[str]:
     """The vectors that bear a point's letters as index, and the letters of their feet."""
-    program = drawing.trace.program
-    for step in program.steps:
+    for step in drawing.trace.program.steps:
         vector = plan_vector(step)
         if vector is not None and point in (vector.q, vector.p):
             yield from filter(None, (vector.symbol, vector.foot))
-    for component in components(program):
-        if point in component.indexed_by:
-            yield from (component.name, component.speed)

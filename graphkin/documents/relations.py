@@ -220,16 +220,17 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
 
 
 def is_by_rate(drawing: Drawing, step: Step) -> bool:
-    """True for a whole vector that is laid off by a rate, which has a relation of its own, and
-    for what is so laid off along a guide that turns."""
-    kind = plan_vector(step) and construction(drawing.trace.program.steps[step.args[1]])
-    if sign_of(step) and not (sign_of(step) == "r" and isinstance(kind, DrivenSlide)):
+    """True for a whole vector, or what a driver gives along a guide, that is laid off by a rate,
+    which has a relation of its own.
+    """
+    if plan_vector(step) is None:
         return False
-    if isinstance(kind, TurnedAcceleration) and not kind.is_steady:
+    kind = construction(drawing.trace.program.steps[step.args[1]])
+    if isinstance(kind, DrivenSlide):
+        return kind.start == step.args[0]
+    if sign_of(step) or (isinstance(kind, TurnedAcceleration) and not kind.is_steady):
         return False
-    if not isinstance(kind, TurnedVelocity | TurnedAcceleration | DrivenSlide):
-        return False
-    return kind.start == step.args[0]
+    return isinstance(kind, TurnedVelocity | TurnedAcceleration) and kind.start == step.args[0]
 
 
 def is_by_driver(drawing: Drawing, step: Step) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from cmath import phase
-from math import cos, degrees, sin, sqrt
+from math import cos, degrees, pi, sin, sqrt
 from pathlib import Path
 
 import pytest
@@ -12,6 +12,7 @@ import pytest
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.cams.cam_relations import FORMS, of_cams
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import constructions
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet_documents import drawings_of, proved
@@ -110,6 +111,23 @@ def test_the_centre_under_a_flat_face_stands_where_the_law_says():
     assert found == pytest.approx(spot(centre.name), abs=1e-9)
     assert abs(found - spot(cam.pivot)) == pytest.approx(sqrt(rate**2 + bend**2))
     assert "√" in how
+
+
+def test_a_reader_of_the_data_reckons_how_far_a_plate_has_swung_its_lever():
+    """From where the coordinate is zero, from where the law counts it, and how far it goes."""
+    drawing = drawings("cam-plate-lever")[0]
+    told = " ".join(plain(each) for each in given(drawing))
+    start, sign = re.search(
+        r"C slides .*\(positive from (\w+) to the (left|right)\)", told
+    ).groups()
+    ahead, law = {"left": -1, "right": 1}[sign], r"coordinate of C, (\w+), counted from (\d+) mm"
+    way, zero = re.search(law, told).groups()
+    span, rise = map(float, re.search(r"to (\d+) mm rise of (\d+)° \(cycloidal\)", told).groups())
+    gone = 1000 * ahead * (drawing.standing.spot("C") - drawing.standing.spot(start)).real
+    part = (gone - float(zero)) * {"forwards": 1, "backwards": -1}[way] / span
+    swing = rise * (part - sin(2 * pi * part) / (2 * pi))
+    centre, *_ = constructions(drawing.trace.program, CurvatureCentre)
+    assert swing == pytest.approx(degrees(drawing.trace.values[centre.lift]), abs=1e-9)
 
 
 def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follows():

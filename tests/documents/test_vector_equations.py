@@ -178,6 +178,20 @@ def test_what_a_driver_gives_along_a_guide_is_told_once_and_as_given(name):
                 continue
             found = [r for r in told if r.symbols == f"*{letter}*_{{{driver_index(driver)}}}"]
             assert [float(r.result) for r in found] == [pytest.approx(size, rel=1e-3)], found
+            measured = [r for r in told if r.left == found[0].left and "*k*_" in r.symbols]
+            assert tried or not measured  # trial plans are divided, and what they give read off
+
+
+def test_the_acceleration_of_the_foot_of_a_cylinder_is_told_before_that_of_its_pin():
+    """It is the sum of what is laid off for it, of which each has its size and direction."""
+    _, drawing = drawings("cylinders-two")
+    first, second, _ = equations(drawing)
+    for found, name in ((first, "A2"), (second, "D4")):
+        (terms,) = found.sums
+        index = name + name[0]
+        assert found.whole.symbol == symbol(f"a_{name}")
+        assert [t.symbol for t in terms] == [symbol(f"a_{index}^{sign}") for sign in "cr"]
+        assert [t.known for t in terms] == [2, 2] and symbol(f"v_{name}") in terms[0].note
 
 
 @pytest.mark.parametrize("name", ["platform-3rpr", "platform-six"])

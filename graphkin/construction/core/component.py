@@ -111,16 +111,6 @@ class Component(Construction, frozen=True, kw_only=True):
         return f"a_{self.index}^{self.sign}"
 
     @property
-    def speed(self) -> str:
-        """Name of the velocity that it follows from."""
-        return ""
-
-    @property
-    def indexed_by(self) -> tuple[str, ...]:
-        """The letters of the points of links under others in its index."""
-        return ()
-
-    @property
     def symbol(self) -> str:
         """Markup of its symbol."""
         return symbol(self.name)

@@ -68,7 +68,8 @@ def positive(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for the positive sense of a guide that the data or the answers count along."""
     scene, words = drawing.scene, drawing.words
     driven = any(d.kind == "slide" and d.link == link.name for d in scene.drivers)
-    counted = driven or link.cam is not None or link.name in scene.ask.slides
+    plate = any(cam.slides and cam.on == link.name for cam in scene.cams.values())
+    counted = driven or link.cam is not None or plate or link.name in scene.ask.slides
     if slide is not link.slides[0] or not counted:
         return ""
     if slide.along:
