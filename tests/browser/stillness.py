@@ -1,18 +1,12 @@
-"""How still a page stays while its driver moves, and how long a frame takes meanwhile.
+"""How still a page stays while its driver moves.
 
-``python -m tests.bench.stillness`` drives pages through their range by single degrees in Chromium
-at 1440 × 900 and counts labels that leap more than 12 dots at one degree, positions in which two
-labels lie on one another, and labels that fade for want of room, by a clock that counts frames, so
-that they hang on no machine; then milliseconds from one frame to the next while the mouse drags the
-crank's pin, beside those of an empty loop in the same run, and the load of the machine.
+A page is driven through its range by single degrees in Chromium, and counted are labels that leap
+more than 12 dots at one degree, positions in which two labels lie on one another, and labels that
+fade for want of room, by a clock that counts frames, so that they hang on no machine.
 """
 
 from __future__ import annotations
 
-import os
-import shutil
-import statistics
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +14,7 @@ from graphkin.mechanism import load
 from graphkin.web.step_page import step_page
 from tests.documents.sheet_tools import mechanism_named
 
-SCENES = ("pump", "gears-ring", "stephenson-3")
 STEP = 20
-SIZE = {"width": 1440, "height": 900}
 BY_FRAMES = """(() => {
   let now = 0, last = 0;
   const due = new Map(), paint = requestAnimationFrame.bind(window);
@@ -77,30 +69,6 @@ LEAPS = """async part => {
   }
   return found;
 }"""
-WAY = """() => {
-  const motion = graphkinMotion, svg = document.querySelector(".sheet:not([hidden]) .view > svg");
-  const sheet = [...document.querySelectorAll(".sheet")].findIndex(one => !one.hidden);
-  const from = motion.start, place = svg.getScreenCTM();
-  const [id] = motion.grips[sheet].find(([id, , driven]) => driven && motion.place(id, from));
-  const half = Math.min(40, motion.high - from, from - motion.low);
-  return Array.from({ length: 150 }, (_, i) => {
-    const [u, v] = motion.place(id, from + half * Math.sin(2 * Math.PI * i / 150));
-    const { x, y } = new DOMPoint(u, v).matrixTransform(place);
-    return [x, y];
-  });
-}"""
-"""The way of the pin that the driver turns, to and fro, in dots of the window."""
-RECORD = """() => {
-  const times = window.frameTimes = [];
-  let last = performance.now();
-  const next = now => {
-    times.push(now - last);
-    last = now;
-    window.recording = requestAnimationFrame(next);
-  };
-  window.recording = requestAnimationFrame(next);
-}"""
-RECORDED = "() => { cancelAnimationFrame(window.recording); return window.frameTimes.slice(5); }"
 
 
 def page_of(name: str) -> str:
@@ -115,52 +83,3 @@ def counted(page: Any, path: Path, part: float = 1.0) -> dict[str, int]:
     page.goto(f"{path.as_uri()}#step={STEP}")
     found: dict[str, int] = page.evaluate(LEAPS, part)
     return found
-
-
-def frames(page: Any, dragging: bool) -> tuple[float, float, int]:
-    """Median and 95th percentile of milliseconds from one frame to the next, and how many there
-    were, while the mouse leads the crank's pin to and fro, or goes the same way and holds nothing.
-    """
-    way = page.evaluate(WAY)
-    page.mouse.move(*way[0])
-    if dragging:
-        page.mouse.down()
-    page.evaluate(RECORD)
-    for at in way[1:]:
-        page.mouse.move(*at)
-    times = sorted(page.evaluate(RECORDED))
-    page.mouse.up()
-    page.wait_for_timeout(500)
-    return statistics.median(times), times[int(0.95 * len(times))], len(times)
-
-
-def main() -> None:
-    """Print all counts and times."""
-    from playwright.sync_api import sync_playwright
-
-    from tests.browser.opening import ARGS
-
-    with sync_playwright() as driver, tempfile.TemporaryDirectory() as folder:
-        browser = driver.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
-        page = browser.new_page(viewport=SIZE, reduced_motion="reduce")
-        for name in SCENES:
-            path = Path(folder, f"{name}.html")
-            path.write_text(page_of(name), encoding="utf-8")
-            print(name, counted(page, path))
-            timed = browser.new_page(viewport=SIZE, reduced_motion="reduce")
-            for step in (9, STEP):
-                timed.goto("about:blank")
-                timed.goto(f"{path.as_uri()}#step={step}")
-                timed.wait_for_timeout(500)
-                for dragging in (False, True):
-                    middle, late, count = frames(timed, dragging)
-                    what = "dragging the crank's pin" if dragging else "an empty loop"
-                    told = f"{middle:.1f}, 95 % {late:.1f} ms of {count}"
-                    print(f"  step {step}, {what}: a frame {told}")
-            timed.close()
-        print(f"load of the machine: {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
-        browser.close()
-
-
-if __name__ == "__main__":
-    main()
