@@ -9,8 +9,8 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.web.step_page import step_page
-from tests.bench.stillness import counted, page_of
 from tests.browser.opening import Opened
+from tests.browser.stillness import counted, page_of
 from tests.chosen import EVERY
 from tests.documents.sheet_tools import mechanism_named
 

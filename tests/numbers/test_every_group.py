@@ -1,4 +1,6 @@
-"""Every group in every number kind: all that the shipped labs and scenes can be asked.
+"""Every group on arrays, by source and in decimals: all that the labs and scenes can be asked.
+
+Doubles one by one and balls are held to their bounds in tests/accuracy/test_agreement.py.
 
 What a kind owes is measured in 100 digits: every number that a step gives is moved by a relative
 unit, to any side, and by so much as an answer moves it may be off in the units of the kind.
@@ -14,13 +16,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import run
 from graphkin.construction.higher_class.closure_solver import ClosureSolver
-from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.mechanism import Mechanism, load
-from graphkin.numbers.arithmetic import FLOAT, is_decimal
-from graphkin.numbers.kinds import ball_kind, decimal_kind
+from graphkin.numbers.arithmetic import is_decimal
+from graphkin.numbers.kinds import decimal_kind
 from graphkin.numbers.plane import Ratio
 from tests.chosen import CHOSEN, FOLDER
 from tests.numbers import number_kinds as nk
@@ -30,15 +30,6 @@ MOVES = 6
 """Runs with moved numbers; the largest move of an answer counts."""
 ROUNDINGS = 4
 """Units of its moves by which an answer may be off: a step rounds more than once."""
-NARROW = {False: 1e4, True: 1e7}
-"""Units of its moves by which a ball may be wide, without and with trials.
-
-It adds up what may cancel, in a trial twice: in what is tried and in what is drawn from it.
-"""
-WIDER = {"plates-ring": 1e3, "plates-coupled": 3, "platform-six": 3, "wheel-in-ring-rod": 3}
-"""How many times wider it may be where trials are tried within trials, or much is added up."""
-NOUGHT = 1e-35
-"""A number and its moves below which it is nought but for the rounding of the reference."""
 ENDLESS = 1e9
 """Metres beyond which a centre counts as at infinity and is not compared."""
 UNTOLD = 1e12
@@ -63,11 +54,6 @@ def of_higher_class(name: str) -> bool:
     """Whether a group is closed by trials, which are made on arrays of doubles."""
     steps = mechanism(name).program.steps
     return any(step.action and isinstance(step.action.value, ClosureSolver) for step in steps)
-
-
-def has_trials(name: str) -> bool:
-    """Whether the plans of a group are divided by two trials."""
-    return any(constructions(mechanism(name).program, TwoTrials))
 
 
 def moved(value: Any, chance: random.Random) -> Any:
@@ -149,12 +135,6 @@ def test_most_answers_are_compared(name):
     assert sum(true is not None for true in reference) >= 0.8 * len(reference)
 
 
-@every_mechanism
-def test_a_mechanism_in_floats(name):
-    found = nk.by_one(work(name), FLOAT, {})
-    held(name, found, nk.UNITS["float"])
-
-
 @pytest.mark.parametrize("kind", nk.ARRAYS)
 @every_mechanism
 def test_a_mechanism_on_arrays_keeps_their_type(name, kind):
@@ -196,23 +176,3 @@ def test_a_mechanism_in_decimals(name, digits, monkeypatch):
     found = nk.by_one(work(name), decimal_kind(digits), {})
     monkeypatch.undo()
     held(name, found, 10.0**-digits)
-
-
-@pytest.mark.parametrize("bits", nk.BITS)
-@every_mechanism
-def test_a_mechanism_in_balls_contains_the_values_and_is_narrow(name, bits, monkeypatch):
-    reference, moves = owed(name)
-    if not of_higher_class(name):
-        monkeypatch.setitem(sys.modules, "numpy", None)
-    kind, widest = ball_kind(bits), NARROW[has_trials(name)] * WIDER.get(name, 1)
-    found = nk.by_one(work(name), kind, {})
-    monkeypatch.undo()
-    with kind.working():
-        for value, true, move in zip(points_of(found), reference, moves, strict=True):
-            if true is not None:
-                ball = nk.as_ball(value)
-                assert nk.contains(ball, true)
-                # what is nought for a reason that no ball sees is as wide as other answers are
-                scale = move + float(abs(true))
-                scale = scale if scale > NOUGHT else max(moves)
-                assert nk.width(ball) <= widest * 2.0**-bits * scale

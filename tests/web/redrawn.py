@@ -120,22 +120,17 @@ def farthest(left: Sequence[Mark], pins: Mapping[str, Sequence[float]]) -> float
 
 
 def numbers(mark: Mark) -> list[float]:
-    """What places a mark: the ends of lines, corners, middles, of an arc what its path has."""
+    """What places a mark: the ends of lines, corners, middles; of an arc what its path has: start,
+    both radii, whether it is more than half a turn, whether it goes clockwise, end."""
     if isinstance(mark, LineMark):
         return [mark.x1, mark.y1, mark.x2, mark.y2]
     if isinstance(mark, CircleMark):
         return [mark.cx, mark.cy]
     if isinstance(mark, Arc):
-        return arc_numbers(mark)
+        large, clockwise = float(abs(mark.end - mark.start) > 180), float(mark.end < mark.start)
+        return [*mark.at(mark.start), mark.r, mark.r, large, clockwise, *mark.at(mark.end)]
     assert not isinstance(mark, Text)
     return [number for point in mark.points for number in point]
-
-
-def arc_numbers(arc: Arc) -> list[float]:
-    """An arc as a path has it: its start, both radii, whether it is more than half a turn, whether
-    it goes clockwise, its end."""
-    large, clockwise = float(abs(arc.end - arc.start) > 180), float(arc.end < arc.start)
-    return [*arc.at(arc.start), arc.r, arc.r, large, clockwise, *arc.at(arc.end)]
 
 
 def kind_of(mark: Mark) -> tuple[str, str, str, int | None]:
@@ -150,12 +145,10 @@ def apart(one: Sequence[float], other: Sequence[float]) -> float:
     return max(abs(a - b) for a, b in zip(one, other, strict=True))
 
 
-def off_by(kind: str, cls: str) -> Callable[[Sequence[float], Sequence[float]], float]:
-    """What tells how far marks of a kind and a class lie apart."""
+def off_by(cls: str) -> Callable[[Sequence[float], Sequence[float]], float]:
+    """What tells how far marks of a class lie apart."""
     if cls in ("plate", "outline"):
         return around_apart
-    if kind == "Polyline":
-        return round_apart
     return {"ground": strokes_apart, "ray": rays_apart}.get(cls, apart)
 
 
@@ -163,14 +156,6 @@ def around_apart(one: Sequence[float], other: Sequence[float]) -> float:
     """The same of two polygons, whose corners may be counted from any one."""
     turned = (apart([*one[i:], *one[:i]], other) for i in range(0, len(one), 2))
     return min(turned, default=0.0)
-
-
-def round_apart(one: Sequence[float], other: Sequence[float]) -> float:
-    """The same of two broken lines, or of one and a circle, given by its centre and radius."""
-    circle, line = sorted((one, other), key=len)
-    if len(circle) != 3 or len(line) == 3:
-        return apart(one, other)
-    return float(abs(abs(places(line) - complex(*circle[:2])) - circle[2]).max())
 
 
 def rays_apart(one: Sequence[float], other: Sequence[float]) -> float:

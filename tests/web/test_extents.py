@@ -16,8 +16,8 @@ from graphkin.web.field_extents import box_of, room_of
 from graphkin.web.step_page import step_page
 from tests.browser.opening import Opened
 from tests.chosen import EVERY
-from tests.web.laid import laid
-from tests.web.test_moving import LIMIT, fields, named, page_of
+from tests.web.test_moving import LIMIT, fields, marks_of, named, page_of
+from tests.web.written import Numbers, ran
 
 SCENES = ("pump", "gears-ring", "slotted-lever")
 PLACES = (0.05, 0.17, 0.3, 0.43, 0.57, 0.7, 0.83, 0.95)
@@ -44,14 +44,21 @@ def places_of(name: str) -> list[float]:
     return [reach.low + share * (reach.high - reach.low) for share in PLACES]
 
 
-def lines_and_points(name: str, x: float) -> Iterator[tuple[str, list[Any], list[Any], bool]]:
+def everywhere(page: Any, name: str) -> Iterator[tuple[float, dict[str, Numbers]]]:
+    """Each of them, with the marks that the page has written there."""
+    places = places_of(name)
+    for x, here in zip(places, ran(page, page_of(name)[1], places), strict=True):
+        yield x, marks_of(name, here)
+
+
+def lines_and_points(
+    name: str, x: float, here: dict[str, Numbers]
+) -> Iterator[tuple[str, list[Any], list[Any], bool]]:
     """Of each construction line its parts as drawn, and the circles of the points that it makes.
 
     The last is true where all of the line is drawn and not only what lies beyond its points.
     """
     sheets, found = page_of(name)
-    here = laid(found, x)
-    assert here is not None
     kinds = {record[0]: record for record in found.data["marks"]}
     every = list(fields(sheets))
     for s, sheet in enumerate(sheets):
@@ -83,11 +90,11 @@ def off(part: list[float], point: list[float]) -> float:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_every_line_ends_at_the_points_it_belongs_to(name):
+def test_every_line_ends_at_the_points_it_belongs_to(page, name):
     """All of a line holds each of its points; of one drawn at its ends, each end begins at one."""
     compared = 0
-    for x in places_of(name):
-        for where, parts, on, whole in lines_and_points(name, x):
+    for x, here in everywhere(page, name):
+        for where, parts, on, whole in lines_and_points(name, x, here):
             if whole:
                 for point in on:
                     assert min(off(part, point) for part in parts) < LIMIT, where
@@ -103,9 +110,7 @@ def test_what_must_be_seen_lies_in_the_extent(page, name):
     """Pins and points of both fields, as far as the field can grow; it is never larger."""
     sheets, found = page_of(name)
     boxes = page.evaluate(EXTENTS, [found.source, places_of(name)])
-    for x, sheets_here in zip(places_of(name), boxes, strict=True):
-        here = laid(found, x)
-        assert here is not None
+    for (x, here), sheets_here in zip(everywhere(page, name), boxes, strict=True):
         for mark_id, mark, s, side in fields(sheets):
             left, top, width, height = sheets_here[s][side]
             room = room_of(field_of(sheets[s], side))

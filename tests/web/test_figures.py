@@ -11,8 +11,8 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.quantity import expression
 from graphkin.web.figures import figures
 from tests.documents.sheet_tools import FOLDER, mechanism_named
-from tests.web.laid import laid
-from tests.web.test_moving import LABS, compared, named, page_of
+from tests.web.test_moving import LABS, compared, marks_of, named, page_of
+from tests.web.written import ran
 
 PARAMETERS = (
     ("pump", {"n": 12}),
@@ -48,25 +48,28 @@ def led(mechanism: Mechanism, number: int, way: float) -> Mechanism:
 
 
 @pytest.mark.parametrize(("name", "settings"), PARAMETERS)
-def test_a_page_draws_other_parameters_as_python_does(name, settings):
-    _, found = page_of(name)
-    other = changed(name, settings)
-    marks = laid(found, found.driven.start, {f"figure {k}": v for k, v in settings.items()})
-    assert marks is not None
-    assert not list(compared(name, found.driven.start, dict(marks), other))
+def test_a_page_draws_other_parameters_as_python_does(page, name, settings):
+    figures = {f"figure {parameter}": value for parameter, value in settings.items()}
+    assert not list(differences(page, name, figures, changed(name, settings)))
+
+
+def differences(page: Any, name: str, figures: dict[str, float], other: Mechanism) -> Any:
+    """What a page with figures changed draws otherwise than Python draws another mechanism."""
+    found = page_of(name)[1]
+    start = found.driven.start
+    (here,) = ran(page, found, [start], figures)
+    return compared(name, start, marks_of(name, here), other)
 
 
 @pytest.mark.parametrize("name", DRIVERS)
-def test_each_of_several_drivers_is_led_alone(name):
+def test_each_of_several_drivers_is_led_alone(page, name):
     _, found = page_of(name)
     own = [each for each in found.driven.figures if each.driver is not None]
     assert len(own) == len(named(name).scene.drivers) > 1
     for number, figure in enumerate(own):
         way = LED if figure.unit == "deg" else (figure.high - figure.low) * LED / 100
-        marks = laid(found, found.driven.start, {figure.name: way})
-        assert marks is not None
         other = led(named(name), number, way)
-        assert not list(compared(name, found.driven.start, dict(marks), other)), figure.name
+        assert not list(differences(page, name, {figure.name: way}, other)), figure.name
 
 
 @pytest.mark.parametrize("name", DRIVERS)

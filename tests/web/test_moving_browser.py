@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import json
-import re
-from collections.abc import Mapping, Sequence
-from functools import cache
-from itertools import combinations
+from collections.abc import Iterator, Sequence
+from itertools import combinations, product
 from typing import Any
 
 import pytest
-from msgspec.structs import replace
 
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.tape_outputs import runner
-from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
-from graphkin.web.moving import Moving
-from tests.chosen import EVERY
-from tests.web.laid import Laid, laid
-from tests.web.test_moving import LIMIT, compared, fields, page_of
+from graphkin.drawing.marks import LineMark
+from tests.web.test_moving import LIMIT, fields, page_of
+from tests.web.written import ran, read, signed
 
 SCENES = (
     "pump",
@@ -35,18 +30,6 @@ SCENES = (
 PLACES = (0.04, 0.2, 0.36, 0.52, 0.68, 0.84, 0.97)
 RAN: dict[str, list[dict[str, Any]]] = {}
 """What the page of each scene did, once it has run."""
-RUN = """([source, places]) => {
-  const motion = new Function(source + ';return graphkinMotion')();
-  return places.map((x) => {
-    const marks = {};
-    const mark = (id) => ({
-      setAttribute: (name, value) => { (marks[id] = marks[id] || {})[name] = value; },
-      removeAttribute: () => { marks[id] = marks[id] || {}; },
-    });
-    const { ok } = motion.set(x, mark);
-    return { ok, marks, values: motion.values(x), margins: motion.margins(x) };
-  });
-}"""
 LARGER = """([source, x, times]) => {
   const motion = new Function(source + ';return graphkinMotion')();
   return [undefined, times].map((asked) => {
@@ -58,6 +41,12 @@ LARGER = """([source, x, times]) => {
     return marks;
   });
 }"""
+LABELS = """([source, x, sheet, side]) => {
+  const motion = new Function(source + ';return graphkinMotion')();
+  motion.read(0, x);
+  return motion.labels(sheet, side).map(({ id, half, spots }) => [id, half, spots]);
+}"""
+"""The id of each label of a field, half its size, and where it may stand, its own place first."""
 DRAWN = """([source, svg, x]) => {
   document.body.innerHTML = svg;
   const motion = new Function(source + ';return graphkinMotion')();
@@ -68,101 +57,57 @@ DRAWN = """([source, svg, x]) => {
 }"""
 
 
-def run(page: Any, name: str, places: Sequence[float]) -> list[dict[str, Any]]:
-    """What the page of a scene does at some places of its driver."""
-    found: list[dict[str, Any]] = page.evaluate(RUN, [page_of(name)[1].source, list(places)])
-    return found
-
-
 def everywhere(page: Any, name: str) -> list[tuple[float, dict[str, Any]]]:
-    """The same at all places that are looked at, each with its place; run once."""
-    if name not in RAN:
-        RAN[name] = run(page, name, places_of(name))
-    return [*zip(places_of(name), RAN[name], strict=True)]
-
-
-@cache
-def laid_at(name: str, x: float) -> Mapping[str, Laid]:
-    """Where the records of a page lay its marks at a place of the driver."""
-    found = laid(page_of(name)[1], x)
-    assert found is not None
-    return found
-
-
-def places_of(name: str) -> list[float]:
-    """Places within the range of a scene, that where it stands first."""
+    """Some places within the range of a scene, that where it stands first, each with what the page
+    does there; run once."""
     reach, driven = page_of(name)[1].reach, page_of(name)[1].driven
-    return [driven.start, *(reach.low + share * (reach.high - reach.low) for share in PLACES)]
+    places = [driven.start, *(reach.low + share * (reach.high - reach.low) for share in PLACES)]
+    if name not in RAN:
+        RAN[name] = ran(page, page_of(name)[1], places)
+    return [*zip(places, RAN[name], strict=True)]
 
 
-def read(mark: Mark | None, written: Mapping[str, str]) -> list[float] | None:
-    """The numbers of a mark by its attributes; None where it is hidden, or a text."""
-    if written.get("visibility") == "hidden" or isinstance(mark, Text):
-        return None
-    if isinstance(mark, LineMark) or (mark is None and "x1" in written):
-        return [float(written[name]) for name in ("x1", "y1", "x2", "y2")] if written else []
-    if isinstance(mark, CircleMark):
-        return [float(written[name]) for name in ("cx", "cy")] if written else []
-    if isinstance(mark, Arc):
-        numbers = [float(n) for n in re.findall(r"-?\d+\.?\d*", written["d"])]
-        return [*numbers[:4], *numbers[5:]]  # without the turn of its axes
-    return [float(number) for number in re.split("[ ,]", written["points"])] if written else []
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_a_browser_draws_as_python_does(page, name):
-    """Coordinates of every line, circle, arc and vector within 0.01 mm of a fresh drawing."""
-    by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
-    for x, found in everywhere(page, name)[:: 1 if EVERY else 3]:
-        assert found["ok"]
-        marks = {i: read(by_id.get(i), written) for i, written in found["marks"].items()}
-        assert not list(compared(name, x, marks))
+def texts(name: str, here: dict[str, Any]) -> Iterator[tuple[list[Any], complex]]:
+    """The record of each text that shows and moves, and where the page has put its middle."""
+    for record in page_of(name)[1].data["marks"]:
+        mark_id, kind, *_ = record
+        written = here["marks"][mark_id]
+        if kind in "tb" and written.get("visibility") != "hidden":
+            yield record, complex(*record[7:9]) + complex(*signed(written["transform"]))
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_texts_move_as_their_bindings_say(page, name):
-    """A letter's shift is that of its record, to the digits that are written, or lays it as far on
-    the other side of what it names."""
-    records = {record[0]: record for record in page_of(name)[1].data["marks"]}
-    by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
-    for x, found in everywhere(page, name):
-        shifts = laid_at(name, x)
-        for mark_id, written in found["marks"].items():
-            if isinstance(by_id.get(mark_id), Text) and "transform" in written:
-                if written.get("visibility") == "hidden":
-                    continue
-                shift = [float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"])]
-                if shift != pytest.approx(shifts[mark_id], abs=LIMIT):
-                    other = overturned(page_of(name)[1], records[mark_id], x)
-                    assert shift == pytest.approx(other, abs=LIMIT)
-
-
-def overturned(moving: Moving, record: list[Any], x: float) -> list[float] | None:
-    """The shift of a text on the other side of what it names."""
-    name, kind, shown, o, d, a, b, *rest = record
-    other = [name, kind, shown, o, d, a if kind == "b" else -a, -b, *rest]
-    found = laid(replace(moving, data=moving.data | {"marks": [other]}), x)
-    return None if found is None else found[name]
+def test_a_text_goes_with_what_it_names(page, name):
+    """A letter stands in the pose of its body as it was drawn, or just across; one beside a segment
+    stays upright, its box as far off as it was drawn."""
+    for _, here in everywhere(page, name):
+        y = here["y"]
+        for (_, kind, _, o, d, along, off, _, _, *box), middle in texts(name, here):
+            pose = complex(y[d], y[d + 1])
+            place = (middle - complex(y[o], y[o + 1])) / pose
+            if kind == "t":
+                drawn = complex(along, off)
+                assert min(abs(place - drawn), abs(place + drawn)) < LIMIT
+            else:
+                width, height, room = box
+                corners = (complex(u * width, v * height) for u, v in product((-1, 1), repeat=2))
+                across = [(place + corner / pose).imag for corner in corners]
+                assert place.real == pytest.approx(along, abs=LIMIT)
+                assert min(abs(min(across) - room), abs(-max(across) - room)) < LIMIT
 
 
 @pytest.mark.parametrize("name", ["pump", "slotted-lever", "gears-ring"])
 def test_fewer_labels_lie_on_one_another(page, name):
     """Than if each kept its side: at most half as many of all places."""
-    found, before, after = page_of(name)[1], 0, 0
+    before = after = 0
+    sides = [*product(range(len(page_of(name)[0])), (0, 1))]
     for x, here in everywhere(page, name)[1:]:
-        plain = laid_at(name, x)
-        for field in (field for sheet in found.data["fields"] for field in sheet):
-            first, last = [], []
-            for i, across, down, _ in field["labels"]:
-                name_, _, *rest = found.data["marks"][i]
-                u, v = rest[5], rest[6]
-                written, shift = here["marks"][name_], plain[name_]
-                if shift is not None:
-                    first.append((u + shift[0], v + shift[1], across, down))
-                if written.get("visibility") != "hidden":
-                    du, dv = (float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"]))
-                    last.append((u + du, v + dv, across, down))
-            before, after = before + hits(first), after + hits(last)
+        shown = {record[0]: middle for record, middle in texts(name, here)}
+        for sheet, side in sides:
+            own = page.evaluate(LABELS, [page_of(name)[1].source, x, sheet, side])
+            before += hits([(*spots[0], *half) for _, half, spots in own if spots])
+            boxes = [(shown[i].real, shown[i].imag, *half) for i, half, _ in own if i in shown]
+            after += hits(boxes)
     assert before > 12 and after < before / 2
 
 
@@ -201,7 +146,7 @@ def test_read_outs_and_margins_are_those_of_the_sheet(page, name):
 def test_beyond_its_range_nothing_is_touched(page):
     """Past a dead point the marks stay, and the page is told so."""
     reach = page_of("pump")[1].reach
-    inside, beyond = run(page, "pump", [reach.high - 1e-6, reach.high + 0.01])
+    inside, beyond = ran(page, page_of("pump")[1], [reach.high - 1e-6, reach.high + 0.01])
     assert inside["ok"] and not beyond["ok"]
     assert not beyond["marks"] and not beyond["values"] and not beyond["margins"]
 
@@ -255,22 +200,6 @@ def test_names_cannot_leave_the_script():
     assert "<" not in text and json.loads(text)["name"] == "*φ*"
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_bodies_move_as_their_bindings_say(page, name):
-    """Teeth, strokes, plates and slots lie where their records lay them."""
-    by_id = {mark_id: mark for mark_id, mark, _, _ in fields(page_of(name)[0])}
-    for x, found in everywhere(page, name):
-        wanted = laid_at(name, x)
-        for mark_id, written in found["marks"].items():
-            if isinstance(by_id.get(mark_id), Text):
-                continue
-            at = read(by_id.get(mark_id), written)
-            if at and wanted[mark_id]:
-                assert at == pytest.approx(wanted[mark_id], abs=LIMIT), mark_id
-            else:
-                assert not at and not wanted[mark_id], mark_id
-
-
 @pytest.mark.parametrize("name", ["pump", "slotted-lever"])
 def test_in_one_field_labels_stand_farther_off_and_heads_are_larger(page, name):
     """What keeps its size on the screen is drawn larger where a field is shown smaller; what is
@@ -291,10 +220,7 @@ def test_in_one_field_labels_stand_farther_off_and_heads_are_larger(page, name):
             heads += long(ends[1]) > long(ends[0])
         elif kind == "t" and i in off and before.get("transform") and after.get("transform"):
             a, b = rest[2:4]
-            shift, farther = (
-                [float(n) for n in re.findall(r"-?\d+\.?\d*", written["transform"])]
-                for written in (before, after)
-            )
+            shift, farther = (signed(written["transform"]) for written in (before, after))
             more = abs(complex(*shift) - complex(*farther)) / abs(complex(a, b))
             assert min(abs(more - 2), abs(more - 4)) < 0.01  # 4 if it is now on the other side
             letters += 1

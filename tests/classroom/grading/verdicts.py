@@ -1,19 +1,10 @@
-"""How many verdicts of the marking are those of the rules, over sets of every kind.
-
-``python -m tests.classroom.grading.verdicts`` tries every variant of three labs, twice each set of
-answers at random, on all cores, also with forms of which half the fields earn nothing; numbers
-after it are the only variants. It prints the share of each kind, and every verdict that is another.
-"""
+"""The verdicts of the marking beside those of the rules, over sets of answers of every kind."""
 
 from __future__ import annotations
 
-import sys
-from collections import Counter
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
 
 import numpy as np
 
@@ -22,8 +13,6 @@ from graphkin.classroom.grading.marking import Marker
 from tests.classroom.grading import hand
 from tests.classroom.grading.independent import MORE, Set, Task, sets
 from tests.classroom.grading.students import marker_with, taker
-
-SEEDS = 2
 
 
 @dataclass(frozen=True)
@@ -75,30 +64,3 @@ def of_set(marker: Marker, task: Task, kind: str, found: Set, where: str) -> Ite
             share = float(mark.earned / mark.points)
             reason = f"{mark.status.value} {mark.source} {mark.slip}".strip()
             yield Verdict(kind, f"{where} {field}", found.texts[field], earns, share, reason)
-
-
-def tried(case: tuple[str, int, int, bool]) -> list[Verdict]:
-    """The verdicts of one form, for a process."""
-    return list(verdicts(*case))
-
-
-def main() -> None:
-    """Print the share of verdicts that are right, and every other."""
-    numbers = [int(each) for each in sys.argv[1:]] or range(1, 31)
-    with ProcessPoolExecutor() as pool:
-        cases = product(hand.DRAW, numbers, range(SEEDS), (False, True))
-        every = [each for many in pool.map(tried, cases) for each in many]
-    for each in every:
-        if not each.is_right:
-            print(each.kind, each.where, each.answer, each.earns, each.found, each.reason, sep="\t")
-    right, count = Counter(e.kind for e in every if e.is_right), Counter(e.kind for e in every)
-    for kind in count:
-        print(
-            f"{kind:28} {right[kind]:6} of {count[kind]:6}  {100 * right[kind] / count[kind]:.2f} %"
-        )
-    share = 100 * right.total() / count.total()
-    print(f"all {right.total()} of {count.total()}  {share:.2f} %")
-
-
-if __name__ == "__main__":
-    main()
