@@ -10,7 +10,7 @@ from graphkin.accuracy.compared_answers import Reference
 from graphkin.accuracy.methods import batch_work, can_be_emitted, variants_of
 from graphkin.accuracy.stopwatch import Effort, Stopwatch, Work
 from graphkin.construction.core.program import Target
-from graphkin.construction.core.quantities import BY_TARGET, KINDS, Sort, Whose
+from graphkin.construction.core.quantities import BY_TARGET, KINDS
 from graphkin.construction.core.run import run
 from graphkin.construction.core.timing import Timing
 from graphkin.construction.tape.batch_runner import Way
@@ -61,7 +61,7 @@ def scope_of(target: Target) -> str | None:
     quantity = BY_TARGET.get(target[0])
     if quantity is None:
         return None
-    in_link = quantity.whose is Whose.LINK and quantity.sort is Sort.PLACE
+    in_link = quantity.whose == "links" and quantity.sort == "place"
     return CENTRES if in_link else SCOPES[quantity.kind]
 
 

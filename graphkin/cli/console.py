@@ -42,12 +42,44 @@ READING = "graphkin.scene"
 """Where the context of a command keeps how its scene was called."""
 
 
-class CommandGroup(click.Group):
+class Command(click.Command):
+    """A command that says in English how to ask for help.
+
+    The option that click adds looks for a translation, with all that knows of languages.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs | {"add_help_option": False})
+        self.params.append(
+            told_at_once("-h", "--help", help="this message", what=click.Context.get_help)
+        )
+
+
+def told_at_once(*names: str, help: str, what: Callable[[click.Context], str]) -> click.Option:
+    """An option that prints a text, whatever else is written, and ends the command."""
+
+    def tell(context: click.Context, option: click.Parameter, asked: bool) -> None:
+        if asked and not context.resilient_parsing:
+            click.echo(what(context))
+            context.exit()
+
+    return click.Option(
+        names,
+        is_flag=True,
+        expose_value=False,
+        is_eager=True,
+        help=f"Show {help} and exit.",
+        callback=tell,
+    )
+
+
+class CommandGroup(Command, click.Group):
     """A group of commands that never shows a traceback and knows mistyped commands.
 
     ``later`` names the modules of commands that are imported when they are called.
     """
 
+    command_class = Command
     later: ClassVar[Mapping[str, str]] = {}
 
     def main(self, *args: Any, **kwargs: Any) -> Any:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphkin import __version__
-from graphkin.cli.console import FAILED, CommandGroup, complain, say
+from graphkin.cli.console import FAILED, CommandGroup, complain, say, told_at_once
 from graphkin.cli.options import leave, mechanism_of, scales_of, scene_argument, tell
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ LATER = {
 }
 """The commands of other modules and where they stand."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
+VERSION = f"graphkin, version {__version__}"
 
 
 class Commands(CommandGroup):
@@ -45,8 +46,12 @@ class Commands(CommandGroup):
     later = LATER
 
 
-@click.group(cls=Commands, invoke_without_command=True, context_settings=HELP)
-@click.version_option(__version__, "-V", "--version", prog_name="graphkin")
+@click.group(
+    cls=Commands,
+    invoke_without_command=True,
+    context_settings=HELP,
+    params=[told_at_once("-V", "--version", help="the version", what=lambda context: VERSION)],
+)
 @click.pass_context
 def app(context: click.Context) -> None:
     """Draw the velocity and acceleration plans of a planar mechanism to scale, step by step, as a

@@ -307,8 +307,7 @@ def determined(scene: Scene, loops: Equations, group: Group, taken: int) -> bool
     thrown = np.random.default_rng(7).uniform(-1, 1, (1, part.unknown_count)) * part.columns
     thrown = led_together(part, thrown)
     with np.errstate(all="ignore"):
-        jacobian = part.jacobian(part.chains.at(thrown)) * part.columns[:, None, :]
-    jacobian = (jacobian / part.rows[:, :, None])[0][:, moving]
+        jacobian = part.scaled_jacobian(part.chains.at(thrown))[0][:, moving]
     if jacobian.shape[0] < jacobian.shape[1] or not np.isfinite(jacobian).all():
         return False
     values = np.linalg.svd(jacobian, compute_uv=False)

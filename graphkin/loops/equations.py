@@ -219,6 +219,10 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         own = [self.drives.rows(linear.unknowns)] if driven else []
         return np.concatenate([closed, slips, *own], axis=1)
 
+    def scaled_jacobian(self, linear: Linear) -> Reals:
+        """The same, each equation and unknown over its own size."""
+        return self.jacobian(linear) * self.columns[:, None, :] / self.rows[:, :, None]
+
     def second(self, linear: Linear, u: Reals, v: Reals) -> Reals:
         """Second derivative of f in two directions: linear equations give none."""
         closed = self.closures(self.chains.second(linear, u, v))

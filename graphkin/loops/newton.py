@@ -14,7 +14,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask
-from graphkin.loops.equations import Equations
+from graphkin.loops.equations import Equations, Linear
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton_start import start_values
 from graphkin.loops.rigid_bodies import Reals
@@ -110,16 +110,17 @@ def closed_from(
     refuse_undriven(loops)
     with np.errstate(all="ignore"):
         found, iterations = newton(loops, start)
-        opened = np.abs(scaled(loops, found)[0])
-        closed = np.asarray((opened < open_at_most(loops, found)).all(axis=1))
-        ratios = ratios_at(loops, found, accelerations=accelerations)
+        linear = loops.chains.at(found)
+        residual, jacobian = scaled(loops, found, linear)
+        closed = np.asarray((np.abs(residual) < open_at_most(loops, found)).all(axis=1))
+        ratios = ratios_about(loops, linear, jacobian, accelerations=accelerations)
         rates = ratios.rates(loops.drives.speed)
         seconds = ratios.accelerations(loops.drives.speed, loops.drives.acceleration)
-        bounds = rounding(loops, found, rates, seconds)
+        bounds = rounding(loops, found, rates, seconds, jacobian)
         good = closed & (bounds.regular | singular)
         moved = largest((found - start) / loops.columns) * loops.size
-        residual, remains = gap(loops, start), gap(loops, found)
-        report = Report(residual, remains, moved, iterations, closed, good)
+        before, remains = gap(loops, start), gap(loops, found)
+        report = Report(before, remains, moved, iterations, closed, good)
         if loops.numbers.single:
             refuse_failure(loops, found, report)
         if good.all():
@@ -174,12 +175,13 @@ def moving_step(residual: Reals, jacobian: Reals, moving: Mask) -> Reals:
     return linear_solve(part[:, rows], residual[:, rows, None])[:, :, 0]
 
 
-def scaled(loops: Equations, unknowns: Reals) -> tuple[Reals, Reals]:
-    """Residual (N, e) and Jacobian (N, e, u), each equation and unknown over its own size."""
-    linear = loops.chains.at(unknowns)
-    residual = loops.residual(linear, unknowns) / loops.rows
-    jacobian = loops.jacobian(linear) * loops.columns[:, None, :] / loops.rows[:, :, None]
-    return residual, jacobian
+def scaled(loops: Equations, unknowns: Reals, linear: Linear | None = None) -> tuple[Reals, Reals]:
+    """Residual (N, e) and Jacobian (N, e, u), each equation and unknown over its own size.
+
+    ``linear`` are the vectors there, where they are known.
+    """
+    linear = loops.chains.at(unknowns) if linear is None else linear
+    return loops.residual(linear, unknowns) / loops.rows, loops.scaled_jacobian(linear)
 
 
 def largest(rows: Reals) -> Reals:
@@ -233,13 +235,20 @@ def gap(loops: Equations, unknowns: Reals) -> Reals:
 
 
 def ratios_at(loops: Equations, unknowns: Reals, *, accelerations: bool = True) -> Ratios:
-    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position, or those NaN.
+    """Velocity ratios τ_d and acceleration ratios ∂τ_d/∂q_e at a closed position, or those NaN."""
+    linear = loops.chains.at(unknowns)
+    jacobian = loops.scaled_jacobian(linear)
+    return ratios_about(loops, linear, jacobian, accelerations=accelerations)
+
+
+def ratios_about(
+    loops: Equations, linear: Linear, jacobian: Reals, *, accelerations: bool
+) -> Ratios:
+    """The same from the vectors in that position and the scaled Jacobian.
 
     Each equation and unknown is counted in its own size, so that metres do not drown radians.
     """
-    linear = loops.chains.at(unknowns)
     units, sizes = loops.columns[:, :, None], loops.rows[:, :, None]
-    jacobian = scaled(loops, unknowns)[1]
     count, rows, columns = jacobian.shape
     drivers = len(loops.drives.turns)
     by_driver = np.zeros((count, rows, drivers))

@@ -159,17 +159,15 @@ class PositionBounds(Struct, frozen=True, eq=False):
     @classmethod
     def of(cls, loops: Equations, unknowns: Reals) -> PositionBounds:
         """Bounded at a closed position."""
-        still = np.zeros_like(unknowns)
-        motion = Motion.of(loops, unknowns, still, still)
-        first = cls(
-            loops,
-            vectors_of(motion, unknowns),
-            places_of(motion),
-            abs_inverse(loops, unknowns),
-            still,
-            still == 0,
-        )
-        return first.bounded(unknowns)
+        still, jacobian = np.zeros_like(unknowns), loops.scaled_jacobian(loops.chains.at(unknowns))
+        return cls.about(Motion.of(loops, unknowns, still, still), unknowns, jacobian)
+
+    @classmethod
+    def about(cls, motion: Motion, unknowns: Reals, jacobian: Reals) -> PositionBounds:
+        """The same, from a motion there and the scaled Jacobian (N, equations, K + m)."""
+        still, inverse = np.zeros_like(unknowns), abs_inverse(motion.loops, jacobian)
+        vectors, places = vectors_of(motion, unknowns), places_of(motion)
+        return cls(motion.loops, vectors, places, inverse, still, still == 0).bounded(unknowns)
 
     def bounded(self, unknowns: Reals) -> PositionBounds:
         """With the bounds: to first order, and by how much the loops bend within that."""
@@ -199,12 +197,16 @@ class PositionBounds(Struct, frozen=True, eq=False):
         return np.where(self.regular, self.off, np.maximum(self.off, self.loops.columns))
 
 
-def rounding(loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) -> Rounding:
-    """The bounds at a position found, from the unknowns and their derivatives, (N, K + m) each."""
+def rounding(
+    loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals, jacobian: Reals
+) -> Rounding:
+    """The bounds at a position found, from the unknowns and their derivatives, (N, K + m) each, and
+    the Jacobian there with each equation and unknown over its own size.
+    """
     motion = Motion.of(loops, unknowns, rates, seconds)
     links, points = len(loops.links), len(loops.links) + len(loops.closing)
     with np.errstate(all="ignore"):
-        found = PositionBounds.of(loops, unknowns)
+        found = PositionBounds.about(motion, unknowns, jacobian)
         rows, places, split = found.rows, found.places, found.split
         off, speed, thrust = split(found.off), split(rates), split(seconds)
         moved = rows.moved(split(found.lost), places)
@@ -314,14 +316,13 @@ def whole_turns(loops: Equations) -> Reals:
     return np.concatenate([slips, np.broadcast_to(drives, shape)], axis=1)
 
 
-def abs_inverse(loops: Equations, unknowns: Reals) -> Reals:
+def abs_inverse(loops: Equations, scaled: Reals) -> Reals:
     """Magnitudes of the elements of J⁻¹ (N, unknowns, equations); infinite where J has none.
 
-    Where there are more equations than unknowns, of the inverse by least squares.
+    It is given ``scaled``, each equation and unknown over its own size. Where there are more
+    equations than unknowns, the inverse is that by least squares.
     """
     columns, rows = loops.columns, loops.rows
-    linear = loops.chains.at(unknowns)
-    scaled = loops.jacobian(linear) * columns[:, None, :] / rows[:, :, None]
     found = np.full((len(scaled), scaled.shape[2], scaled.shape[1]), np.inf)
     finite = np.isfinite(scaled).all(axis=(1, 2))
     if scaled.shape[1] == scaled.shape[2]:

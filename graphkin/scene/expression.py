@@ -10,6 +10,7 @@ import ast
 import re
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
+from itertools import pairwise
 from threading import Lock
 from typing import NoReturn
 
@@ -147,7 +148,7 @@ def refuse_foreign(text: str) -> None:
         raise UnreadableError(f"{foreign!a} in an expression", hints.get(foreign, ""))
     if not text.strip():
         raise UnreadableError("an empty expression")
-    joined = re.search(JUXTAPOSED, text)
+    joined = re.search(JUXTAPOSED, text) if runs_on(text) else None
     if joined:
         hint = (
             "write plain digits"
@@ -155,6 +156,15 @@ def refuse_foreign(text: str) -> None:
             else "write a product with *: 2*n"
         )
         raise UnreadableError(f'"{joined.group()}" in an expression', hint)
+
+
+def runs_on(text: str) -> bool:
+    """Whether a letter or a bracket stands right after a figure, as it may in a name, too."""
+    bare = "".join(text.split())
+    return any(
+        (one.isdigit() or one == ".") and (after == "(" or after.isidentifier())
+        for one, after in pairwise(bare)
+    )
 
 
 def convert(node: ast.expr, text: str, depth: int) -> Tree:

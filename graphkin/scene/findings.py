@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from graphkin.text.errors import MOST, About, Change, Hint, Mend, Problem, SceneError
 
 LISTED = 12
+COMBINING = "\u0300"
+"""The first sign that combines with the letter before it: what is all below is composed."""
 
 
 class Findings:
@@ -121,7 +123,7 @@ def plain_text(place: str, raw: object, findings: Findings) -> str:
     if not isinstance(raw, str):
         findings.add(place, shown(raw), "a text in quotes")
         return ""
-    if raw.isascii() and raw.isprintable():
+    if raw.isprintable() and all(letter < COMBINING for letter in raw):
         return raw
     import unicodedata
 

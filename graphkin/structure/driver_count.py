@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -299,7 +298,7 @@ def drivable(scene: Scene) -> list[str]:
     return list(dict.fromkeys(pinned))
 
 
-class LonePoint(NamedTuple):
+class LonePoint(Struct, frozen=True):
     """A point that one link alone has."""
 
     point: str

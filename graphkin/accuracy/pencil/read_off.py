@@ -34,12 +34,12 @@ class DrawnQuantity(Struct, frozen=True):
     @property
     def size(self) -> float | None:
         """What an error is compared with, in percent; None for a place, whose size says nothing."""
-        return None if self.sort is Sort.PLACE else abs(self.value)
+        return None if self.sort == "place" else abs(self.value)
 
     def of(self, found: Mapping[int, Any]) -> Any:
         """The answer in some drawings, an element for each."""
         value = found[self.number]
-        return placed(value) if self.sort is Sort.PLACE else value
+        return placed(value) if self.sort == "place" else value
 
     def error(self, found: Mapping[int, Any]) -> Any:
         """How far the answer lies from the exact one in some drawings, as a difference."""
@@ -69,7 +69,7 @@ def answer(
     """One answer; None for a place that no drawing shows."""
     value = original.trace.values[number]
     mm = original.paper.millimetre(quantity.plane)
-    if quantity.sort is Sort.PLACE:
+    if quantity.sort == "place":
         value = placed(value)
         if value is None or not isfinite(abs(value)) or abs(value) > FAR * 1000 * mm:
             return None

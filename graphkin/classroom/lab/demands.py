@@ -11,7 +11,7 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import BY_TARGET, RATES, Sort
+from graphkin.construction.core.quantities import BY_TARGET, RATES
 from graphkin.numbers.plane import Vector
 
 Array = Any
@@ -52,7 +52,7 @@ def measured(sheet: VariantSheet, item: Item) -> Array | None:
     """
     trace, program = sheet.trace, sheet.trace.program
     quantity = BY_TARGET.get(item.quantity)
-    twin = quantity is None or quantity.sort is Sort.VECTOR
+    twin = quantity is None or quantity.sort == "vector"
     if item.what in ("sense", "place") or (item.what == "value" and twin):
         return None
     if quantity is None:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.qr_code import SIDE, square
-from graphkin.construction.core.quantities import BY_TARGET, Whose
+from graphkin.construction.core.quantities import BY_TARGET
 from graphkin.drawing.areas import A4_AREA, A4_SIZE
 from graphkin.drawing.frame import page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
@@ -60,9 +60,9 @@ def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
     kinds = {item.what for item in items}
     senses = {BY_TARGET[item.quantity].whose for item in items if item.what == "sense"}
     said = [words("form.numbers")]
-    if senses - {Whose.SLIDE}:
+    if senses - {"slides"}:
         said.append(words("form.senses"))
-    if Whose.SLIDE in senses:
+    if "slides" in senses:
         said.append(words("form.slides"))
     if "place" in kinds:
         said.append(words("form.places", pivot=symbol(pivot)))

@@ -22,7 +22,6 @@ from graphkin.construction.core.quantities import (
     OF_SLIDES,
     QUANTITIES,
     RATES,
-    Sort,
     motion_value,
 )
 from graphkin.construction.core.run import StepFailed
@@ -235,7 +234,7 @@ def slide(name: str, solution: Solution, printer: Printer) -> Record:
     motion, record = solution.slides.get(name, SlideMotion()), {}
     for each in OF_SLIDES:
         path, target = f"slides.{name}.{each.attribute}", (each.target, name)
-        value, is_vector = motion_value(motion, each), each.sort is Sort.VECTOR
+        value, is_vector = motion_value(motion, each), each.sort == "vector"
         if is_vector and value is None and target not in printer.targets:
             value = 0j
         record[each.attribute] = (printer.pair if is_vector else printer.real)(path, value, target)

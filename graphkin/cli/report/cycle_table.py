@@ -12,7 +12,6 @@ from graphkin.construction.core.quantities import (
     OF_SLIDES,
     RATES,
     MotionQuantity,
-    Sort,
     motion_value,
 )
 from graphkin.numbers.plane import Ratio
@@ -80,7 +79,7 @@ def own(motion: Any, quantities: Iterable[MotionQuantity], name: str) -> Iterato
         value, tail = motion_value(motion, quantity), f"_{name} [{quantity.caret_unit}]"
         if value is None:
             continue
-        if quantity.sort is Sort.NUMBER:
+        if quantity.sort == "number":
             yield quantity.letter + tail, value
         else:
             yield f"{quantity.letter}x{tail}", value.real

@@ -13,7 +13,6 @@ from graphkin.construction.core.quantities import (
     OF_POINTS,
     OF_SLIDES,
     RATES,
-    Sort,
     motion_value,
 )
 from graphkin.construction.core.run import Trace
@@ -30,7 +29,7 @@ from graphkin.documents.centre_tables import (
 from graphkin.scene.model import Scene
 from graphkin.text.plain_table import Cell, cleaned, listed, number, table
 
-COLUMNS = {Sort.PLACE: ("x", "y"), Sort.VECTOR: ("x", "y", "")}
+COLUMNS = {"place": ("x", "y"), "vector": ("x", "y", "")}
 """The components of each sort, the magnitude last."""
 POINT_HEADS = {
     each.attribute: [f"{each.letter}{part}, {each.unit}" for part in COLUMNS[each.sort]]

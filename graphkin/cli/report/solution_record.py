@@ -16,7 +16,6 @@ from graphkin.construction.core.quantities import (
     RATES,
     SLIDING,
     MotionQuantity,
-    Sort,
     motion_value,
     names_asked,
 )
@@ -170,8 +169,7 @@ def slide(name: str, motion: SlideMotion, wanted: Wanted) -> Record:
         return {}
     found = ((q, motion_value(motion, q)) for q in OF_SLIDES)
     return {
-        q.attribute: real(value) if q.sort is Sort.NUMBER else pair(value or 0j)
-        for q, value in found
+        q.attribute: real(value) if q.sort == "number" else pair(value or 0j) for q, value in found
     }
 
 

@@ -6,9 +6,8 @@ reports, forms and measurements on paper call it, and in which unit.
 
 from __future__ import annotations
 
-from enum import Enum
 from math import degrees
-from typing import Any, NewType
+from typing import Any, Literal, NewType
 
 from msgspec import Struct
 
@@ -24,20 +23,10 @@ SHEETS = KINDS[1:]
 PLANES = dict(zip(KINDS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS), strict=True))
 
 
-class Whose(Enum):
-    """What has a quantity, by the part of a solution that holds it."""
-
-    POINT = "points"
-    LINK = "links"
-    SLIDE = "slides"
-
-
-class Sort(Enum):
-    """What sort of value it is: a vector of a plan, a number, or a place on the mechanism."""
-
-    VECTOR = "vector"
-    NUMBER = "number"
-    PLACE = "place"
+Whose = Literal["points", "links", "slides"]
+"""What has a quantity: the part of a solution that holds it."""
+Sort = Literal["vector", "number", "place"]
+"""What sort of value it is: a vector of a plan, a number, or a place on the mechanism."""
 
 
 class MotionQuantity(Struct, frozen=True):
@@ -63,7 +52,7 @@ class MotionQuantity(Struct, frozen=True):
     @property
     def plane(self) -> Plane:
         """The drawing in which it is measured."""
-        return Plane.MECHANISM if self.sort is Sort.PLACE else PLANES[self.kind]
+        return Plane.MECHANISM if self.sort == "place" else PLANES[self.kind]
 
     @property
     def caret_unit(self) -> str:
@@ -73,36 +62,36 @@ class MotionQuantity(Struct, frozen=True):
 
 def of_point(kind: str, sort: Sort, letter: str, unit: str, key: str) -> MotionQuantity:
     """A quantity of points, which is called alike everywhere."""
-    return MotionQuantity(kind, Whose.POINT, kind, kind, sort, letter, unit, kind, (key,))
+    return MotionQuantity(kind, "points", kind, kind, sort, letter, unit, kind, (key,))
 
 
 def of_link(
     target: str, attribute: str, kind: str, letter: str, unit: str, words: str, *keys: str
 ) -> MotionQuantity:
     """A rate of links, or a place (in m) that belongs to one."""
-    sort = Sort.PLACE if unit == "m" else Sort.NUMBER
-    return MotionQuantity(target, Whose.LINK, attribute, kind, sort, letter, unit, words, keys)
+    sort: Sort = "place" if unit == "m" else "number"
+    return MotionQuantity(target, "links", attribute, kind, sort, letter, unit, words, keys)
 
 
 def of_slide(target: str, attribute: str, kind: str, letter: str, unit: str) -> MotionQuantity:
     """The motion of blocks along their guides."""
-    more = (Sort.NUMBER, letter, unit, attribute, ("slides",))
-    return MotionQuantity(target, Whose.SLIDE, attribute, kind, *more)
+    own = ("slides",)
+    return MotionQuantity(target, "slides", attribute, kind, "number", letter, unit, attribute, own)
 
 
 QUANTITIES = (
-    of_point("velocity", Sort.VECTOR, "v", "m/s", "velocity"),
-    of_point("acceleration", Sort.VECTOR, "a", "m/s²", "acceleration"),
+    of_point("velocity", "vector", "v", "m/s", "velocity"),
+    of_point("acceleration", "vector", "a", "m/s²", "acceleration"),
     of_link("omega", "omega", "velocity", "ω", "rad/s", "ω", "omega"),
     of_link("epsilon", "epsilon", "acceleration", "ε", "rad/s²", "ε", "epsilon"),
     of_link(
         *("centre", "instant_centre", "velocity", "I", "m", "instantaneous centre"),
         *("centres", "pairs", "centrodes"),
     ),
-    of_point("position", Sort.PLACE, "", "m", "curves"),
+    of_point("position", "place", "", "m", "curves"),
     of_link("pole", "acceleration_pole", "acceleration", "J", "m", "acceleration pole", "poles"),
     MotionQuantity(
-        *("inflection", Whose.LINK, "inflection_pole", "acceleration", Sort.PLACE),
+        *("inflection", "links", "inflection_pole", "acceleration", "place"),
         *("W", "m", "inflection pole", ("inflection",)),
         *("inflection circle", "instant_centre"),
     ),
@@ -111,7 +100,7 @@ QUANTITIES = (
     of_slide("slide speed", "speed", "velocity", "v", "m/s"),
     of_slide("slide acceleration", "acceleration", "acceleration", "a", "m/s²"),
     MotionQuantity(
-        *("coriolis", Whose.SLIDE, "coriolis", "acceleration", Sort.VECTOR),
+        *("coriolis", "slides", "coriolis", "acceleration", "vector"),
         *("c", "m/s²", "Coriolis", ()),
     ),
 )
@@ -125,21 +114,23 @@ ASKED = {
 
 
 def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:
-    """The reported quantities of points, links or blocks, of some sorts, by their derivatives."""
-    found = [each for each in QUANTITIES if each.whose is whose and each.sort in sorts]
+    """The reported quantities of points, links or blocks by their derivatives: those of some sorts,
+    or all.
+    """
+    found = [e for e in QUANTITIES if e.whose == whose and (not sorts or e.sort in sorts)]
     return tuple(sorted(filter(lambda q: q.words, found), key=lambda q: KINDS.index(q.kind)))
 
 
-OF_POINTS = those(Whose.POINT, *Sort)
-VECTORS = those(Whose.POINT, Sort.VECTOR)
-RATES = those(Whose.LINK, Sort.NUMBER)
-CENTRES = those(Whose.LINK, Sort.PLACE)
+OF_POINTS = those("points")
+VECTORS = those("points", "vector")
+RATES = those("links", "number")
+CENTRES = those("links", "place")
 CIRCLES = {each.target: each for each in CENTRES if each.circle}
-OF_SLIDES = those(Whose.SLIDE, *Sort)
+OF_SLIDES = those("slides")
 MOTION = {each.kind: each for each in OF_POINTS}
 TURNING = OMEGA, EPSILON = tuple(each.target for each in RATES)
 RATE = {each.kind: each for each in RATES}
-SLIDING = {each.kind: each for each in OF_SLIDES if each.sort is Sort.NUMBER}
+SLIDING = {each.kind: each for each in OF_SLIDES if each.sort == "number"}
 """The quantity of points, of links and of blocks that each sheet is about."""
 
 

@@ -128,12 +128,12 @@ ALL = -1
 
 def gathered(trace: Trace, links: Iterable[str] | None = None) -> Solution:
     """The solution that a trace holds, links in the given order; what was not run is None."""
-    turning = motions(trace, Whose.LINK)
+    turning = motions(trace, "links")
     pairs = {name: turning.pop(name)["instant_centre"] for name in [*turning] if "-" in name}
     return Solution(
-        points={name: PointMotion(**own) for name, own in motions(trace, Whose.POINT).items()},
+        points={name: PointMotion(**own) for name, own in motions(trace, "points").items()},
         links={n: LinkMotion(**turning[n]) for n in links or turning if n in turning},
-        slides={name: SlideMotion(**own) for name, own in motions(trace, Whose.SLIDE).items()},
+        slides={name: SlideMotion(**own) for name, own in motions(trace, "slides").items()},
         margin=smallest_margin(trace),
         centres=pairs,
     )
@@ -144,7 +144,7 @@ def motions(trace: Trace, whose: Whose) -> dict[str, dict[str, Any]]:
 
     Of two ways to one, such as a centre that a circle needs too, the first that is known counts.
     """
-    ways = {each.target: each.attribute for each in reversed(QUANTITIES) if each.whose is whose}
+    ways = {each.target: each.attribute for each in reversed(QUANTITIES) if each.whose == whose}
     names = dict.fromkeys(of for target, of in trace.program.targets if target in ways)
     found = {
         name: {

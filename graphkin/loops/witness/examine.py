@@ -339,7 +339,7 @@ def has_acceleration(solution: Solution) -> bool:
         motion_value(motion, quantity) is not None
         for quantity in QUANTITIES
         if quantity.kind == "acceleration"
-        for motion in getattr(solution, quantity.whose.value).values()
+        for motion in getattr(solution, quantity.whose).values()
     )
 
 
