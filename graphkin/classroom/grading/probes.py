@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import numpy as np
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil_marks import Paper
@@ -44,7 +45,8 @@ class Probe(Struct, frozen=True):
             return float("nan")
         mm = paper.millimetre(self.plane)
         if self.item.what == "place":
-            way = (placed(found[self.steps[1]]) - found[self.steps[0]]) / mm
+            with np.errstate(all="ignore"):  # a centre at infinity is not a number
+                way = (placed(found[self.steps[1]]) - found[self.steps[0]]) / mm
             return way.imag if self.item.axis == "y" else way.real
         size = found[self.step]
         size = abs(size - found[self.steps[0]]) if self.vector else size
