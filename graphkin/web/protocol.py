@@ -101,7 +101,8 @@ class PageProtocol(Struct, frozen=True):
 
     def bounds(self, sheet: int) -> tuple[int, int]:
         """The first and the last sentence of a sheet."""
-        return bounds_of(self.said, sheet)
+        own = [number for number, one in enumerate(self.said, 1) if one.sheet == sheet]
+        return own[0], own[-1]
 
     def stops(self) -> Iterator[tuple[int, int, Part]]:
         """The first and last sentence of each part of the work, in the order of their ends.
@@ -254,12 +255,6 @@ def strokes(marks: Iterable[Timed], count: int) -> list[int]:
         if one.at and one.step is not None and look in DRAWN and not isinstance(one.mark, Text):
             found[one.at - 1].add((one.step, look, one.mark.name))
     return [len(some) for some in found]
-
-
-def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:
-    """The first and the last sentence of a sheet."""
-    own = [number for number, one in enumerate(said, 1) if one.sheet == sheet]
-    return own[0], own[-1]
 
 
 def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:
