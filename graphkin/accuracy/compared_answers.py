@@ -105,8 +105,22 @@ class Reference(Struct, frozen=True, eq=False, dict=True):
         return [self.places.exactly(number) for number in range(len(self.places.at))]
 
     def missed(self, found: Sequence[Found]) -> Reals:
-        """The largest error of each quantity at each position, (P, 3); see missed_by."""
-        return missed_by(found, self)
+        """The largest error of each quantity at each position, (P, 3).
+
+        Each is an upper bound: the reference's own radius is in it. NaN where an answer is missing.
+        """
+        from flint import ctx
+
+        pairs = list(zip(found, self.found, strict=True))
+        with ctx.workprec(BITS + ROOM):
+            rows = [
+                [
+                    np.max([error(each.get(t), sure[t]) for t in some], initial=0.0)
+                    for some in self.answers.targets
+                ]
+                for each, sure in pairs
+            ]
+        return np.array(rows)
 
     @property
     def scales(self) -> Reals:
@@ -202,25 +216,6 @@ def radius(value: Any) -> float:
         return float("inf")
     parts = (value,) if is_real_ball(value) else (value.real, value.imag)
     return float(np.hypot.reduce([float(part.rad()) for part in parts]))
-
-
-def missed_by(found: Sequence[Found], reference: Reference) -> Reals:
-    """The largest error of each quantity at each position, (P, 3).
-
-    Each is an upper bound: the reference's own radius is in it. NaN where an answer is missing.
-    """
-    from flint import ctx
-
-    with ctx.workprec(BITS + ROOM):
-        return np.array(
-            [
-                [
-                    np.max([error(each.get(t), sure[t]) for t in some], initial=0.0)
-                    for some in reference.answers.targets
-                ]
-                for each, sure in zip(found, reference.found, strict=True)
-            ]
-        )
 
 
 def error(value: Any, sure: Any) -> float:

@@ -59,13 +59,13 @@ def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
     """All effects of what [ask] asks, then what only a hand's drawing or a command adds."""
     program, asked = mechanism.program, mechanism.asked()
     counts = Counter(parted(mechanism).values())
-    wants = wanted_by(mechanism)
+    wants, ask = wanted_by(mechanism), mechanism.scene.ask  # centrodes share steps of centres
     rows = [
         EffectRow(
             effect.value,
             counts[effect],
             reason(mechanism.scene, effect, wants.get(effect, []), asked),
-            is_in(mechanism.scene, effect, counts),
+            counts[effect] > 0 or (effect is Effect.CENTRODE and bool(ask.centrodes)),
         )
         for effect in Effect
     ]
@@ -125,11 +125,6 @@ def wanted_by(mechanism: Mechanism) -> Mapping[Effect, list[Target]]:
         for effect in {whole[number] for number in program.needed([target])}:
             wants.setdefault(effect, []).append(target)
     return wants
-
-
-def is_in(scene: Scene, effect: Effect, counts: Mapping[Effect, int]) -> bool:
-    """Whether an effect is in: it has steps, or shares those of centres that are asked too."""
-    return counts[effect] > 0 or (effect is Effect.CENTRODE and bool(scene.ask.centrodes))
 
 
 def hand_steps(program: Program, asked: Iterable[Target]) -> list[int]:

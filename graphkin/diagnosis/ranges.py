@@ -224,15 +224,9 @@ def refined(course: Course, at: Any, steps: Any) -> Any:
     share = np.arange(1, count) / count
     for _ in range(NARROWINGS):
         between = at[:, None] + steps[:, None] * share
-        tried = within_turn(course, between)
+        turn = course.sweep.start // 360 * 360  # in which a driver stands that turns fully
+        tried = turn + between % 360 if course.sweep.whole else between
         closes = course.closes(tried.ravel()).reshape(between.shape)
         passed = np.cumprod(closes, axis=1).sum(axis=1)
         at, steps = at + steps * passed / count, steps / count
     return at
-
-
-def within_turn(course: Course, at: Any) -> Any:
-    """Positions of a driver that turns fully, taken into the turn in which it stands."""
-    if not course.sweep.whole:
-        return at
-    return course.sweep.start // 360 * 360 + at % 360

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from graphkin.numbers.arithmetic import FLOAT, Kind, batch_kind, is_ball, is_decimal
+from graphkin.numbers.arithmetic import FLOAT, Kind, batch_kind, is_ball, is_decimal, sqrt
 
 PI_REST = 1.2246467991473532e-16
 """What pi is more than its double, to 33 digits in all together."""
@@ -74,12 +74,7 @@ def kind_of_context(context: Any) -> Kind:
         whole = Fraction(exact)
         return context.mpf(whole.numerator) / whole.denominator
 
-    def root(x: Any) -> Any:
-        if x < 0:
-            raise ValueError("the square root of a negative number")
-        return context.sqrt(x)
-
-    return Kind("decimal", number, +context.pi, context.cos, context.sin, root)
+    return Kind("decimal", number, +context.pi, context.cos, context.sin, sqrt)
 
 
 def ball_kind(bits: int) -> Kind:
@@ -141,12 +136,8 @@ def in_doubles(value: Any) -> Any:
     if isinstance(value, complex | float | int):
         return value
     parts = float(value.real), float(value.imag)
-    return complex(*parts) if is_complex(value) else parts[0]
-
-
-def is_complex(value: Any) -> bool:
-    """Whether a number of another kind than Python's is one of the plane."""
-    return type(value).__name__.startswith(("mpc", "acb", "complex", "clongdouble"))
+    is_complex = type(value).__name__.startswith(("mpc", "acb", "complex", "clongdouble"))
+    return complex(*parts) if is_complex else parts[0]
 
 
 def is_real_ball(value: Any) -> bool:

@@ -50,16 +50,11 @@ def read_slide(table: Table, measures: Measures) -> Slide:
             if table.take(key) is not None:
                 expected = 'either along = "P-Q", or through and angle'
                 measures.findings.add(table.at(key), f"{key} beside along", expected)
-    offset = read_offset(table, measures)
+    raw = table.take("offset")
+    offset = measures.length(table.at("offset"), 0 if raw is None else raw)
     pin = table.flag("pin")
     table.finish()
     return Slide(on, through, angle, along, offset, pin)
-
-
-def read_offset(table: Table, measures: Measures) -> Quantity:
-    """The distance kept to the left of a guide, nought where it is not written."""
-    raw = table.take("offset")
-    return measures.length(table.at("offset"), 0 if raw is None else raw)
 
 
 def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quantity | None]:

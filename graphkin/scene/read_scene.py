@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from fractions import Fraction
-from typing import Any, get_args
+from typing import get_args
 
 from msgspec.structs import replace
 
@@ -233,7 +233,8 @@ def read_links(
     if any("touches" in each for each in written.values()):
         from graphkin.scene.touching_profiles import normals
 
-        frame = Table(FRAME_WORD, as_table(top.raw.get(FRAME_WORD)), measures.findings)
+        raw = top.raw.get(FRAME_WORD)
+        frame = Table(FRAME_WORD, raw if isinstance(raw, dict) else {}, measures.findings)
         for name, lengths in normals(written, frame, links, measures):
             links[name] = read_link(name, lengths, measures, module)
     if any("cam" in each for each in written.values()):
@@ -241,11 +242,6 @@ def read_links(
 
         return with_cams(written, fixed, links, measures)
     return fixed, links
-
-
-def as_table(raw: object) -> dict[str, Any]:
-    """A table as it was written; an empty one for anything else."""
-    return raw if isinstance(raw, dict) else {}
 
 
 def read_link(name: str, table: Table, measures: Measures, module: Quantity | None) -> Link:

@@ -18,10 +18,10 @@ from graphkin.scene.model import FRAME, KEYWORDS, link_words
 from graphkin.studio.drawn_closure import drawn_closed
 from graphkin.studio.names_in_text import forget, named_anew, raw, renamed, says
 from graphkin.studio.sketch import (
+    GRIDS,
     DrawnWheel,
     Places,
     frame_places,
-    grid_of,
     is_number,
     is_place,
     links_of,
@@ -112,7 +112,7 @@ class Builder:
     def __init__(self, document: tomlkit.TOMLDocument, places: Places, unit: str) -> None:
         self.document = document
         self.places = dict(places)
-        self.grid = grid_of(unit)
+        self.grid = GRIDS[unit]
 
     @property
     def links(self) -> dict[str, list[str]]:

@@ -160,7 +160,9 @@ class Session:
                 rules = self.folder.rules(name)
                 own = mark_of_file(self.folder.lab_path(name)) if rules else ""
                 return Opened(name, text, mark, rules, own)
-        return Opened(f"new{ENDING}", start_text())
+        text = (START / "scene.toml").read_text(encoding="utf-8")
+        start = text[text.index(FIRST) :].replace("NAME", "Slider-crank")
+        return Opened(f"new{ENDING}", start)
 
     def listed(self, language: str) -> dict[str, Any]:
         """The scenes that can be opened: those here, and what comes with graphkin."""
@@ -405,9 +407,3 @@ def language_of(text: str) -> str:
     except SceneError:
         return ""
     return str(sheet.get("language", "en")) if isinstance(sheet, dict) else "en"
-
-
-def start_text() -> str:
-    """A scene to start from: a slider-crank with a word beside each key."""
-    text = (START / "scene.toml").read_text(encoding="utf-8")
-    return text[text.index(FIRST) :].replace("NAME", "Slider-crank")

@@ -105,7 +105,7 @@ def sketch(
     return Sketch(
         unit,
         rate if isinstance(rate, str) else "rad/s",
-        grid_of(unit),
+        GRIDS[unit],
         {point: (found[point].real, found[point].imag) for point in named if point in found},
         fixed,
         links,
@@ -120,11 +120,6 @@ def unit_of(tables: Mapping[str, Any]) -> str:
     """The unit of lengths of a scene; millimetres where it names none that is known."""
     unit = table_of(tables, "units").get("length")
     return unit if isinstance(unit, str) and unit in GRIDS else "mm"
-
-
-def grid_of(unit: str) -> float:
-    """The step to which lengths and coordinates are rounded."""
-    return GRIDS[unit]
 
 
 def table_of(tables: Mapping[str, Any], key: str) -> dict[str, Any]:

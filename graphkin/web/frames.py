@@ -80,7 +80,7 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
         raise SceneError(stands(cycle))
     low, high = shown_range(cycle)
     places, order = (
-        round_trip(cycle, frames)
+        ([cycle.sweep.start + TURN * i / frames for i in range(frames)], list(range(frames)))
         if goes_round(cycle) and cycle.path.returns
         else end_to_end(cycle, low, high, frames)
     )
@@ -107,12 +107,6 @@ def stands(cycle: Cycle) -> Problem:
 def goes_round(cycle: Cycle) -> bool:
     """Whether the driver turns fully."""
     return cycle.sweep.whole and cycle.path.whole
-
-
-def round_trip(cycle: Cycle, frames: int) -> tuple[list[float], list[int]]:
-    """The places of a whole turn from where the scene stands."""
-    first = cycle.sweep.start
-    return [first + TURN * i / frames for i in range(frames)], list(range(frames))
 
 
 def end_to_end(cycle: Cycle, low: float, high: float, frames: int) -> tuple[list[float], list[int]]:

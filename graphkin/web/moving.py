@@ -26,7 +26,6 @@ from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN, reach_of
 from graphkin.numbers.plane import Vector
-from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.branch_tracking import TrackedBranch
@@ -239,6 +238,7 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
     which of the data tells it."""
     scene, tape, words = tracing.driven.scene, tracing.tape, drawing.words
     given = data(drawing)
+    stand_by = frozenset[str]().union(*(driver.position.uses() for driver in scene.drivers))
     for figure in tracing.driven.figures:
         shows = tracing.known[figure.parameter or figure.name]
         told = next((k for k, one in enumerate(given) if figure.parameter in one.parameters), -1)
@@ -257,7 +257,7 @@ def figures_of(tracing: Tracing, drawing: Drawing) -> Iterator[dict[str, Any]]:
             "unit": printed_unit(figure.unit, words),
             "shows": tape.number(shows),
             "datum": told,
-            "moves": -1 if figure.driver else int(figure.parameter in stands_by(scene)),
+            "moves": -1 if figure.driver else int(figure.parameter in stand_by),
         }
 
 
@@ -278,11 +278,6 @@ def stands(tracing: Tracing) -> int:
         return -1
     place = driven.driver.position.si(tracing.known, traced_kind())
     return tracing.tape.number(place * (180 / pi if driven.what == "turn" else 1 / driven.metres))
-
-
-def stands_by(scene: Scene) -> frozenset[str]:
-    """The parameters that tell where the driver stands."""
-    return frozenset().union(*(driver.position.uses() for driver in scene.drivers))
 
 
 def printed_unit(unit: str, words: Words) -> str:

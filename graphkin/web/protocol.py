@@ -101,7 +101,8 @@ class PageProtocol(Struct, frozen=True):
 
     def bounds(self, sheet: int) -> tuple[int, int]:
         """The first and the last sentence of a sheet."""
-        return bounds_of(self.said, sheet)
+        own = [number for number, one in enumerate(self.said, 1) if one.sheet == sheet]
+        return own[0], own[-1]
 
     def stops(self) -> Iterator[tuple[int, int, Part]]:
         """The first and last sentence of each part of the work, in the order of their ends.
@@ -135,7 +136,9 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
         names |= labels
         seen = {one.step for one in marks if one.step is not None}
         said += spoken(place, sheet.drawing, own, staged, labels, seen)
-        said[-1] = replace(said[-1], aside=words_of_details(sheet))
+        details = (scale_words(times) for times in sheet.enlarged)
+        told = AND.join(sheet.drawing.words("screen.detail", scale=each) for each in details)
+        said[-1] = replace(said[-1], aside=told)
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
     program = sheets[0].drawing.trace.program
@@ -252,18 +255,6 @@ def strokes(marks: Iterable[Timed], count: int) -> list[int]:
         if one.at and one.step is not None and look in DRAWN and not isinstance(one.mark, Text):
             found[one.at - 1].add((one.step, look, one.mark.name))
     return [len(some) for some in found]
-
-
-def words_of_details(sheet: ScreenSheet) -> str:
-    """What is told beside the last sentence of details drawn enlarged; nothing without any."""
-    words = sheet.drawing.words
-    return AND.join(words("screen.detail", scale=scale_words(times)) for times in sheet.enlarged)
-
-
-def bounds_of(said: Sequence[ProtocolSentence], sheet: int) -> tuple[int, int]:
-    """The first and the last sentence of a sheet."""
-    own = [number for number, one in enumerate(said, 1) if one.sheet == sheet]
-    return own[0], own[-1]
 
 
 def hanging(sheets: Sequence[ScreenSheet], shown: Sequence[int]) -> dict[int, tuple[int, ...]]:

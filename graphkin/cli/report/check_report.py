@@ -47,7 +47,7 @@ class Checking:
         try:
             yield from structure(scene)
             yield from labelled("groups", group_lines(decompose(scene)))
-            yield from labelled("cams", self.cams())
+            yield from labelled("cams", list(cam_lines(scene)))
             yield from self.closing()
             yield from labelled("rank", self.rank())
             trace = self.mechanism.trace()
@@ -60,10 +60,6 @@ class Checking:
             self.scale_factors()
         except GraphkinError as error:
             self.problems += error.problems
-
-    def cams(self) -> list[str]:
-        """Pressure angle and curvature of each cam."""
-        return list(cam_lines(self.mechanism.scene))
 
     def closing(self) -> Iterator[str]:
         """Closures of the dyads, and the driver's angles for which everything closes."""

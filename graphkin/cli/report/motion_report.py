@@ -16,7 +16,7 @@ from graphkin.construction.core.quantities import (
     motion_value,
 )
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.solution import FAIR, LinkMotion, Solution, Verdict
+from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.documents.centre_tables import (
     breadth_of,
     centre_words,
@@ -91,7 +91,11 @@ def turning_table(links: Mapping[str, Record], solution: Solution) -> list[str]:
             clean = [None if value is None else cleaned(value, biggest) for value in values]
             heads += [f"{rate.letter}, {rate.unit}", f"sense of {rate.letter}"]
             columns += [list(clean), [sense(value) for value in clean]]
-    unsure = {name for name, link in solution.links.items() if is_unsure(link)}
+    unsure = {
+        name
+        for name, link in solution.links.items()
+        if any(value is not None and isnan(value) for value in (link.omega, link.epsilon))
+    }
     every = zip(*columns, strict=True)
     rows = [row for row in every if row[0] in unsure or any(cell is not None for cell in row[1:])]
     return table(heads, rows) if rows else []
@@ -201,11 +205,6 @@ def flat_words(scene: Scene, trace: Trace) -> str:
 
 
 KINDS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
-
-
-def is_unsure(link: LinkMotion) -> bool:
-    """Whether no digit is sure of how a link turns."""
-    return any(value is not None and isnan(value) for value in (link.omega, link.epsilon))
 
 
 def digits_words(verdict: Verdict) -> str:

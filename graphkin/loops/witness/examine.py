@@ -284,7 +284,8 @@ def links_concerned(scene: Scene, loops: Equations, solution: Solution) -> froze
     """
     spoken, moving = set(links_named(solution)), set(loops.links) - {FRAME}
     links_of = owners_of(loops)
-    owners = [links_of.get(point, []) for point in points_named(solution)]
+    named = (name for name, motion in solution.points.items() if says_anything(motion))
+    owners = [links_of.get(ends_of(name)[0], []) for name in named]
     if spoken.union(*(each for each in owners if len(each) == 1)) >= moving:
         return None
     order = stages(scene, loops)
@@ -295,14 +296,9 @@ def links_concerned(scene: Scene, loops: Equations, solution: Solution) -> froze
     wanted = {place[link] for link in spoken.union(firsts) if link in place}
     for n in range(len(order) - 1, -1, -1):
         if n in wanted:
-            wanted |= {place[link] for link in hangs_on(order[n]) if link in place}
+            joints = (*order[n].outer, *order[n].ties)  # to links known before
+            wanted |= {place[link] for joint in joints for link in joint.links if link in place}
     return frozenset(link for n in wanted for link in order[n].links)
-
-
-def hangs_on(group: Group) -> set[str]:
-    """The links known before to which a group is joined, geared or driven."""
-    joined = {link for joint in (*group.outer, *group.ties) for link in joint.links}
-    return joined - set(group.links)
 
 
 def links_named(solution: Solution) -> Iterator[str]:
@@ -312,11 +308,6 @@ def links_named(solution: Solution) -> Iterator[str]:
     for pair in solution.centres:
         yield from pair.split("-")
     yield from (link for name in solution.points if (link := ends_of(name)[1]))
-
-
-def points_named(solution: Solution) -> Iterator[str]:
-    """Points of which anything is known; of A@3 the point A."""
-    return (ends_of(name)[0] for name, p in solution.points.items() if says_anything(p))
 
 
 def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:
