@@ -105,11 +105,8 @@ class GroupImages(Struct, frozen=True):
         guide, end = known_guide(pen, pair), pen.the(plan.quantity, point)
         led = self.guide(pair, block, point, point)
         vector = led.component(pen)
-        if vector is not None:
-            pen.want("coriolis", block, vector)
-            with plan.drawn(pen):
-                start = led.end(pen, vector)
-                led.rest(pen, start, end)
+        if vector is not None and isinstance(led, GuideAcceleration):
+            start = led.laid_beside(pen, vector, end)
         with pen.on(Part.RESULT, Plane.NUMBERS):
             found = pen.draw(part_along, guide, start, end)
         pen.want(SLIDING[plan.quantity].target, block, found)

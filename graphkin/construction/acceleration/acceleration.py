@@ -85,6 +85,14 @@ class GuideAcceleration(Struct, frozen=True):
         else:
             slide_arrow(pen, end, found, self.known, self.point)
 
+    def laid_beside(self, pen: Pen, vector: int, found: int) -> int:
+        """Where the component ends of a block whose image is found, with the arrow of the rest."""
+        pen.want("coriolis", self.link, vector)
+        with ACCELERATION.drawn(pen):
+            end = self.end(pen, vector)
+            self.rest(pen, end, found)
+        return end
+
     def finish(self, pen: Pen, *, driven: bool = False) -> None:
         """The arrow from the pole, and the point where it touches."""
         if not is_under(self.name):
