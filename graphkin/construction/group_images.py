@@ -10,25 +10,26 @@ from collections.abc import Callable, Sequence
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration import acceleration
 from graphkin.construction.acceleration.acceleration import GuideAcceleration
 from graphkin.construction.acceleration.tangential_direction import BarAcceleration
 from graphkin.construction.acceleration.turned_acceleration import accelerated
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Effect, Part, Plane
-from graphkin.construction.core.vocabulary import difference
+from graphkin.construction.core.quantities import SLIDING
+from graphkin.construction.core.vocabulary import difference, part_along
+from graphkin.construction.guides.coincident_points import image_under
+from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import ratio_of
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
-from graphkin.construction.velocity import velocity
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     image_of_link,
     translated_image,
 )
-from graphkin.construction.velocity.velocity import BarVelocity, GuideVelocity
+from graphkin.construction.velocity.velocity import BarVelocity, GuideVelocity, slide_arrow
 from graphkin.structure.groups import Crank, Driven, Dyad, Spun, Tie, other_of
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
 
@@ -37,13 +38,11 @@ Sides = list[tuple[Joint, str]]
 
 
 class GroupImages(Struct, frozen=True):
-    """What draws a ``plan``: what a bar, and what a guide or track, says of a point in it, and how
-    a block slides."""
+    """What draws a ``plan``: what a bar, and what a guide or track, says of a point in it."""
 
     plan: Plan
     bar: Callable[[str, str], BarVelocity | BarAcceleration]
     guide: Callable[[Leading, str, str, str], GuideVelocity | GuideAcceleration]
-    sliding: Callable[[Pen, str], None]
 
     # --- driven links ----------------------------------------------------------------------------
 
@@ -98,6 +97,21 @@ class GroupImages(Struct, frozen=True):
         """Where the known part of the motion of a point that a pair leads ends in the plan."""
         led = self.guide(pair, link, point, point)
         return led.end(pen, led.component(pen))
+
+    def sliding(self, pen: Pen, block: str) -> None:
+        """How fast a block moves along its guide, and the component that comes of its turning."""
+        plan, pair, point = self.plan, pen.first_slide(block), pen.scene.link(block).points[0]
+        start = image_under(pen, pair.links[1], point, plan)
+        guide, end = known_guide(pen, pair), pen.the(plan.quantity, point)
+        led = self.guide(pair, block, point, point)
+        vector = led.component(pen)
+        if vector is not None and isinstance(led, GuideAcceleration):
+            start = led.laid_beside(pen, vector, end)
+        with pen.on(Part.RESULT, Plane.NUMBERS):
+            found = pen.draw(part_along, guide, start, end)
+        pen.want(SLIDING[plan.quantity].target, block, found)
+        if plan is VELOCITY:
+            slide_arrow(pen, pair, block, point)
 
     # --- dyads and ties --------------------------------------------------------------------------
 
@@ -193,5 +207,5 @@ def sliding_effect(pen: Pen, given: int) -> Effect | None:
     return Effect.DRIVER if accelerated(pen, given) else None
 
 
-VELOCITIES = GroupImages(VELOCITY, BarVelocity, GuideVelocity, velocity.sliding)
-ACCELERATIONS = GroupImages(ACCELERATION, BarAcceleration, GuideAcceleration, acceleration.sliding)
+VELOCITIES = GroupImages(VELOCITY, BarVelocity, GuideVelocity)
+ACCELERATIONS = GroupImages(ACCELERATION, BarAcceleration, GuideAcceleration)

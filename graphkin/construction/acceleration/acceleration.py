@@ -13,9 +13,7 @@ from graphkin.construction.core.arrows import acceleration_arrow, slide_arrow
 from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.vocabulary import part_along
 from graphkin.construction.guides.coincident_points import image_under
-from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.construction.velocity.lines_through import parallel_through
@@ -87,6 +85,14 @@ class GuideAcceleration(Struct, frozen=True):
         else:
             slide_arrow(pen, end, found, self.known, self.point)
 
+    def laid_beside(self, pen: Pen, vector: int, found: int) -> int:
+        """Where the component ends of a block whose image is found, with the arrow of the rest."""
+        pen.want("coriolis", self.link, vector)
+        with ACCELERATION.drawn(pen):
+            end = self.end(pen, vector)
+            self.rest(pen, end, found)
+        return end
+
     def finish(self, pen: Pen, *, driven: bool = False) -> None:
         """The arrow from the pole, and the point where it touches."""
         if not is_under(self.name):
@@ -116,19 +122,3 @@ def slid(step: Step) -> tuple[LaidOff, CoriolisComponent] | None:
     if not isinstance(laid, LaidOff) or not isinstance(laid.component, CoriolisComponent):
         return None
     return laid, laid.component
-
-
-def sliding(pen: Pen, block: str) -> None:
-    """Acceleration of a block along its guide, and the component that comes of its turning."""
-    pair = pen.first_slide(block)
-    first = pen.scene.link(block).points[0]
-    start = image_under(pen, pair.links[1], first, ACCELERATION)
-    guide, end = known_guide(pen, pair), pen.the("acceleration", first)
-    led = GuideAcceleration(pair, block, first, first)
-    if (vector := led.component(pen)) is not None:
-        pen.want("coriolis", block, vector)
-        with ACCELERATION.drawn(pen):
-            start = led.end(pen, vector)
-            led.rest(pen, start, end)
-    with pen.on(Part.RESULT, Plane.NUMBERS):
-        pen.want("slide acceleration", block, pen.draw(part_along, guide, start, end))

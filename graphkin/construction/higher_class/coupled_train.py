@@ -136,7 +136,7 @@ def rate_rolled(pen: Pen, contact: Contact, link: str, rates: Mapping[str, int])
 
 
 def known_rims(pen: Pen, group: CoupledTrain, plan: Plan) -> dict[str, int]:
-    """The images of known wheels where those of a train touch them, before anything is tried.
+    """The images of known wheels where those of a train touch them, drawn before its own.
 
     Of velocities the last one by the name of the point of the train's own last wheel, which has the
     same.

@@ -69,8 +69,10 @@ def driven(pen: Pen, group: Driven) -> None:
 def dyad(pen: Pen, group: Dyad) -> None:
     """What two links and three pairs leave free: one crossing of two loci."""
     match group.left, group.inner, group.right:
-        case Pin(), Pin(), _:
-            dyad_on(pen, group, first_arc(pen, group))
+        case Pin(point=left), Pin(point=pin), _:
+            with pen.on(Part.POSITION, Plane.MECHANISM):
+                near = arc(pen, group.links[0], left, pin)
+            dyad_on(pen, group, near)
         case Pin(), Sliding(), Pin():
             from graphkin.construction.guides.swung_guide import swing_guide
 
@@ -120,13 +122,6 @@ def bar_and_guide(pen: Pen, group: Dyad, near: int) -> None:
         found = cut_line(pen, pin, left, (path, near), *way, sign=extra)
     pen.want("position", pin, found)
     led.finish(pen)
-
-
-def first_arc(pen: Pen, group: Dyad) -> int:
-    """The arc on which the first bar of a dyad keeps its inner pin."""
-    assert isinstance(group.left, Pin) and isinstance(group.inner, Pin)
-    with pen.on(Part.POSITION, Plane.MECHANISM):
-        return arc(pen, group.links[0], group.left.point, group.inner.point)
 
 
 def two_guides(pen: Pen, point: str, pairs: tuple[Joint, Joint], links: tuple[str, str]) -> None:

@@ -6,10 +6,9 @@ from msgspec import Struct
 
 from graphkin.construction.core.arrows import arrow_between, velocity_arrows
 from graphkin.construction.core.pen import Pen, letter
-from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import join, part_along
+from graphkin.construction.core.program import Plane
+from graphkin.construction.core.vocabulary import join
 from graphkin.construction.guides.coincident_points import image_under, source_of
-from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.plan import VELOCITY
 from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
@@ -76,18 +75,6 @@ class GuideVelocity(BoundVelocity, frozen=True):
         if driven or (isinstance(self.pair, Sliding) and not is_under(self.name)):
             slide_arrow(pen, self.pair, self.link, self.name)
         led_by(self.pair).touch(pen, VELOCITY)
-
-
-def sliding(pen: Pen, block: str) -> None:
-    """Speed of a block along its guide."""
-    pair = pen.first_slide(block)
-    first = pen.scene.link(block).points[0]
-    start = image_under(pen, pair.links[1], first, VELOCITY)
-    with pen.on(Part.RESULT, Plane.NUMBERS):
-        guide = known_guide(pen, pair)
-        found = pen.draw(part_along, guide, start, pen.the("velocity", first))
-    pen.want("slide speed", block, found)
-    slide_arrow(pen, pair, block, first)
 
 
 def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
