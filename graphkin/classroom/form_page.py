@@ -2,7 +2,7 @@
 
 Nothing is sent anywhere and nothing of the key is in it; a browser keeps what was written, and a
 button saves it as the CSV file that ``graphkin grade`` reads. The markup holds neither scripts nor
-styles of its own: a page puts ``style()`` and ``script()`` where its policy lets them be.
+styles of its own: a page puts these where its policy lets them be.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import json
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby
-from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
@@ -31,10 +30,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.text import Words
 from graphkin.web.offline_page import part
 from graphkin.web.scripts import FORM, together
+from graphkin.web.step_page import Form
 from graphkin.writers.templates import from_template
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
 
 
 class Identity(Struct, frozen=True):
@@ -85,8 +82,9 @@ def form_fragment(
     words: Words,
     identity: Identity,
     pivot: str = "",
-) -> Markup:
-    """The form as markup: a labelled field for every item, those in ``compute`` to be reckoned.
+) -> Form:
+    """The form, its rules and its script: a labelled field for every item, those in ``compute`` to
+    be reckoned.
 
     ``points`` are shown where the rubric gives any; ``pivot`` is the first fixed one, from which
     places are measured.
@@ -99,7 +97,7 @@ def form_fragment(
             for _, own in alike
         ]
         sheets += [(words(f"sheet.{sheet}"), groups)] if groups else []
-    return from_template(
+    body = from_template(
         "classroom/templates/form.html",
         settings=json.dumps(settings(items, words, identity), ensure_ascii=False),
         advice=advice(items, words, pivot),
@@ -108,6 +106,7 @@ def form_fragment(
         sheets=sheets,
         words=words,
     )
+    return Form(body, part("form.css"), together(FORM))
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:
@@ -155,7 +154,7 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
     )
 
 
-def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Markup:
+def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -> Form:
     """The form of a lab's own scene, with whatever data it is set; nobody's own in particular."""
     fields, points = fields_of(mechanism, lab), lab.rubric.points
     return form_fragment(fields, points, (), words, identity, first_pivot(mechanism))
@@ -164,13 +163,3 @@ def lab_form(mechanism: Mechanism, lab: Lab, words: Words, identity: Identity) -
 def first_pivot(mechanism: Mechanism) -> str:
     """The fixed point from which places are measured; empty where there is none."""
     return next(iter(mechanism.scene.frame.points), "")
-
-
-def style() -> str:
-    """The rules of the form, for a <style> of its page."""
-    return part("form.css")
-
-
-def script() -> str:
-    """What reads, keeps, saves and opens answers, for a <script> after the form."""
-    return together(FORM)

@@ -49,5 +49,4 @@ def answer_form(mechanism: Mechanism, name: str, stem: str, language: str | None
 
     words = language_of(mechanism, language)
     whose = form_page.Identity(stem=stem, memory=f"{stem} {words.language}")
-    body = form_page.lab_form(mechanism, read_lab(folder), words, whose)
-    return Form(body, form_page.style(), form_page.script())
+    return form_page.lab_form(mechanism, read_lab(folder), words, whose)

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from graphkin.classroom.grading.answers import Answers
-    from graphkin.classroom.grading.class_marking import Class
     from graphkin.classroom.grading.gradebook import Filled
+    from graphkin.classroom.grading.graded import Result
     from graphkin.classroom.printing.edition import Edition
     from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
@@ -195,7 +195,7 @@ def grade(  # noqa: PLR0915
     words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
-    given.unread = open_cells(found.result, given.unread)
+    given.unread = open_cells(found, given.unread)
     files = all_files(opened, found, given, words, kinds, out) | free.files()
     if drawings != answers:
         files |= marked_drawings(opened, drawings, words, kinds)
@@ -210,7 +210,7 @@ def grade(  # noqa: PLR0915
     files |= {gradebook_name(path): book.data for path, book in books.items()}
     written = write_all(out, files, force)
     tell_books(books, found, spoken, full)
-    for line in result_lines(found.result, spoken):
+    for line in result_lines(found, spoken):
         say(line)
     if free.ids and opened.book.lab.rubric.hold:
         say(spoken("class.released", who=", ".join(free.ids)))
@@ -293,7 +293,7 @@ def kinds_of(text: str, context: click.Context) -> tuple[str, ...]:
 
 def all_files(
     opened: Edition,
-    found: Class,
+    found: Result,
     given: Answers,
     words: Words,
     kinds: tuple[str, ...],
@@ -313,7 +313,7 @@ def all_files(
     earlier = before.read_bytes() if before.is_file() else b""
     told = ReportSettings(title, words, given.unread, scene.titles, scene)
     files = report_files(found, opened.lab, told, kinds, earlier)
-    return files | returned(files, found.result.graded, given.senders, kinds)
+    return files | returned(files, found.graded, given.senders, kinds)
 
 
 def scale_of(text: str | None, context: click.Context) -> Fraction | None:
@@ -329,7 +329,7 @@ def scale_of(text: str | None, context: click.Context) -> Fraction | None:
 
 
 def tell_books(
-    books: Mapping[Path, Filled], found: Class, words: Words, scale: Fraction | None
+    books: Mapping[Path, Filled], found: Result, words: Words, scale: Fraction | None
 ) -> None:
     """What came of gradebooks that were written: how many marks, whose are not in them, and whose
     rows are of nobody in the class.
@@ -337,7 +337,7 @@ def tell_books(
     from graphkin.classroom.grading.answer_numbers import shown_cell
     from graphkin.classroom.grading.marks_tables import number
 
-    graded = found.result.graded
+    graded = found.graded
     held = [each.taker.student.id for each in graded if each.held]
     waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
     for path, book in books.items():

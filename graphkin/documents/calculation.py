@@ -87,18 +87,14 @@ def all_rows(
                 yield CalculationRow(words("calculation.tried"), legend=True)
         for relation in found:
             if relation.equation and relation.equation.sums:
-                yield from of_equation(relation.equation, solved=solved)
+                for part in equation_lines(relation.equation, RIGHT - LEFT - 3, solved=solved):
+                    deep = depth(part, solved=solved)
+                    yield CalculationRow(part.markup, equation=part, depth=deep)
                 continue
             number += bool(relation.result)
             tag = f"({number})" if relation.result else ""
             hint = computed.get(relation.left, "") if relation.result else ""
             yield from broken(relation, tag, drawings[0], hint, solved=solved)
-
-
-def of_equation(equation: VectorEquation, *, solved: bool) -> Iterator[CalculationRow]:
-    """A vector equation in as many lines as it needs."""
-    for line in equation_lines(equation, RIGHT - LEFT - 3, solved=solved):
-        yield CalculationRow(line.markup, equation=line, depth=depth(line, solved=solved))
 
 
 def broken(
@@ -181,18 +177,16 @@ def paged(
         step = line + (GAP if row.heading and page else 0) + (page[-1][1].depth if page else 0)
         below = line if row.heading else 0.0
         if row.heading and whole:
-            below = sum(line + each.depth for each in takewhile(is_below, rows[i + 1 :]))
+            below = sum(
+                line + each.depth
+                for each in takewhile(lambda each: not each.heading, rows[i + 1 :])
+            )
         if page and y + step + below + row.depth > bottom:
             pages.append([])
             page, y, step = pages[-1], TOP, line
         y = y + step if page else y
         page.append((y, row))
     return pages
-
-
-def is_below(row: CalculationRow) -> bool:
-    """Whether a line stands below a heading, and is none."""
-    return not row.heading
 
 
 def page_of(

@@ -116,8 +116,6 @@ def turning_of_guide(
 
 def centre_words(ratio: Ratio | None, breadth: float) -> str:
     """Where an instantaneous centre lies (m), or the direction in which it is at infinity."""
-    if ratio is not None and not isfinite(ratio.shift):
-        return NOT_SURE
     place = place_of(ratio, breadth)
     if place is not None:
         return point_words(place)
@@ -128,8 +126,6 @@ def centre_words(ratio: Ratio | None, breadth: float) -> str:
 
 def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float) -> str:
     """Where an acceleration pole lies (m), or the common direction when it is at infinity."""
-    if ratio is not None and not isfinite(ratio.shift):
-        return NOT_SURE
     place = place_of(ratio, breadth)
     if place is not None:
         return point_words(place)
@@ -175,6 +171,8 @@ def pair_words(pair: list[float | None]) -> str:
 
 def point_words(place: complex) -> str:
     """A point's coordinates in brackets."""
+    if not isfinite(place):
+        return NOT_SURE
     largest_part = max(abs(place.real), abs(place.imag))
     x, y = (0.0 if abs(part) <= NOISE * largest_part else part for part in (place.real, place.imag))
     return f"({number(x)}, {number(y)})"

@@ -51,13 +51,14 @@ def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
     """What the mark of a link rests on: points, and its axis where they do not show it."""
     points = list(link.points)
     turned = len(points) < 2
+    carriers = {way.slide.on for way in drawing.standing.guideways}
     if kind == TOUCHED:
         points, turned = touching_points(drawing, link), False
     elif kind == "disc":
         points, turned = [wheel.centre for wheel in link.wheels], False
     elif kind == "slider":
         points, turned = points[:1], False
-    elif kind == "block" or (is_carrier(drawing, link) and corners_of(drawing, link) is None):
+    elif kind == "block" or (link.name in carriers and corners_of(drawing, link) is None):
         points, turned = points[:1], True
     elif kind in BODY and not any(wheel.teeth for wheel in link.wheels):
         points = body_of(drawing, link)
@@ -66,11 +67,6 @@ def of_link(drawing: Drawing, link: Link, kind: str) -> Iterator[Target]:
     yield from (("position", point) for point in points)
     if turned:
         yield "axis", link.name
-
-
-def is_carrier(drawing: Drawing, link: Link) -> bool:
-    """True for a link with a straight guide that another link slides on."""
-    return any(way.slide.on == link.name for way in drawing.standing.guideways)
 
 
 def body_of(drawing: Drawing, link: Link) -> list[str]:

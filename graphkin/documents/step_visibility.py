@@ -64,7 +64,9 @@ def marks_at_stage(
     ``telling`` gives the sentence at which each letter and each vector is found.
     """
     subjects = {mark.step: mark.cx for _, mark in timed if isinstance(mark, CircleMark)}
-    subjects |= {m.step: m.x1 for _, m in timed if isinstance(m, LineMark) and is_leader(m)}
+    subjects |= {
+        m.step: m.x1 for _, m in timed if isinstance(m, LineMark) and style_class(m) == "leader"
+    }
     texts = [(at, mark) for at, mark in timed if isinstance(mark, Text)]
     explained = {part.name for _, mark in texts if mark.name == NOTE for part in mark.letters}
     keys = {mark.markup: at for at, mark in texts if mark.markup in explained - {""}}
@@ -76,11 +78,6 @@ def marks_at_stage(
             yield from noted(mark, stage, {**telling, **keys})
         elif appears <= stage:
             yield mark if appears < stage else replace(mark, cls=f"{mark.cls} {NOW}")
-
-
-def is_leader(mark: Mark) -> bool:
-    """True for the line that leads from a label to what it names."""
-    return style_class(mark) == "leader"
 
 
 def shared(mark: Text, stage: int, stages: Sequence[int], subject: float) -> Iterator[Mark]:

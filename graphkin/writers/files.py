@@ -98,7 +98,7 @@ def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Pat
             sweep(folders)
             put_in_place(targets)
     except OSError as error:
-        raise cannot_write(str(folder), error) from error
+        raise cannot_write(folder, error) from error
     return list(targets)
 
 
@@ -129,7 +129,7 @@ def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = Fals
         with TemporaryFile(dir=there):
             pass
     except OSError as error:
-        raise cannot_write(str(folder), error) from error
+        raise cannot_write(folder, error) from error
 
 
 def in_the_way(there: Sequence[Path]) -> Problem:
@@ -174,8 +174,10 @@ def put_in_place(targets: Mapping[Path, bytes]) -> None:
         raise
 
 
-def cannot_write(place: str, error: OSError) -> PageError:
+def cannot_write(folder: Path, error: OSError) -> PageError:
     """The error for a file or folder that the system does not let us write."""
     reason = error.strerror or str(error)
     found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
-    return FileError(Problem(place, found, "a folder that can be written", "name one with -o"))
+    return FileError(
+        Problem(str(folder), found, "a folder that can be written", "name one with -o")
+    )

@@ -42,7 +42,7 @@ def a_class(
         Taker(Student(i, f"s{i:05d}"), {"n": exact_text(number)})
         for i, number in enumerate(numbers)
     ]
-    plain = replace(book, markers={}, expected={})
+    plain = replace(book, markers={})
     each = list({taker.settings["n"]: taker for taker in takers}.values())
     keys = {}
     for start in range(0, len(each), KEPT):

@@ -22,7 +22,7 @@ def pages(language: str) -> dict[str, str]:
         "absent": marker_of("pump", 7).mark(graded({}).taker, {}, present=False),
     }
     found = {name: feedback_html(form, "Pump", rubric, spoken) for name, form in forms.items()}
-    return found | {"class": class_report(small_class().result, "Pump", (), spoken)}
+    return found | {"class": class_report(small_class(), "Pump", (), spoken)}
 
 
 def test_no_page_bars_anybody(opened: Opened, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 from markupsafe import Markup
 
-from graphkin.classroom.form_page import Identity, form_fragment, script, style
+from graphkin.classroom.form_page import Identity, form_fragment
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import read_edition
@@ -193,8 +193,9 @@ UNITS = {"v_D_mm": "mm", "v_D": "m/s", "a_D": "m/s²", "omega_2": "rad/s", "epsi
 
 def bare_page(items: list[Item], identity: Identity, language: str = "en") -> str:
     """A page with nothing but a form."""
-    body = form_fragment(items, {}, (), words(language), identity)
-    return offline_page("Form", language, Markup(f"<main>{body}</main>"), [style()], [script()])
+    form = form_fragment(items, {}, (), words(language), identity)
+    main = Markup(f"<main>{form.body}</main>")
+    return offline_page("Form", language, main, [form.style], [form.script])
 
 
 @pytest.fixture(scope="module")

@@ -56,7 +56,7 @@ class Form(HTMLParser):
 @pytest.mark.parametrize(("name", "language"), [*zip(LABS, LANGUAGES, strict=False)])
 def test_every_field_of_the_form_is_there_with_its_label(name, language):
     mechanism, lab = load(name), read_lab(name)
-    form = Form(lab_form(mechanism, lab, words(language), WHOSE))
+    form = Form(lab_form(mechanism, lab, words(language), WHOSE).body)
     asked = items(mechanism, lab)
     assert set(form.fields) == {item.field for item in asked}
     assert set(form.labelled) == {field["id"] for field in form.fields.values()}

@@ -36,7 +36,6 @@ class Book(Struct, dict=True):
     lab: Lab
     scene: str
     markers: dict[Variant, Marker] = field(default_factory=dict)
-    expected: dict[Variant, Expectation] = field(default_factory=dict)
 
     @cached_property
     def form(self) -> tuple[Item, ...]:
@@ -75,12 +74,8 @@ class Book(Struct, dict=True):
         return self.markers[name]
 
     def expectation(self, taker: Taker) -> Expectation:
-        """What is expected of a student's variant; one record for all who have it."""
-        name = variant(taker.settings, taker.compute)
-        if name not in self.expected:
-            marker = self.marker(taker.settings, taker.compute)
-            self.expected[name] = marker.standard.expectation
-        return self.expected[name]
+        """What is expected of a student's variant."""
+        return self.marker(taker.settings, taker.compute).standard.expectation
 
     def slips(self, graded: Graded) -> tuple[Slip, ...]:
         """The slips with a student's data."""
@@ -90,19 +85,12 @@ class Book(Struct, dict=True):
         """The marks of one student, without answers none, and what was expected."""
         marker = self.marker(taker.settings, taker.compute)
         graded = marker.mark(taker, answers or {}, answers is not None)
-        return graded, self.expectation(taker)
+        return graded, marker.standard.expectation
 
 
 def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
     """What all students share who have the same data, and the same fields to be computed."""
     return tuple(sorted(settings.items())), computed
-
-
-class Class(Struct, frozen=True):
-    """A class that is marked: its result, and what was expected of each student."""
-
-    result: Result
-    expected: tuple[Expectation, ...]
 
 
 def graded_class(
@@ -112,7 +100,7 @@ def graded_class(
     jobs: int = 1,
     released: Collection[str] = (),
     decisions: Sequence[Decision] = (),
-) -> Class:
+) -> Result:
     """The marks of a whole class, by the ids of its students, with what only a class can tell.
 
     Where the rubric holds marks, those of ``released`` and of whom something was decided are not
@@ -139,8 +127,7 @@ def graded_class(
     ]
     own = by_student(decisions)
     graded = [with_decisions(each, own.get(each.taker.student.id, ())) for each in graded]
-    result = Result(tuple(graded), others, twice, unsure(graded, expected))
-    return Class(result, tuple(expected))
+    return Result(tuple(graded), others, twice, unsure(graded, expected), tuple(expected))
 
 
 def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
@@ -178,7 +165,7 @@ def spread(
     """The marks of students, those of one variant beside one another, by some processes."""
     if jobs == 1:
         return mark_all(book, every)
-    work = partial(mark_all, replace(book, markers={}, expected={}))
+    work = partial(mark_all, replace(book, markers={}))
     found: list[tuple[Graded, Expectation]] = []
     with engine(jobs) as (pool, workers):
         parts = chunks(every, workers, KEPT)

@@ -41,7 +41,7 @@ def class_report(result: Result, title: str, unread: Sequence[Unread], words: Wo
         decisions=list(decision_lines(result, words)),
         requests=list(request_lines(result, words)),
         unread=list(unread_lines(students, unread, words)),
-        absent=list(absent_lines(result)),
+        absent=[each.taker.student.called for each in result.graded if not each.is_marked],
         unsure=list(unsure_lines(result, words)),
     )
     return f"{page}\n"
@@ -205,13 +205,6 @@ def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:
             yield words(
                 "class.no_language", who=taker.student.called, text=shown_cell(taker.language)
             )
-
-
-def absent_lines(result: Result) -> Iterator[str]:
-    """Those who handed in nothing."""
-    for each in result.graded:
-        if not each.is_marked:
-            yield each.taker.student.called
 
 
 def unsure_lines(result: Result, words: Words) -> Iterator[str]:

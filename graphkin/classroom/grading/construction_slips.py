@@ -103,7 +103,7 @@ def of_cranks(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
 def of_sides(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
     """A pin drawn where the arcs meet on the other side."""
     program = standard.mechanism.program
-    for number in standard.needed:
+    for number in standard.layout.needed:
         step = program.steps[number]
         mirrored = isinstance(step.of, Determined) and step.of.has_mirror
         if mirrored and step.extra:
@@ -116,6 +116,6 @@ def of_components(standard: Standard) -> Iterator[tuple[str, dict[str, float]]]:
     """Components left out, or laid off the wrong way round."""
     values, program = standard.exact.trace.values, standard.mechanism.program
     for kind in reversed(COMPONENTS):
-        found = [n for n in standard.needed if isinstance(component_of(program, n), kind)]
+        found = [n for n in standard.layout.needed if isinstance(component_of(program, n), kind)]
         for name, times in kind.slips.items() if found else ():
             yield name, standard.told({n: times * values[n] for n in found})

@@ -24,7 +24,7 @@ def of_fields(standard: Standard) -> Iterator[Slip]:
     it can be made, with all fields in which it can be made so.
     """
     gathered: dict[tuple[str, str], dict[str, float]] = {}
-    for probe in standard.probes:
+    for probe in standard.layout.probes:
         field = probe.item.field
         for name, way, value in of_field(standard, field):
             if differs(standard, field, value):

@@ -165,7 +165,7 @@ def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping
         return
     yield found
     measured: dict[int, Any] = {}
-    for number in standard.needed:
+    for number in standard.layout.needed:
         component = component_of(standard.mechanism.program, number)
         if component is not None and number not in overrides:
             vector = component.as_measured(found, values)
@@ -227,7 +227,7 @@ def components_with(standard: Standard, number: int, ratio: float) -> dict[int, 
     """
     program, values = standard.mechanism.program, standard.exact.trace.values
     found: dict[int, Any] = {}
-    for other in standard.needed:
+    for other in standard.layout.needed:
         component = component_of(program, other)
         power = component.power_of(program.steps[number].args) if component else 0
         if power:

@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from msgspec import Struct, field
 
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.taker import Taker
+
+if TYPE_CHECKING:
+    from graphkin.classroom.grading.standard import Expectation
 
 
 class Answer(Struct, frozen=True):
@@ -199,9 +203,12 @@ class Suspicion(Struct, frozen=True):
 
 
 class Result(Struct, frozen=True):
-    """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells."""
+    """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells,
+    ``expected`` is what each student's answers were held against.
+    """
 
     graded: tuple[Graded, ...]
     wrong_variants: tuple[Suspicion, ...] = ()
     copies: tuple[Suspicion, ...] = ()
     unsure: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    expected: tuple[Expectation, ...] = ()

@@ -9,10 +9,9 @@ from pathlib import Path
 from msgspec import Struct, field
 
 from graphkin.classroom.grading.answers import Unread
-from graphkin.classroom.grading.class_marking import Class
 from graphkin.classroom.grading.class_report import class_report
 from graphkin.classroom.grading.feedback import feedback_html, feedback_pages
-from graphkin.classroom.grading.graded import Graded
+from graphkin.classroom.grading.graded import Graded, Result
 from graphkin.classroom.grading.marks_tables import (
     differences,
     differences_table,
@@ -61,15 +60,15 @@ class ReportSettings(Struct, frozen=True):
 
 
 def report_files(
-    found: Class, lab: Lab, told: ReportSettings, formats: Sequence[str], before: bytes = b""
+    found: Result, lab: Lab, told: ReportSettings, formats: Sequence[str], before: bytes = b""
 ) -> dict[str, bytes]:
     """The files of a report by their names; with an earlier marks.csv also what changed."""
-    graded = found.result.graded
-    marks = marks_table(found.result)
+    graded = found.graded
+    marks = marks_table(found)
     files = {
         MARKS: marks,
         TOLERANCES: tolerances_table(graded, found.expected),
-        REPORT: class_report(found.result, told.title, told.unread, told.words).encode("utf-8"),
+        REPORT: class_report(found, told.title, told.unread, told.words).encode("utf-8"),
     }
     if before:
         files[CHANGES] = differences_table(differences(before, marks))
@@ -119,12 +118,12 @@ def returned(
     return {RETURNED: packed_feedback(backs, pages, kind)}
 
 
-def points_by_id(found: Class, scale: Fraction | None = None) -> dict[str, Fraction]:
+def points_by_id(found: Result, scale: Fraction | None = None) -> dict[str, Fraction]:
     """The points of those who handed in and for whom nothing waits or is held, for a gradebook; on
     a scale the share of all points that they are.
     """
     return {
         each.taker.student.id: each.earned if scale is None else each.earned * scale / each.points
-        for each in found.result.graded
+        for each in found.graded
         if each.is_marked and not each.pending and not each.held and (scale is None or each.points)
     }

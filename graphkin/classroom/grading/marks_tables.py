@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Result, Status
+from graphkin.classroom.grading.graded import Decision, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.text import Words
@@ -55,7 +55,7 @@ def marks_table(result: Result) -> bytes:
 
 
 def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str]]) -> list[str]:
-    """One student's row."""
+    """One student's row; the points of an answer that waits for a decision stay empty."""
     student = graded.taker.student
     marks = {mark.item.field: mark for mark in graded.marks}
     share = None if graded.held else graded.share
@@ -72,14 +72,12 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
         number(graded.pending) if graded.pending else "",
         "; ".join([*fits.get(student.id, ()), *(["held"] if graded.held else [])]),
         ruling(graded.decision) if graded.decision is not None else "",
-        *(points_cell(marks[name]) if name in told else "" for name in fields),
+        *(
+            number(marks[name].earned) if name in told and not marks[name].waits else ""
+            for name in fields
+        ),
         *(reason(graded, name) if name in told else "" for name in fields),
     ]
-
-
-def points_cell(mark: EarnedMark) -> str:
-    """The points of a field; empty while an answer that cannot be read waits for a decision."""
-    return number(mark.earned) if not mark.waits else ""
 
 
 def ruling(decision: Decision) -> str:

@@ -112,14 +112,10 @@ def vector_ends(mechanism: Mechanism, item: Item) -> tuple[int, ...] | None:
     target = (item.quantity, point_of(mechanism.scene, item.of))
     if target not in program.targets:
         return None
-    steps = enumerate(program.steps)
-    pole = next(n for n, step in steps if is_pole(step, BY_TARGET[item.quantity].plane))
+    plane = BY_TARGET[item.quantity].plane
+    on_plan = (n for n, step in enumerate(program.steps) if step.plane is plane)
+    pole = next(n for n in on_plan if isinstance(construction(program.steps[n]), PlanPole))
     return pole, program.targets[target]
-
-
-def is_pole(step: Any, plane: Plane) -> bool:
-    """Whether a step is the pole of a plan."""
-    return isinstance(construction(step), PlanPole) and step.plane is plane
 
 
 def targets_of(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Target, ...]:

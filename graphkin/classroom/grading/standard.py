@@ -112,19 +112,9 @@ class Standard(Struct, frozen=True, dict=True):
         return self.layout.items
 
     @property
-    def probes(self) -> tuple[Probe, ...]:
-        """How each field is read off it."""
-        return self.layout.probes
-
-    @property
     def by_field(self) -> Mapping[str, Probe]:
         """The probe of each field."""
         return self.layout.by_field
-
-    @property
-    def needed(self) -> tuple[int, ...]:
-        """The steps from which the fields follow, composite ones by value."""
-        return self.layout.needed
 
     @cached_property
     def key(self) -> Mapping[str, float]:
@@ -136,7 +126,7 @@ class Standard(Struct, frozen=True, dict=True):
         """The fields but senses, each with its key."""
         return [
             Reading(probe, self.exact, self.key[probe.item.field])
-            for probe in self.probes
+            for probe in self.layout.probes
             if probe.item.what != "sense"
         ]
 
@@ -186,7 +176,7 @@ class Standard(Struct, frozen=True, dict=True):
         """Every field as a construction tells it."""
         return {
             probe.item.field: sign_of(probe, probe.read(found, paper or self.paper))
-            for probe in self.probes
+            for probe in self.layout.probes
         }
 
     def rerun(
@@ -198,7 +188,7 @@ class Standard(Struct, frozen=True, dict=True):
         written = program or self.layout.program
         exact = self.exact.trace.values
         again = self.changed(overrides, written)
-        steps = [n for n in self.needed if n in again or n not in exact]
+        steps = [n for n in self.layout.needed if n in again or n not in exact]
         given = {arg: exact[arg] for n in steps for arg in written.steps[n].args if arg in exact}
         kept = {arg: value for arg, value in given.items() if arg not in again}
         values = self.mechanism.scene.values_in(FLOAT)

@@ -204,7 +204,7 @@ def judge(
                 rates={number: rate[which] for number, rate in scaled.rates.items()},
                 margins=True,
             )
-            put_drawn(found, drawn, found.form, own, start + which)
+            put_drawn(found, drawn, own, start + which)
 
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
@@ -223,14 +223,9 @@ def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Arra
     return sound
 
 
-def put_drawn(
-    found: Fairness,
-    drawn: Sequence[VariantSheet],
-    form: Sequence[Item],
-    scales: Scales,
-    which: Array,
-) -> None:
+def put_drawn(found: Fairness, drawn: Sequence[VariantSheet], scales: Scales, which: Array) -> None:
     """What is drawn on the sheets of some variants, put at their places; scales are arrays."""
+    form = found.form
     for sheet in drawn:
         lengths = segment_lengths(sheet, form, scales.kL / scales.metres(sheet.kind))
         put(found.crossings, crossing_angles(sheet), which, len(found))

@@ -27,7 +27,8 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     count = len(outcome.many)
     yield from labelled("rule", [rule_words(lab)])
     alike = f", {outcome.different} of them different" if outcome.different < count else ""
-    yield from labelled("tried", [f"{tried_words(outcome)}{alike}"])
+    tried = f"{count} drawn variants" if not lab.rule.counts else f"numbers 1 to {count}"
+    yield from labelled("tried", [f"{tried}{alike}"])
     yield from labelled("limits", [limit_words(lab.fair)])
     good = [f"{count - outcome.unfair} of {count} variants"]
     if outcome.pencilled:
@@ -94,13 +95,6 @@ def draw_words(values: Range | ValueList) -> str:
         return exact_text(values.least)
     ends = f"from {exact_text(values.least)} to {exact_text(values.most)}"
     return f"{ends} by {exact_text(values.step)}"
-
-
-def tried_words(outcome: LabTrial) -> str:
-    """On whom a lab was tried."""
-    if outcome.lab.rule.counts:
-        return f"numbers 1 to {outcome.names[-1]}"
-    return f"{len(outcome.names)} drawn variants"
 
 
 def limit_words(fair: Fair) -> str:

@@ -176,15 +176,11 @@ class PrintRun:
             missing = tuple(
                 (view, kind)
                 for view, kind in self.parts()
-                if not self.finished(part_of(one.code, view, kind))
+                if not self.journal.finished(part := part_of(one.code, view, kind), self.keys[part])
             )
             if missing:
                 found.append(StudentSheets(one, self.stems[one.code], missing))
         return found
-
-    def finished(self, part: str) -> bool:
-        """Whether a part stands there as it should."""
-        return self.journal.finished(part, self.keys[part])
 
     def make_all(self, means: Means, tell: Tell) -> None:
         """Make what is missing; each chunk is put in its place as it comes."""

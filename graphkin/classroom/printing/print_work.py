@@ -127,7 +127,7 @@ class Sheets:
     def page(self, view: str, stem: str, ink: Ink) -> str:
         """The page for a browser: the task with the form to be filled in, or the key by steps."""
         from graphkin.classroom import form_page
-        from graphkin.web.step_page import Form, step_page, task_page
+        from graphkin.web.step_page import step_page, task_page
         from graphkin.web.your_turn import TurnOwner
 
         taker, lab, language = self.taker, self.lab, self.words.language
@@ -138,8 +138,7 @@ class Sheets:
         whose = form_page.Identity(stem, f"{lab.name} {taker.code}", student.id, name)
         fields, points = self.asked()
         pivot = form_page.first_pivot(self.mechanism)
-        body = form_page.form_fragment(fields, points, taker.compute, self.words, whose, pivot)
-        answers = Form(body, form_page.style(), form_page.script())
+        answers = form_page.form_fragment(fields, points, taker.compute, self.words, whose, pivot)
         return task_page(self.mechanism, language, ink, answers)
 
     def answers(self) -> tuple[Page, ...]:

@@ -22,6 +22,8 @@ from graphkin.text.plain_table import labelled, table
 
 MOST = 40
 """Rows of one list."""
+WHO = ("row", "number", "id", "name")
+"""The heads of what lists say of who somebody is."""
 
 
 def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
@@ -30,11 +32,17 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("limits", [limit_words(lab.fair)])
     fair = sum(each.fair for each in found)
     yield from labelled("fair", [f"{fair} of {len(found)} students"])
-    yield from labelled("unfair", unfair_lines([each for each in found if not each.fair]))
-    again = [each for each in found if each.attempt]
+    unfair = [
+        (*who(each.student), data_words(each.settings), "; ".join(map(str, each.faults)))
+        for each in found
+        if not each.fair
+    ]
+    yield from labelled("unfair", listed((*WHO, "data", "limits"), unfair))
     if lab.rule.draws:
-        yield from labelled("again", again_lines(again))
-    yield from labelled("compute", computed_lines([each for each in found if each.computed]))
+        again = [(*who(each.student), f"{each.attempt + 1}") for each in found if each.attempt]
+        yield from labelled("again", listed((*WHO, "draws"), again))
+    small = [(*who(each.student), " ".join(each.computed)) for each in found if each.computed]
+    yield from labelled("compute", listed((*WHO, "computed instead of measured"), small))
     drawn = [each for each in found if each.flattest is not None]
     angles = [each.flattest for each in drawn if each.flattest is not None]
     lengths = [each.shortest for each in drawn if each.shortest is not None]
@@ -49,27 +57,6 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
     if not lab.rule.draws:
         yield from labelled("note", alike_lines([each.student for each in found]))
-
-
-def unfair_lines(unfair: Sequence[Assigned]) -> list[str]:
-    """Each student with unfair data: row, number, id and name, data, limits broken."""
-    rows = [
-        (*who(each.student), data_words(each.settings), "; ".join(map(str, each.faults)))
-        for each in unfair
-    ]
-    return listed(("row", "number", "id", "name", "data", "limits"), rows)
-
-
-def again_lines(again: Sequence[Assigned]) -> list[str]:
-    """Each student whose data were drawn again, and how often."""
-    rows = [(*who(each.student), f"{each.attempt + 1}") for each in again]
-    return listed(("row", "number", "id", "name", "draws"), rows)
-
-
-def computed_lines(found: Sequence[Assigned]) -> list[str]:
-    """Each student who computes some fields instead of measuring them."""
-    rows = [(*who(each.student), " ".join(each.computed)) for each in found]
-    return listed(("row", "number", "id", "name", "computed instead of measured"), rows)
 
 
 def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[str]:

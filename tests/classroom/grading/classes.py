@@ -140,7 +140,7 @@ def honest_class(lab: str, kind: Kind, seed: int) -> dict[str, Row]:
 
 def marked(lab: str, kind: Kind, seed: int, answers: Mapping[str, Row]) -> Result:
     """A class with these answers, marked."""
-    return graded_class(book_of(lab), takers_of(kind.own, seed), answers).result
+    return graded_class(book_of(lab), takers_of(kind.own, seed), answers)
 
 
 def named(result: Result) -> list[tuple[str, ...]]:

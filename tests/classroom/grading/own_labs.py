@@ -97,7 +97,7 @@ def honest_class(name: str, kind: Kind, seed: int, count: int = 120) -> dict[str
 
 def marked(name: str, answers: Mapping[str, Row]) -> Result:
     """A class with these answers, marked."""
-    return graded_class(book_of(name), takers_of(name, len(answers)), answers).result
+    return graded_class(book_of(name), takers_of(name, len(answers)), answers)
 
 
 def not_right(result: Result) -> list[str]:

@@ -86,7 +86,7 @@ def drawn(standard: Standard, pencil: float, count: int, seed: int) -> dict[str,
     found = joint_drawings(standard.exact, Pencil(pencil), count, seed)
     reading = np.random.Generator(np.random.PCG64([seed, 10**6]))
     columns: dict[str, Any] = {}
-    for probe in standard.probes:
+    for probe in standard.layout.probes:
         value = np.broadcast_to(probe.read(found, standard.paper), count)
         if probe.item.what == "sense":
             value = np.sign(value)

@@ -54,7 +54,7 @@ def marked(decisions=(), hold=False):
 
 
 def of(found, who):
-    return next(g for g in found.result.graded if g.taker.student.id == who)
+    return next(g for g in found.graded if g.taker.student.id == who)
 
 
 def test_a_table_of_any_separator_and_language_is_read(tmp_path):
@@ -113,7 +113,7 @@ def test_points_of_fields_and_of_the_whole_take_the_place_of_those_found():
     assert of(after, "s008").decision.before == of(before, "s008").earned
     assert not of(before, "s009").present and of(after, "s009").earned == 2
     assert {"s007", "s008", "s009"} <= set(points_by_id(after))
-    assert after.result.wrong_variants == before.result.wrong_variants
+    assert after.wrong_variants == before.wrong_variants
     assert not of(after, "s009").present
     page = feedback_html(of(after, "s009"), "Lab", lab_of(LAB).rubric, words("en"))
     assert "handed in on paper" in page and "<table" not in page
@@ -132,7 +132,7 @@ def test_a_cell_that_was_decided_waits_no_more():
         (Decision("s007", "", Fraction(3), "all in all"), []),
     ):
         made = graded_class(book_of(LAB), TAKERS, given, decisions=[decision] if decision else [])
-        assert open_cells(made.result, cells) == left
+        assert open_cells(made, cells) == left
 
 
 def test_a_row_releases_who_is_held_and_an_open_request_does_not():
@@ -177,7 +177,7 @@ def test_reasons_stand_on_feedback_in_the_report_and_in_the_marks(language):
     for key in ("decisions", "requests"):
         assert spoken(f"class.{key}") in report
     assert escaped in report and "please" in report
-    before = {g.taker.student.id: g.earned for g in marked().result.graded}
+    before = {g.taker.student.id: g.earned for g in marked().graded}
     assert of(found, "s009").earned == before["s009"]  # what is asked changes no points
     rows = read_marks(files["marks.csv"])
     assert rows["s007"]["v_C_mm why"].endswith(f"; decided, was 0: {reason}")

@@ -64,7 +64,7 @@ def three(value: float) -> float:
 
 def values(standard: Standard, vectors: bool = False) -> list[str]:
     """The fields that are values which the drawing tells; of vectors with a segment only."""
-    fields = [probe.item.field for probe in standard.probes if probe.item.what == "value"]
+    fields = [probe.item.field for probe in standard.layout.probes if probe.item.what == "value"]
     fields = [field for field in fields if not standard.tolerance[field].unsure]
     return [field for field in fields if not vectors or f"{field}_mm" in standard.key]
 

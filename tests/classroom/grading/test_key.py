@@ -109,7 +109,7 @@ def test_the_pencil_of_a_tolerance_is_that_of_drawings_in_which_all_marks_are_of
     """The 95th percentile of 4 000 joint drawings, within a tenth; unsure fields are left out."""
     standard = marker_of(name, 12).standard
     found = joint_drawings(standard.exact, Pencil(0.5, 0.5), 4000, seed=3)
-    for probe in standard.probes:
+    for probe in standard.layout.probes:
         field = probe.item.field
         if probe.item.what != "sense" and not standard.tolerance[field].unsure:
             off = abs(probe.error(found, standard.paper, standard.key[field]))

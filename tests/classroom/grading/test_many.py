@@ -104,13 +104,13 @@ def test_only_what_hangs_on_a_changed_value_need_be_run_again(name):
     """Of a construction with one value put in place of its own every field is as of a whole run."""
     found = held(lab_of(name), text_of(name), numbers()[:2])[1]
     program, values = found.layout.program, found.mechanism.scene.values_in(FLOAT)
-    for number in found.needed:
+    for number in found.layout.needed:
         value = found.exact.trace.values[number]
         if isinstance(value, complex | float):
             put = {number: 1.25 * value}
             given = {program.seconds: found.scales.seconds} if program.seconds is not None else {}
             try:
-                whole = run(program, found.needed, values, FLOAT, overrides={**given, **put})
+                whole = run(program, found.layout.needed, values, FLOAT, overrides={**given, **put})
             except StepFailed:
                 assert not found.rerun(put)
                 continue

@@ -15,11 +15,11 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin.classroom.grading import class_report
-from graphkin.classroom.grading.class_marking import Class, graded_class
+from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_pictures import pictures
 from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
-from graphkin.classroom.grading.graded import Answer, Suspicion
+from graphkin.classroom.grading.graded import Answer, Result, Suspicion
 from graphkin.classroom.grading.grading_files import ReportSettings, points_by_id, report_files
 from graphkin.classroom.grading.marks_tables import differences, marks_table, read_marks
 from graphkin.classroom.roster.student import Student
@@ -54,7 +54,7 @@ def pictures_drawn_once(monkeypatch):
 
 
 @cache
-def small_class(**changes: float) -> Class:
+def small_class(**changes: float) -> Result:
     """Two students of the pump, one with a hostile name and some answers changed, one absent."""
     marker = marker_of("pump", 7)
     answers = {"=1+1": {**key_answers(marker.standard), **given(changes)}}
@@ -66,7 +66,7 @@ def small_class(**changes: float) -> Class:
     return graded_class(book_of("pump"), takers, answers)
 
 
-def files(found: Class, language: str = "en", before: bytes = b"") -> dict[str, bytes]:
+def files(found: Result, language: str = "en", before: bytes = b"") -> dict[str, bytes]:
     """The files of a report."""
     told = ReportSettings(HOSTILE, words(language))
     return report_files(found, lab_of("pump"), told, ("html",), before)
@@ -87,7 +87,7 @@ def test_every_page_is_whole_escaped_and_fetches_nothing(language):
 
 
 def test_marks_are_a_table_that_no_spreadsheet_runs():
-    data = marks_table(small_class().result)
+    data = marks_table(small_class())
     table = list(csv.DictReader(io.StringIO(data.decode("utf-8-sig"))))
     assert [row["id"] for row in table] == ["'=1+1", "0002"]
     assert table[0]["group"] == "'=cmd"
@@ -102,7 +102,7 @@ def test_marks_are_a_table_that_no_spreadsheet_runs():
 def test_the_same_digits_are_evidence_with_whose_they_are():
     found = small_class()
     both = Suspicion(("=1+1", "0002"), ("v_D", "omega_3"), 5432.0)
-    made = files(replace(found, result=replace(found.result, copies=(both,))))
+    made = files(replace(found, copies=(both,)))
     marks = read_marks(made["marks.csv"])
     assert [marks[who]["evidence"] for who in ("'=1+1", "0002")] == ["same as 0002", "same as =1+1"]
     (line,) = (each for each in made["class.html"].decode("utf-8").splitlines() if "5000" in each)
@@ -123,7 +123,7 @@ def test_a_new_marking_lists_what_changed_and_nothing_else():
 
 
 @cache
-def held_class(*released: str) -> Class:
+def held_class(*released: str) -> Result:
     """One of three hands in the data of another's number; the lab holds such marks."""
     lab = lab_of("pump")
     book = replace(book_of("pump"), lab=replace(lab, rubric=replace(lab.rubric, hold=True)))
@@ -139,8 +139,8 @@ def held_class(*released: str) -> Class:
 def test_a_held_mark_is_nowhere_until_it_is_released():
     language = "it"
     found, given_back = held_class(), held_class("0013")
-    assert [each.held for each in found.result.graded] == [False, True, False]
-    assert not any(each.held for each in given_back.result.graded)
+    assert [each.held for each in found.graded] == [False, True, False]
+    assert not any(each.held for each in given_back.graded)
     assert set(points_by_id(found)) == {"0007"}
     assert set(points_by_id(given_back)) == {"0007", "0013"}
     made, after = files(found, language), files(given_back, language)
@@ -156,9 +156,7 @@ def test_a_held_mark_is_nowhere_until_it_is_released():
     assert said not in pages[1] and "<table" in pages[1]
     assert made["feedback/0007.html"] == after["feedback/0007.html"]
     rubric, spoken = lab_of("pump").rubric, words(language)
-    drawn = [
-        feedback_pages(each.result.graded[1], "", rubric, spoken) for each in (found, given_back)
-    ]
+    drawn = [feedback_pages(each.graded[1], "", rubric, spoken) for each in (found, given_back)]
     assert ["'table'" in repr(pages) for pages in drawn] == [False, True]
     report = made["class.html"].decode("utf-8")
     assert "--release" in report
