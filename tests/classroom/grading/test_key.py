@@ -16,6 +16,7 @@ from graphkin.classroom.grading.tolerance import (
     added,
     combined,
     covariance,
+    extent,
     joint_drawings,
 )
 from tests.classroom.grading.students import (
@@ -187,3 +188,22 @@ def test_what_is_drawn_is_held_to_no_less_than_the_ruler_tells_though_no_drawing
     found = combined(reading, float("inf"), strict, 100.0, drawn=True)
     assert found.value == found.most == strict.ruler > 0
     assert combined(reading, float("inf"), strict, 100.0, drawn=False).value == 0
+
+
+@pytest.mark.parametrize(("cap", "unsure"), [(4.9, True), (5.1, False)])
+def test_a_field_is_unsure_where_pencil_and_ruler_together_are_beyond_the_cap(cap, unsure):
+    """3 mm and 4 mm are 5 mm together."""
+    standard = marker_of("pump", 7).standard
+    (reading, *_) = [each for each in standard.readings if each.probe.item.what == "segment"]
+    rubric = replace(standard.rubric, cap=cap / abs(reading.value), ruler=4.0)
+    assert combined(reading, 3.0, rubric, 100.0, drawn=True).unsure is unsure
+
+
+@pytest.mark.parametrize("name", ["pump", "offset-slider-crank"])
+def test_a_mechanism_is_as_large_as_the_longer_side_of_the_box_round_its_points(name):
+    """The pump is higher than wide, the slider-crank wider than high."""
+    standard = marker_of(name, 7).standard
+    places = [point.position for point in standard.mechanism.solve().points.values()]
+    wide, high = np.ptp(np.real(places)), np.ptp(np.imag(places))
+    assert (wide > high) == (name != "pump")
+    assert extent(standard.exact) == pytest.approx(1000 * max(wide, high) / standard.scales.kL)
