@@ -4,7 +4,7 @@ A mutant is the program with one sign, operator, comparison, constant or pair of
 It is tried by the tests that come by its block (``blocks``; what stands outside of all functions by
 those that come by a block with its name), the quickest first for at most ``--seconds``, then for as
 long again by others of their rooms, for tests share what one of them makes: those with the same
-subject first. The first that fails ends it (``mutant_trials``).
+subject first. The first that fails ends it, if it does by itself, too (``mutant_trials``).
 ``-j`` says how many processes run at once, ``--only PATH…`` takes the mutants from some modules,
 ``--from`` goes on in the list. Where it is not known which blocks the tests of a room come by, they
 run first, which takes as long as the tests do; ``--known`` goes by what is known, as it was.
@@ -280,7 +280,7 @@ def tried(copy: Path, tests: Mapping[int, Sequence[str]], jobs: int) -> dict[int
 
 
 def alone(copy: Path, mutant: Mutant, tests: Sequence[str]) -> str:
-    """Whether a test fails where one mutant alone is written."""
+    """Whether a test fails where one mutant alone is written, and none where it is not."""
     module = copy / mutant.path
     right = module.read_bytes()
     if not tests:
@@ -289,9 +289,10 @@ def alone(copy: Path, mutant: Mutant, tests: Sequence[str]) -> str:
     names.write_text("\n".join(tests), encoding="utf-8")
     try:
         put(module, written(right, mutant, mutant.after))
-        return "alone" if run(copy, [f"@{names}"]) not in (0, NOTHING) else ""
+        fails = run(copy, [f"@{names}"]) not in (0, NOTHING)
     finally:
         put(module, right)
+    return "alone" if fails and run(copy, [f"@{names}"]) in (0, NOTHING) else ""
 
 
 def put(module: Path, source: bytes) -> None:

@@ -15,8 +15,11 @@ from hypothesis import strategies as st
 from graphkin.construction.guides.slide_symbols import nearest, slot_ends
 from graphkin.construction.links.dyad_by_arcs import arcs_reach
 from graphkin.construction.links.gear_symbols import Mesh, teeth_at
-from graphkin.construction.links.link_numbers import Body, label_beside, within
+from graphkin.construction.links.link_numbers import Body, label_beside, settle_in_plates, within
 from graphkin.drawing.field import Field
+from graphkin.drawing.label import Label
+from graphkin.drawing.labels import FieldContent
+from graphkin.drawing.marks import Polyline, reach
 from graphkin.numbers.plane import Circle
 
 PLACE = st.builds(complex, st.floats(-30, 30), st.floats(-30, 30))
@@ -48,6 +51,20 @@ def test_a_link_is_near_a_line_where_their_boxes_are(start, end, far):
     x, y = sorted((start.real, end.real)), sorted((start.imag, end.imag))
     wide = shapely.box(x[0] - far, y[0] - far, x[1] + far, y[1] + far)
     assert found.near(start, end, far) is wide.intersects(plate)
+
+
+@pytest.mark.parametrize("name", ["3", "coupler"])
+def test_the_name_of_a_plate_stands_as_a_whole_inside_it(name):
+    """0.8 mm from its sides, however long it is."""
+    corners = ((10.0, 10.0), (70.0, 10.0), (70.0, 40.0), (10.0, 40.0), (10.0, 10.0))
+    board = FieldContent((0.0, 0.0, 100.0, 100.0))
+    board.marks.append(Polyline(corners, "plate", name))
+    board.labels.append(Label(name, "", (70.0, 25.0), name=name, ring=True))
+    settle_in_plates(board)
+    assert not board.labels
+    found = [reach(mark) for mark in board.marks[1:]]
+    assert max(box[2] for box in found) == pytest.approx(70 - 0.8, abs=0.05)
+    assert min(box[0] for box in found) > 10.8
 
 
 @pytest.mark.parametrize("corners", [(0j, 14 + 2j, 9 + 11j), (0j, 16 + 0j, 16 + 8j, 8j)])

@@ -14,7 +14,7 @@ from graphkin.loops.assemble import assembled
 from graphkin.loops.branch_closures import closures, moved_by, settled_of
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
-from graphkin.loops.newton import newton
+from graphkin.loops.newton import newton, scaled
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
@@ -142,6 +142,21 @@ def test_each_of_many_starts_goes_its_own_way(read):
     for start, end in zip(thrown, found, strict=True):
         alone, _ = newton(loops, start[None], most=4)
         assert end == pytest.approx(alone[0], abs=1e-6)
+
+
+def test_a_step_is_no_longer_than_half_a_radian_and_keeps_its_direction(read):
+    """Held against one solved for itself; one that is shorter stays as long as it is."""
+    loops = equations(read(RAPID_RETURN))
+    thrown = np.random.default_rng(3).uniform(-3, 3, (40, loops.unknown_count))
+    ends = newton(loops, thrown)[0]
+    near = ends[np.abs(scaled(loops, ends)[0]).max(axis=1) < 1e-9] + 1e-3
+    for start in (thrown, near):
+        residual, jacobian = scaled(loops, start)
+        step = -np.linalg.solve(jacobian, residual[:, :, None])[:, :, 0]
+        length = np.abs(step).max(axis=1)[:, None]
+        assert (length.min() > 0.5) == (start is thrown)
+        moved = (newton(loops, start, most=1)[0] - start) / loops.columns
+        assert moved == pytest.approx(step * np.minimum(1, 0.5 / length), abs=1e-9)
 
 
 STRETCHED = """

@@ -35,7 +35,7 @@ from graphkin.reading.codes import code_among, codes_in
 from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
 from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
-from graphkin.reading.drawn_ink import DrawnInk, refined
+from graphkin.reading.drawn_ink import DrawnInk, fitted, offsets, refined
 from graphkin.reading.expected_place import ExpectedPlace, expected
 from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
@@ -943,6 +943,17 @@ def test_a_place_where_vectors_end_fits_better_than_one_that_they_pass(
     assert not search.goes_on(300 + 100j, 340 + 120j)
     assert not search.goes_on(300 + 100j, 310 + 120j)
     assert not search.goes_on(300 + 100j, 280 + 90j)
+
+
+@pytest.mark.parametrize(("rows", "dark", "count"), [(40, 1.0, 1), (20, 2.0, 0)])
+def test_ink_that_is_twice_as_dark_makes_a_line_no_longer(
+    rows: int, dark: float, count: int
+) -> None:
+    """Less than three tenths of a way drawn are no line, however dark they are."""
+    part, across = np.linspace(0, 1, 100), offsets(3.0)
+    strip = np.zeros((len(part), len(across)))
+    strip[:rows, abs(across) < 0.3] = dark
+    assert len(fitted(strip, np.ones_like(strip), across, part, (1.0, 1.0), 1)) == count
 
 
 def test_others_leave_a_line_at_its_node() -> None:

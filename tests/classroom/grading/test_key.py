@@ -11,7 +11,14 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Status
 from graphkin.classroom.grading.marking import sense_is_open
-from graphkin.classroom.grading.tolerance import FINE, added, joint_drawings
+from graphkin.classroom.grading.tolerance import (
+    FINE,
+    added,
+    combined,
+    covariance,
+    extent,
+    joint_drawings,
+)
 from tests.classroom.grading.students import (
     LABS,
     book_of,
@@ -158,3 +165,45 @@ def test_errors_that_lead_to_one_side_widen_the_95th_percentile(bias):
 
     expected = np.sqrt(float(mpmath.findroot(lacking, degrees + 4)) * mean / degrees)
     assert error == pytest.approx(expected, rel=0.006)  # of Wilson and Hilferty
+
+
+def test_fields_go_together_as_the_errors_that_move_them_do():
+    """Each error is √3 deviations off to either side once in six drawings, and else right; of two
+    errors all nine drawings are written down. A field whose errors do not just add goes alone."""
+    off = np.array([[[-1.0, 1.2], [0.5, -0.4]], [[-0.3, 0.3], [0.8, -1.0]], [[2.0, 2.0], [1, 1]]])
+    ways = np.insert(off, 1, 0.0, axis=2)
+    drawn_off = (ways[:, 0, :, None] + ways[:, 1, None, :]).reshape(3, 9)
+    share = np.outer([1, 4, 1], [1, 4, 1]).ravel() / 36
+    expected = np.cov(drawn_off, aweights=share, ddof=0)
+    expected[2], expected[:, 2] = 0, 0
+    expected[2, 2] = (9.8 / 1.959963984540054) ** 2
+    bent = np.array([False, False, True])
+    assert covariance(off, np.array([5.0, 5.0, 9.8]), bent) == pytest.approx(expected)
+
+
+def test_what_is_drawn_is_held_to_no_less_than_the_ruler_tells_though_no_drawing_closes():
+    standard = marker_of("pump", 7).standard
+    (reading, *_) = [each for each in standard.readings if each.probe.item.unit == "mm"]
+    strict = replace(standard.rubric, cap=0.0, floor=0.0)
+    found = combined(reading, float("inf"), strict, 100.0, drawn=True)
+    assert found.value == found.most == strict.ruler > 0
+    assert combined(reading, float("inf"), strict, 100.0, drawn=False).value == 0
+
+
+@pytest.mark.parametrize(("cap", "unsure"), [(4.9, True), (5.1, False)])
+def test_a_field_is_unsure_where_pencil_and_ruler_together_are_beyond_the_cap(cap, unsure):
+    """3 mm and 4 mm are 5 mm together."""
+    standard = marker_of("pump", 7).standard
+    (reading, *_) = [each for each in standard.readings if each.probe.item.what == "segment"]
+    rubric = replace(standard.rubric, cap=cap / abs(reading.value), ruler=4.0)
+    assert combined(reading, 3.0, rubric, 100.0, drawn=True).unsure is unsure
+
+
+@pytest.mark.parametrize("name", ["pump", "offset-slider-crank"])
+def test_a_mechanism_is_as_large_as_the_longer_side_of_the_box_round_its_points(name):
+    """The pump is higher than wide, the slider-crank wider than high."""
+    standard = marker_of(name, 7).standard
+    places = [point.position for point in standard.mechanism.solve().points.values()]
+    wide, high = np.ptp(np.real(places)), np.ptp(np.imag(places))
+    assert (wide > high) == (name != "pump")
+    assert extent(standard.exact) == pytest.approx(1000 * max(wide, high) / standard.scales.kL)

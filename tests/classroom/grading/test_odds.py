@@ -21,6 +21,7 @@ from graphkin.classroom.grading.likelihood import (
     MISTAKES,
     PENCILS,
     Key,
+    judged,
     likelihood_if_drawn,
     scattered,
 )
@@ -276,3 +277,25 @@ def test_scales_of_one_s_own_are_told_plan_by_plan(lab, velocities, acceleration
     assert way.sizes == pytest.approx(sizes * times)
     assert not [*by_own_scales(sizes * times, keys, 0, every & (times == 1))]
     assert not [*by_own_scales(sizes * 1.2, keys, 0, every)]
+
+
+def test_the_answer_least_like_the_others_lies_most_deviations_from_what_they_tell():
+    """Each is told by the others as the normal law of all has it; not the one that lies farthest
+    off, nor the one that is pulled most."""
+    rng, others = np.random.default_rng(11), 0
+    for _ in range(20):
+        way = rng.normal(size=(4, 4)) * rng.uniform(0.1, 3, (4, 1))
+        spread, noise = way @ way.T, np.diag(rng.uniform(0.01, 1, 4))
+        off, every = rng.normal(size=4), np.ones(4, dtype=bool)
+        found, worst = judged(off, spread, noise, np.zeros(4), every)
+        whole = found.pencil**2 * spread + noise
+        far = []
+        for i in range(4):
+            rest = [j for j in range(4) if j != i]
+            tells = whole[i, rest] @ np.linalg.inv(whole[np.ix_(rest, rest)])
+            far.append((off[i] - tells @ off[rest]) ** 2 / (whole[i, i] - tells @ whole[rest, i]))
+        assert worst == int(np.argmax(far))
+        scale = np.sqrt(spread.diagonal() + noise.diagonal())
+        pulled = np.linalg.solve(whole / np.outer(scale, scale), off / scale)
+        others += worst != int(np.argmax(pulled**2))
+    assert others > 2
