@@ -14,6 +14,7 @@ from graphkin.construction.cams.cam_relations import FORMS, of_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.documents.calculation import calculation
+from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
@@ -110,6 +111,19 @@ def test_the_centre_under_a_flat_face_stands_where_the_law_says():
     assert found == pytest.approx(spot(centre.name), abs=1e-9)
     assert abs(found - spot(cam.pivot)) == pytest.approx(sqrt(rate**2 + bend**2))
     assert "√" in how
+
+
+SIDES = {"upwards": 1j, "downwards": -1j, "to the right": 1, "to the left": -1}
+
+
+def test_the_sentence_leads_from_the_pivot_to_the_centre_under_a_flat_face():
+    drawing, centre, _ = told("cam-flat")
+    said = next(s.markup for s in sentences(drawing) if "centre of curvature" in s.markup)
+    laid = re.findall(rf"([\d.]+) mm ({'|'.join(SIDES)})", said)
+    spot, cam = drawing.standing.spot, drawing.scene.cams[centre.follower]
+    way = sum(float(size) * SIDES[side] for size, side in laid)
+    assert len(laid) == 2
+    assert way == pytest.approx(drawing.on_paper(spot(centre.name) - spot(cam.pivot)), abs=0.01)
 
 
 def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follows():
