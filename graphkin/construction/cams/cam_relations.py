@@ -75,7 +75,7 @@ def of_law(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
         yield replace(formula, left=name, result=number, unit=unit, remark=said)
 
 
-class Piece(Struct, frozen=True):
+class LawPiece(Struct, frozen=True):
     """A piece of a cam's law that moves the follower, in radians and the scene's own unit of lift.
 
     ``angle`` is that of the cam from where the law begins; the piece begins at ``begin`` with the
@@ -92,7 +92,7 @@ class Piece(Struct, frozen=True):
     sense: int
 
 
-def piece_at(drawing: Drawing, centre: CurvatureCentre) -> Piece | None:
+def piece_at(drawing: Drawing, centre: CurvatureCentre) -> LawPiece | None:
     """The piece that holds where a cam stands; None in a dwell, and of tables."""
     cam, values = drawing.scene.cams[centre.follower], drawing.scene.values
     if cam.slopes:
@@ -112,10 +112,10 @@ def piece_at(drawing: Drawing, centre: CurvatureCentre) -> Piece | None:
         return None
     letter = "ψ" if cam.lever else "s"
     found = (angle, begin, end - begin, lifted * one, rise * one)
-    return Piece(piece.motion, letter, *found, cam.sense)
+    return LawPiece(piece.motion, letter, *found, cam.sense)
 
 
-def of_piece(drawing: Drawing, piece: Piece) -> Iterator[Relation]:
+def of_piece(drawing: Drawing, piece: LawPiece) -> Iterator[Relation]:
     """How far a piece has gone, its length in radians, then lift and derivatives as formulas.
 
     Nothing of motions that are made of several sines.
