@@ -145,7 +145,7 @@ def refuse_foreign(text: str) -> None:
             ",": Mend(",", ".", "write a decimal point"),
             "°": Mend("°", "", "leave out °"),
         }
-        raise UnreadableError(f"{foreign!a} in an expression", hints.get(foreign, ""))
+        raise UnreadableError(f"'{visible(foreign)}' in an expression", hints.get(foreign, ""))
     if not text.strip():
         raise UnreadableError("an empty expression")
     joined = re.search(JUXTAPOSED, text) if runs_on(text) else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import combinations
 
 from msgspec import Struct, field
 
@@ -179,10 +180,19 @@ def missing(sketch: LinkKeys, point: str, placed: set[str]) -> tuple[str, str, H
     if len(ends) == 1:
         bar = f"{ends[0]}-{point}"
         base = any({ends[0], point} == {on.first, on.second} for on in sketch.words.values())
+        hint = f"write {bar} above the other lengths, for they begin with it" if base else ""
+        lines = [
+            f"{p}-{q}"
+            for p, q in combinations(sketch.points, 2)
+            if {p, q} <= placed and sketch.between(p, q) and ends[0] in (p, q)
+        ]
+        if len(lines) == 1 and not hint:
+            said = f"on {lines[0]}"
+            hint = f'if {point} lies on the line, write {point} = "{said}" with one of its lengths'
         return (
             f"one length, {bar}, does not place {point}",
             "a second length and a side, an angle, or coordinates [x, y]",
-            f"write {bar} above the other lengths, for they begin with it" if base else "",
+            hint,
         )
     return ("", "", "")
 

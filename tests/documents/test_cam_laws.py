@@ -15,6 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import constructions
 from graphkin.documents.calculation import calculation
+from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Text
 from graphkin.drawing.richtext import plain
@@ -128,6 +129,19 @@ def test_a_reader_of_the_data_reckons_how_far_a_plate_has_swung_its_lever():
     swing = rise * (part - sin(2 * pi * part) / (2 * pi))
     centre, *_ = constructions(drawing.trace.program, CurvatureCentre)
     assert swing == pytest.approx(degrees(drawing.trace.values[centre.lift]), abs=1e-9)
+
+
+SIDES = {"upwards": 1j, "downwards": -1j, "to the right": 1, "to the left": -1}
+
+
+def test_the_sentence_leads_from_the_pivot_to_the_centre_under_a_flat_face():
+    drawing, centre, _ = told("cam-flat")
+    said = next(s.markup for s in sentences(drawing) if "centre of curvature" in s.markup)
+    laid = re.findall(rf"([\d.]+) mm ({'|'.join(SIDES)})", said)
+    spot, cam = drawing.standing.spot, drawing.scene.cams[centre.follower]
+    way = sum(float(size) * SIDES[side] for size, side in laid)
+    assert len(laid) == 2
+    assert way == pytest.approx(drawing.on_paper(spot(centre.name) - spot(cam.pivot)), abs=0.01)
 
 
 def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follows():

@@ -147,7 +147,7 @@ BROKEN = {
     "O-A = 40\nA-B = 3\nO-A-B = 3\nO-B = 3": ("O-B", "one measure too many", ""),
     "O = [0, 0]\nA = [1, 2]\nO-A = 3": ("O-A", "one measure too many", "leave it out"),
     "O-A = 40\nB-C = 3": ("", "nothing places B, C", ""),
-    "O-A = 40\nO-B = 3": ("B", "one length, O-B, does not place B", "a second length"),
+    "O-A = 40\nO-B = 3": ("B", "one length, O-B, does not place B", 'write B = "on O-A"'),
     "O-A = 40\nO-O = 3": ("O-O", "O-O names one point twice", ""),
     "O-A = 40\nO-A-O = 3": ("O-A-O", "names one point twice", ""),
     "O-A = 40\nO-A-B-C = 3": ("O-A-B-C", "is no key of a link", ""),

@@ -9,7 +9,6 @@ from pathlib import Path
 from graphkin.classroom.lab.fair_ranges import space_of
 from graphkin.classroom.lab.fair_ranges_words import variants_lines
 from graphkin.classroom.lab.items import (
-    GREEK,
     all_fields,
     arrow_items,
     asked_fields,
@@ -42,11 +41,7 @@ QUANTITY = {
     **{each.target: f"{each.words} of link {{of}}" for each in CENTRES},
 }
 """What each quantity is of which a form asks."""
-COMPONENT = {
-    kind.sign: words("en")(kind.legend).partition(":")[0]
-    for kind in COMPONENTS
-    if kind.sign in GREEK
-}
+COMPONENT = {kind.sign: words("en")(kind.legend).partition(":")[0] for kind in COMPONENTS}
 """What each component of an acceleration is called, by its sign."""
 SHEET = {sheet[0]: sheet for sheet in SHEETS}
 """The sheet with whose letter an arrow's symbol begins."""

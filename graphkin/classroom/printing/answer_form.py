@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
+from math import ceil
 
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
@@ -17,8 +18,8 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.text import Words
 
 LEFT, RIGHT, TOP, BOTTOM = A4_AREA[0] + 4, A4_AREA[2] - 4, A4_AREA[1] + 4, A4_AREA[3] - 4
-ROW = 7.0
-"""Height of a row, for a hand to write in, in mm."""
+ROW, LEAST_ROW = 7.0, 6.0
+"""Height of a row, for a hand to write in, in mm; the least where that saves a page."""
 HEAD = SIDE + 8.0
 """Room for the square and the words beside it, in mm."""
 BESIDE = RIGHT - LEFT - SIDE - 8.0
@@ -47,12 +48,24 @@ def form(
         return ()
     said = advice(items, words, pivot)
     rows = [row(item, points, compute, words) for item in items]
-    room = int((BOTTOM - TOP - HEAD) / ROW) - 1
+    height = row_height(len(rows))
+    room = rows_within(height)
     parts = [rows[i : i + room] for i in range(0, len(rows), room)]
     return tuple(
-        page_of(part, words, header, owner, f"{i}/{len(parts)}", said)
+        page_of(part, words, header, owner, f"{i}/{len(parts)}", said, height)
         for i, part in enumerate(parts, 1)
     )
+
+
+def rows_within(height: float) -> int:
+    """How many rows of a height a page has below the head of its table."""
+    return int((BOTTOM - TOP - HEAD) / height + 1e-9) - 1
+
+
+def row_height(count: int) -> float:
+    """The height at which so many rows take no more pages than they must, in mm."""
+    pages = ceil(count / rows_within(LEAST_ROW))
+    return min(ROW, (BOTTOM - TOP - HEAD) / (ceil(count / pages) + 1))
 
 
 def advice(items: Sequence[Item], words: Words, pivot: str) -> tuple[str, ...]:
@@ -99,35 +112,37 @@ def page_of(
     owner: tuple[str, str],
     number: str,
     said: Sequence[str],
+    height: float,
 ) -> Page:
     """One A4 page."""
     name, code = owner
     marks: list[Mark] = [*page_frame(header, (escape(f"{name}   {code}"), number))]
     marks += square(code, RIGHT - SIDE - 1, TOP + 1)
-    height = next((h for h in (3.5, 2.5) if extent(escape(name), h)[0] <= BESIDE), SMALL)
-    marks.append(Text(LEFT, TOP + 7, escape(name), "caption", height, name="owner"))
+    letters = next((h for h in (3.5, 2.5) if extent(escape(name), h)[0] <= BESIDE), SMALL)
+    marks.append(Text(LEFT, TOP + 7, escape(name), "caption", letters, name="owner"))
     marks.append(Text(LEFT, TOP + 13.5, escape(code), "caption", 3.5, name="code"))
     for i, line in enumerate(said):
-        marks.append(Text(LEFT, TOP + 18 + 3.2 * i, line, "caption", SMALL))
+        marks.append(Text(LEFT, TOP + 18 + 2.9 * i, line, "caption", SMALL))
     names = ("table.symbol", "form.field", "form.answer", "form.unit", "form.points")
-    marks += table(TOP + HEAD, [tuple(words(key) for key in names), *rows])
+    marks += table(TOP + HEAD, [tuple(words(key) for key in names), *rows], height)
     page = Page(*A4_SIZE, tuple(marks), f"{words('form.title')} – {code}", words.language)
     page.check()
     return page
 
 
-def table(top: float, rows: Sequence[tuple[str, ...]]) -> Iterator[Mark]:
+def table(top: float, rows: Sequence[tuple[str, ...]], height: float) -> Iterator[Mark]:
     """A ruled table across the page, its first row the head; a hint stands at a cell's right."""
-    width, low = sum(WIDTHS), top + len(rows) * ROW
-    yield box(LEFT, top, width, ROW, "shade")
+    width, low = sum(WIDTHS), top + len(rows) * height
+    yield box(LEFT, top, width, height, "shade")
     for i in range(len(rows) + 1):
-        yield LineMark(LEFT, top + i * ROW, LEFT + width, top + i * ROW, "panel")
+        yield LineMark(LEFT, top + i * height, LEFT + width, top + i * height, "panel")
     x = LEFT
     for column, across in enumerate((*WIDTHS, 0.0)):
         yield LineMark(x, top, x, low, "panel")
         for i, cells in enumerate(rows):
+            base = top + (i + 1) * height - 2.3
             if column < len(cells) and cells[column]:
-                yield cell(cells[column], x, across, top + i * ROW + 4.7, hint=i and column == 2)
+                yield cell(cells[column], x, across, base, hint=i and column == 2)
         x += across
 
 

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
-from graphkin.construction.core.naming import drawn_amount
+from graphkin.construction.core.naming import drawn_amount, nearest_side
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
@@ -304,17 +304,31 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         )
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
-        """By its distance from the pivot, and its direction in the plane."""
+        """By its distance from the pivot, and its direction in the plane; under a face that a
+        guide leads by the second derivative along the guide and the first square to it."""
         words, spot = drawing.words, drawing.standing.spot
         way = spot(self.name) - spot(self.start)
         fields = {"name": symbol(self.name), "g": escape(self.link), "p": symbol(self.start)}
         if abs(way) <= 1e-9 * drawing.standing.size:
             return words("step.cam-centre-dwell", law=self.law_words(drawing), **fields)
+        step = drawing.trace.program.steps[self.point]
+        if step.action is centre_under_face:
+            return words("step.cam-centre-face", **fields, **self.by_face(drawing, step))
         angle = words.fixed(degrees(phase(way)), 1)
         laid = f"{bar(self.start, self.name)} = {drawn_amount(drawing, abs(way))}"
         return words(
             "step.cam-centre", laid=laid, angle=angle, law=self.law_words(drawing), **fields
         )
+
+    def by_face(self, drawing: Drawing, step: Step) -> dict[str, str]:
+        """Both derivatives as they are laid off on paper: how far, and to which side."""
+        path, rate, bend = (drawing.trace.values[step.args[k]] for k in (1, 3, 4))
+        along = path.along / abs(path.along)
+        fields = {"law": self.law_words(drawing), "follower": escape(self.follower)}
+        for name, way in (("along", -along * bend), ("square", -1j * along * rate)):
+            side = drawing.words(f"page.to_{nearest_side(way)}")
+            fields[name] = f"{drawn_amount(drawing, abs(way))} {side}"
+        return fields
 
     def law_words(self, drawing: Drawing) -> str:
         """The follower's displacement, with its link's index, and its derivatives, by numbers."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from concurrent.futures import ThreadPoolExecutor
 from time import sleep
 
@@ -12,7 +13,13 @@ from hypothesis import strategies as st
 
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.items import items
-from graphkin.classroom.printing.answer_form import form
+from graphkin.classroom.printing.answer_form import (
+    LEAST_ROW,
+    ROW,
+    form,
+    row_height,
+    rows_within,
+)
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.personal import fits, owner, shortened
 from graphkin.classroom.printing.print_work import VIEWS, PrintOrder, Sheets, StudentSheets
@@ -169,12 +176,21 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
 
 
+@pytest.mark.parametrize(("count", "pages"), [(20, 1), (33, 1), (36, 1), (39, 2), (70, 2), (80, 3)])
+def test_rows_of_a_form_come_closer_only_to_save_a_page(count, pages):
+    height = row_height(count)
+    assert LEAST_ROW <= height <= ROW
+    assert math.ceil(count / rows_within(height)) == pages
+    if height < ROW:
+        assert math.ceil(count / rows_within(ROW)) > pages
+
+
 def test_a_long_form_goes_on_on_further_pages(edition):
     sheets = Sheets(order(edition), edition.takers[0])
-    fields = items(sheets.mechanism, edition.lab)[:1] * 70
+    fields = items(sheets.mechanism, edition.lab)[:1] * 80
     found = form(fields, {}, (), words("en"), ("Title", "Answers"), ("Ana", "AAAA"))
     assert len(found) == 3
-    assert sum(texts(page).count("v_B_mm") for page in found) == 70
+    assert sum(texts(page).count("v_B_mm") for page in found) == 80
     assert texts(found[2]).count("3/3") == 1
 
 
