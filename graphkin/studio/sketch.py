@@ -18,7 +18,7 @@ from graphkin.construction.core.drawn_scene import METRES
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import tables_of
-from graphkin.scene.model import FRAME, KEYWORDS
+from graphkin.scene.model import FRAME, KEYWORDS, Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 
@@ -93,7 +93,7 @@ def sketch(
     found = {**places, **frame_places(tables)}
     ghosts: list[Ghost] = []
     try:
-        mechanism = Mechanism(read_text(text, name, None, settings))
+        mechanism = Mechanism(as_set(text, name, settings))
         found |= solved(mechanism)
         ghosts = list(others(mechanism))
     except GraphkinError:
@@ -114,6 +114,14 @@ def sketch(
         [str(each.get("turn")) for each in drivers_of(tables) if "turn" in each],
         ghosts[:GHOSTS],
     )
+
+
+def as_set(text: str, name: str, settings: Mapping[str, str]) -> Scene:
+    """The scene with the settings of its parameters; as the text has it where they are refused."""
+    try:
+        return read_text(text, name, None, settings)
+    except GraphkinError:
+        return read_text(text, name, None, NOTHING)
 
 
 def unit_of(tables: Mapping[str, Any]) -> str:

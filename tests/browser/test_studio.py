@@ -403,6 +403,17 @@ def test_axe_finds_nothing_against_the_page(studio):
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
+def test_sheets_are_saved_and_the_scene_is_not(studio):
+    """What is written and not saved is told beside the names of the sheets."""
+    page = studio()
+    write(page, 'velocity = ["D"]', 'velocity = ["C"]')
+    page.click("#sheets")
+    page.uncheck("[name=formats][value=pdf]")
+    page.click("#draw")
+    page.locator("#status").filter(has_text="Saved: ").wait_for()
+    assert page.inner_text("#status").endswith(".svg; mine.toml: not saved")
+
+
 def test_the_mechanism_is_moved_within_the_page(studio):
     """Played by its driver beside its curves, led to a dead point, and dragged step by step; what
     is written is followed."""

@@ -60,7 +60,13 @@ def test_a_newcomer_builds_the_offset_slider_crank(hand):
 
 
 def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
+    """The field stays where it is under the pointer."""
+    hand.page.set_viewport_size({"width": 1000, "height": 800})
+    upper = hand.page.locator("#canvas").bounding_box()["y"]
     hand.pivot(0)
+    hand.take("bar")
+    assert hand.page.locator("#canvas").bounding_box()["y"] == pytest.approx(upper, abs=0.1)
+    hand.page.set_viewport_size({"width": 1440, "height": 900})
     hand.settled(lambda: hand.drag("wheel", 0, 60))
     hand.bar("O1", 100j)
     hand.settled(lambda: hand.drag("wheel", hand.place("A"), 60j))
@@ -195,6 +201,10 @@ def test_one_starts_from_a_gallery_with_a_picture_of_each(hand, served, tmp_path
         assert bars.count() >= 3 or lab == "offset-slider-crank"
     assert page.locator("[data-name='broken.toml'] svg").count() == 0
     assert not barred(page)
+    page.fill("#sought", "GEARS ring")
+    shown = page.locator("#opening li:visible [data-key]")
+    assert [each.get_attribute("data-name") for each in shown.all()] == ["gears-ring"]
+    page.fill("#sought", "")
     gears = page.locator("#examples [data-name='gears-ring']")
     gears.scroll_into_view_if_needed()
     gears.locator("svg circle.wheel").first.wait_for()

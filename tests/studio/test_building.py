@@ -52,6 +52,13 @@ def test_a_dragged_pin_turns_no_driver_but_that_of_its_own_link():
     assert float(angle.position.number({})) == pytest.approx(54, abs=0.1)
 
 
+def test_a_mechanism_stays_in_the_field_where_a_value_of_a_parameter_is_refused():
+    """A value out of range is told as a mistake; the field shows those of the text."""
+    seen = sketch(PUMP, "own", {}, {"n": "-3"})
+    assert seen == sketch(PUMP, "own", {}) != sketch(PUMP, "own", {}, {"n": "8"})
+    assert "D" in seen.points
+
+
 def test_the_other_closure_has_all_bars_as_long_as_the_one_that_is_drawn():
     """Also to a coupler point, which lies elsewhere with its coupler."""
     seen = sketch(PUMP, "own", {})

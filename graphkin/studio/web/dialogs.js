@@ -61,6 +61,19 @@ function pictured(items) {
   find("opening").addEventListener("close", () => seen.disconnect(), { once: true });
 }
 
+/** Show only what has every word that is sought in its name or title. */
+function seek() {
+  const words = find("sought").value.toLowerCase().split(/\s+/);
+  for (const list of find("opening").querySelectorAll("ul")) {
+    for (const item of list.children) {
+      const name = item.querySelector("[data-key]").textContent.toLowerCase();
+      item.hidden = !words.every((word) => name.includes(word));
+    }
+  }
+}
+
+find("sought").addEventListener("input", seek);
+
 /** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
 export async function choose(go) {
   const { scenes, labs, examples } = await listed();
@@ -89,12 +102,14 @@ export async function choose(go) {
     find("opening").close();
     go("?empty=yes");
   };
+  find("sought").value = "";
   find("opening").showModal();
   pictured(find("opening").querySelectorAll("li [data-key]"));
 }
 
-/** Let the kinds of files be chosen, then draw and save them; `fields` gives the scene as it is. */
-export function saveSheets(fields) {
+/** Let the kinds of files be chosen, then draw and save them; `fields` gives the scene as it is,
+ * `left` says what is not saved all the same. */
+export function saveSheets(fields, left) {
   const dialog = find("saving");
   const said = find("saving-said");
   const list = values().map(([name, value]) => `${name} = ${value}`).join(", ");
@@ -121,7 +136,7 @@ export function saveSheets(fields) {
       said.textContent = "";
       if (answer?.problems.length) said.textContent = answer.problems.map(sentence).join(" ");
       else if (answer) {
-        tell(say("studio.saved", { list: answer.files.join(", ") }));
+        tell([say("studio.saved", { list: answer.files.join(", ") }), left()].filter(Boolean).join("; "));
         dialog.close();
       }
     } catch (error) {

@@ -50,8 +50,10 @@ async function look(quick) {
     if (answer.stale || own < shown) return false;
     shown = own;
     wrong = answer.problems;
-    if (isBare(answer)) showProblems([], say("studio.how_begin"));
-    else showProblems(wrong);
+    if (isBare(answer)) {
+      showProblems([], say("studio.how_begin"));
+      showSliders([]);
+    } else showProblems(wrong);
     if (answer.title !== undefined) {
       find("title").textContent = answer.title;
       showSliders(answer.sliders);
@@ -227,7 +229,7 @@ async function sheets() {
   state();
   await look(false);
   if (find("status").classList.contains("wrong")) return;
-  if (!wrong.length) saveSheets(scene);
+  if (!wrong.length) saveSheets(scene, () => (isSafe() ? "" : `${file.value}: ${say("studio.unsaved")}`));
   else {
     tell(`${say("studio.mend_first")} ${sentence(wrong[0])}`, "wrong");
     find("problems").querySelector("button")?.focus();
