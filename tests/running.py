@@ -18,13 +18,14 @@ ROOT = Path(__file__).resolve().parents[1]
 Run = Callable[..., Result]
 
 
+def ran(*args: object) -> Result:
+    """Run a command in this process: ran("solve", "pump")."""
+    return CliRunner().invoke(app, [str(arg) for arg in args])
+
+
 @pytest.fixture
 def run() -> Run:
-    """Run a command in this process: run("solve", "pump")."""
-
-    def ran(*args: object) -> Result:
-        return CliRunner().invoke(app, [str(arg) for arg in args])
-
+    """The same, for a test."""
     return ran
 
 

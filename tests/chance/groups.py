@@ -6,7 +6,7 @@ import math
 from cmath import rect
 
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, Gear, Straight
+from tests.chance.records import FRAME, Straight
 
 # --- drivers -------------------------------------------------------------------------------------
 
@@ -443,12 +443,7 @@ def meshed(
     turned = {arm: m.rng.uniform(-2, 2), on: m.rng.uniform(-2, 2)}
     turned |= {name: 0.0 for name in turned if name == FRAME}
     turned[wheel] = turned[arm] - radii[1] / radii[0] * (turned[on] - turned[arm])
-    start = {
-        name: math.degrees(m.angle(name) - turned[name])
-        for name in (wheel, on, arm)
-        if name != FRAME
-    }
-    m.standing.gears.append(Gear(wheel, on, arm, centres, radii, belt, start, turned))
+    m.geared((wheel, on, arm), centres, radii, turned, belt)
 
 
 def belted(m: Maker) -> None:
@@ -517,11 +512,7 @@ def planet(m: Maker) -> None:
     turned[last] = arm_turned - small / own * (turned[wheels[0]] - arm_turned)
     turned[wheels[1]] = arm_turned + own / large * (turned[last] - arm_turned)
     for wheel, radius in zip(wheels, (small, -large), strict=True):
-        start = {n: math.degrees(m.angle(n) - turned[n]) for n in (last, wheel, arm)}
-        own_turned = {n: turned[n] for n in (last, wheel, arm)}
-        m.standing.gears.append(
-            Gear(last, wheel, arm, (pin[0], centre[0]), (own, radius), "", start, own_turned)
-        )
+        m.geared((last, wheel, arm), (pin[0], centre[0]), (own, radius), turned)
 
 
 def series(m: Maker) -> None:
@@ -541,21 +532,16 @@ def series(m: Maker) -> None:
     planets = [wheel_body(m, pin) for pin in pins]
     turned = {arm: m.rng.uniform(-2, 2), suns[0]: m.rng.uniform(-2, 2)}
 
-    def mesh(wheel: str, on: str, radii: tuple[float, float], ends: tuple[str, str]) -> None:
-        names = wheel, on, arm
-        start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
-        own = {name: turned[name] for name in names}
-        m.standing.gears.append(Gear(wheel, on, arm, ends, radii, "", start, own))
-
     for planet, pin, radius in zip(planets, pins, (first, second), strict=True):
         m.standing.bodies[planet].wheels.append((pin[0], radius))
     seen = turned[suns[0]] - turned[arm]
     turned[planets[0]] = turned[arm] - small / first * seen
     turned[planets[1]] = turned[arm] + small / second * seen
     turned[suns[1]] = turned[arm] + small / large * seen
-    mesh(planets[0], suns[0], (first, small), (pins[0][0], centre[0]))
-    mesh(planets[1], planets[0], (second, first), (pins[1][0], pins[0][0]))
-    mesh(planets[1], suns[1], (second, -large), (pins[1][0], centre[0]))
+    (one, other), (near, far) = planets, (pin[0] for pin in pins)
+    m.geared((one, suns[0], arm), (near, centre[0]), (first, small), turned)
+    m.geared((other, one, arm), (far, near), (second, first), turned)
+    m.geared((other, suns[1], arm), (far, centre[0]), (second, -large), turned)
 
 
 def twins(m: Maker) -> None:
@@ -582,14 +568,8 @@ def twins(m: Maker) -> None:
         m.standing.bodies[planet_].wheels.append((pin[0], own))
         turned[planet_] = turned[arm] + large / own * seen
         for wheel, radius in ((ring, -large), (sun, small)):
-            names = planet_, wheel, arm
-            start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
-            counted = {name: turned[name] for name in names}
-            ends, radii = (pin[0], centre[0]), (own, radius)
-            idle = number == 1 and wheel == sun
-            m.standing.gears.append(
-                Gear(planet_, wheel, arm, ends, radii, "", start, counted, idle)
-            )
+            idle, ends = number == 1 and wheel == sun, (pin[0], centre[0])
+            m.geared((planet_, wheel, arm), ends, (own, radius), turned, idle=idle)
     spot = pins[0][1] + m.vector()
     rod = m.point(planets[0], spot), spot
     known = m.any_body(but=[ring, sun, arm, *planets])

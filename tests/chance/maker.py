@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
 from random import Random
@@ -12,7 +12,7 @@ from random import Random
 import numpy as np
 
 from tests.chance.constraints import Moved, equations
-from tests.chance.records import FRAME, ROUND, Body, Drive, Slide, Standing, Straight
+from tests.chance.records import FRAME, ROUND, Body, Drive, Gear, Slide, Standing, Straight
 
 STIFF = 0.03
 """Least share by which a group must resist every way of moving it, or it is made anew."""
@@ -29,8 +29,6 @@ class Maker:
         self.rng, self.spread, self.size, self.cross_at = rng, spread, size, cross_at
         self.standing = Standing()
         self.count = 0
-        self.fixed: set[str] = {FRAME}
-        """Bodies whose axes may not be chosen any more, or that may not carry points."""
 
     # --- numbers ---------------------------------------------------------------------------------
 
@@ -56,10 +54,10 @@ class Maker:
         """A way somewhere."""
         return self.length() * self.direction()
 
-    def across(self, way: complex, straight: bool = False) -> complex:
+    def across(self, way: complex) -> complex:
         """A unit vector that crosses a way at a good angle, at times at a right one."""
         low = math.radians(self.cross_at)
-        turn = math.pi / 2 if straight or self.coin(0.1) else self.rng.uniform(low, math.pi - low)
+        turn = math.pi / 2 if self.coin(0.1) else self.rng.uniform(low, math.pi - low)
         return way / abs(way) * rect(1, turn * self.sign())
 
     def beside(self, way: complex) -> complex:
@@ -133,7 +131,7 @@ class Maker:
             along = self.direction()
         if self.coin() and along is None:
             points = dict(reversed(points.items()))
-        body = Body(name, {}, "", origin, along)
+        body = Body(name, {}, origin, along)
         self.standing.bodies[name] = body
         for point, place in points.items():
             self.own(name, point, place)
@@ -176,16 +174,28 @@ class Maker:
             slide.end = self.point(on, start + along * self.length())
         self.standing.slides[block] = slide
 
-    def block(
-        self, points: dict[str, complex], on: str, along: complex, through: str | None = None
-    ) -> str:
+    def block(self, points: dict[str, complex], on: str, along: complex) -> str:
         """A new block on some points, on a guide of a body that has its axes."""
         if self.coin(0.3):
             first = next(iter(points.values()))
             points = {self.name(): first + self.vector(), **points}
         name = self.body(points, along)
-        self.guide(name, on, along, through)
+        self.guide(name, on, along)
         return name
+
+    def geared(
+        self,
+        names: tuple[str, str, str],
+        centres: tuple[str, str],
+        radii: tuple[float, float],
+        turned: Mapping[str, float],
+        belt: str = "",
+        idle: bool = False,
+    ) -> None:
+        """The first body rolls on the second, on the arm of the third; so far each has turned."""
+        start = {n: math.degrees(self.angle(n) - turned[n]) for n in names if n != FRAME}
+        own = {n: turned[n] for n in names}
+        self.standing.gears.append(Gear(*names, centres, radii, belt, start, own, idle))
 
     def name(self) -> str:
         """The name of a point that is still to come."""

@@ -128,8 +128,6 @@ class CamLaw:
     carrier: str = FRAME
     lever: Lever | None = None
     slides: bool = False
-    second: tuple[str, float] | None = None
-    """A second roller on a conjugate cam: its point and its radius."""
 
 
 @dataclass
@@ -152,11 +150,10 @@ class Drive:
 
 @dataclass
 class Body:
-    """A link: its points and their places, in the order written, and how they are written."""
+    """A link: its points and their places, in the order written."""
 
     name: str
     points: dict[str, complex]
-    how: str = "lengths"
     origin: complex = 0j
     along: complex | None = None
     """Direction of the x axis; None where it runs from the first point to the second."""
@@ -195,9 +192,7 @@ class Body:
 class Standing:
     """A whole mechanism in one position."""
 
-    bodies: dict[str, Body] = field(
-        default_factory=lambda: {FRAME: Body(FRAME, {}, "", 0j, 1 + 0j)}
-    )
+    bodies: dict[str, Body] = field(default_factory=lambda: {FRAME: Body(FRAME, {}, 0j, 1 + 0j)})
     slides: dict[str, Slide] = field(default_factory=dict)
     straights: list[Straight] = field(default_factory=list)
     gears: list[Gear] = field(default_factory=list)

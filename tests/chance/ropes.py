@@ -6,7 +6,7 @@ import math
 
 from tests.chance.groups import bar, cylinder_between, straight, wheel_body
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, Gear, Touch
+from tests.chance.records import FRAME, Touch
 
 
 def centre_of(m: Maker, body: str, place: complex) -> str:
@@ -151,8 +151,6 @@ def free_wheel(m: Maker) -> None:
     turned = {arm: m.rng.uniform(-1, 1), on: 0.0 if on == FRAME else m.rng.uniform(-1, 1)}
     signed = -other if inside else other
     turned[wheel] = turned[arm] - signed / own * (turned[on] - turned[arm])
-    names = [name for name in (wheel, on, arm) if name != FRAME]
-    start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
     how = m.rng.choice(("arm", "wheel", "rod"))
     if how == "rod":
         spot = place + m.vector()
@@ -161,9 +159,7 @@ def free_wheel(m: Maker) -> None:
         bar(m, rod, m.anchor(known))
     else:
         m.turn(arm if how == "arm" else wheel, on if m.coin() else FRAME)
-    start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
-    ends = pin[0], centre[0]
-    m.standing.gears.append(Gear(wheel, on, arm, ends, (own, signed), "", start, turned))
+    m.geared((wheel, on, arm), (pin[0], centre[0]), (own, signed), turned)
 
 
 def touching(m: Maker) -> None:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from itertools import pairwise
 
 from tests.chance.groups import bar, meshed, wheel_body
 from tests.chance.maker import LooseError, Maker
-from tests.chance.records import FRAME, Gear
+from tests.chance.records import FRAME
 
 
 def compound(m: Maker) -> None:
@@ -107,8 +106,4 @@ def simpson(m: Maker) -> None:
         m.standing.bodies[planet].wheels.append((pin[0], own))
         turned[planet] = turned[arm] - small / own * (turned[sun] - turned[arm])
         for wheel, radius in ((sun, small), (ring, -large)):
-            names = planet, wheel, arm
-            start = {name: math.degrees(m.angle(name) - turned[name]) for name in names}
-            counted = {name: turned[name] for name in names}
-            ends, radii = (pin[0], centre[0]), (own, radius)
-            m.standing.gears.append(Gear(planet, wheel, arm, ends, radii, "", start, counted))
+            m.geared((planet, wheel, arm), (pin[0], centre[0]), (own, radius), turned)

@@ -119,8 +119,6 @@ class Written:
             head.append(f'side = "{"left" if cam.lever.side > 0 else "right"}"')
         if cam.lever and cam.lever.face:
             head.append(f"face = {cam.lever.face!r}")
-        if cam.second:
-            head.append(f'conjugate = {{ at = "{cam.second[0]}", roller = {cam.second[1]!r} }}')
         return [*head, f"law = [{law}]"]
 
     def shape(self, body: Body) -> list[str]:

@@ -92,10 +92,7 @@ def test_a_range_that_is_searched_everywhere_says_nothing_of_it():
     assert found.bound == ""
 
 
-# --- The closures of a group are sought once for each position, however often they ar ------------
-
-
-SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
+# --- closures are sought once for each position --------------------------------------------------
 
 
 @pytest.fixture
@@ -113,13 +110,13 @@ def sought(monkeypatch) -> list[tuple[object, ...]]:
 
 
 def test_the_sheets_of_a_scene_seek_its_closures_once(sought):
-    hand_out(load(str(SCENES / "stephenson-3-crank.toml")))
+    hand_out(load(str(EXAMPLES / "stephenson-3-crank.toml")))
     assert 1 <= len(sought) == len(set(sought)) <= KEPT
 
 
 def closer_of(name: str) -> tuple[ClosureSolver, tuple[object, ...]]:
     """What closes the group of a scene, and what is known there."""
-    mechanism = load(str(SCENES / f"{name}.toml"))
+    mechanism = load(str(EXAMPLES / f"{name}.toml"))
     trace = mechanism.trace()
     for number, step in enumerate(mechanism.program.steps):
         if step.action and isinstance(step.action.value, ClosureSolver) and number in trace.values:

@@ -13,7 +13,7 @@ from graphkin.construction.core.batch import made_ready, run_batch
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.numbers.arithmetic import FLOAT, batch_kind, least
-from graphkin.numbers.plane import Circle, Line, Ratio, Vector
+from graphkin.numbers.plane import Ratio
 from graphkin.text.errors import ClosureError
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, shipped
 from tests.scene_files import scene_text
@@ -92,51 +92,6 @@ def test_arrows_are_drawn_only_between_points_that_are_there():
 
 
 # --- what follows from what ----------------------------------------------------------------------
-
-
-def pushed(value, by: float):
-    """A value of a step moved a little, in no special direction."""
-    if isinstance(value, Line):
-        return Line(value.point + by * (0.6 + 0.7j), value.along * (1 + 0.003 + 0.002j))
-    if isinstance(value, Circle):
-        return Circle(value.centre + by * (0.3 - 0.8j), value.radius * 1.004)
-    if isinstance(value, Vector):
-        return Vector(value.tail + by, value.tip + by * 1j)
-    if isinstance(value, Ratio):
-        return Ratio(value.start + by, value.shift * 1.01, value.size * 1.02)
-    if isinstance(value, complex):
-        return value + (abs(value) + 1) * 1e-3 * (0.7 + 0.4j)
-    return value * 1.001 + 1e-6
-
-
-def is_origin(step) -> bool:
-    """A place from which others are counted: moving it carries them along as they are."""
-    given_point = step.given is not None and step.given.form == "point"
-    return given_point or (step.action is not None and step.action.key == "pole")
-
-
-def test_moving_a_step_moves_exactly_its_descendants():
-    """For every step of the pump, those of the hand and the arrows too.
-
-    What hangs on a moved step may stay in two cases only: when an origin is moved, and all with
-    it; and the centres, which do not depend on how fast a link turns.
-    """
-    mechanism = shipped("pump", 7)
-    program, values = mechanism.program, mechanism.scene.values
-    needed = program.needed(program.answers, by_hand=True)
-    before = run(program, needed, values, FLOAT).values
-    for moved in needed:
-
-        def push(number, step, value, moved=moved):
-            return pushed(value, 1e-3) if number == moved else value
-
-        after = run(program, needed, values, FLOAT, hook=push).values
-        changed = {number for number in needed if not same(after[number], before[number])}
-        follows = program.descendants(moved) & set(needed)
-        assert changed <= follows, program.steps[moved]
-        still = [program.steps[number] for number in follows - changed]
-        if not is_origin(program.steps[moved]):
-            assert all(step.part is Part.CENTRE for step in still), program.steps[moved]
 
 
 def test_a_hook_sees_every_step_in_order_and_may_leave_it():

@@ -4,24 +4,9 @@ from __future__ import annotations
 
 from graphkin.construction.core.program import Part
 from graphkin.documents.flattest import crossings_on, flattest_line
-from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.marks import Text
+from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.text import words
 from tests.mechanisms import shipped
-
-
-def lines_of(mechanism, language: str, view: str = "key") -> list[dict[str, Text]]:
-    """The witness's line and the flattest crossing's on each sheet, as far as they are there."""
-    found = []
-    for part in hand_out(mechanism, view, language):
-        if part.kind != "calculation":
-            marks = [mark for mark in part.pages[0].marks if isinstance(mark, Text)]
-            found.append({m.name: m for m in marks if m.name in ("witness", "flattest")})
-    return found
-
-
-def test_a_task_does_not_give_it_away():
-    assert all("flattest" not in lines for lines in lines_of(shipped("pump", 7), "en", "task"))
 
 
 def test_what_stands_on_the_sheet_before_is_not_told_again():

@@ -10,10 +10,8 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
 import graphkin
-from graphkin.cli.main import app
 from graphkin.construction.core.solution import FAIR
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
@@ -34,6 +32,7 @@ from tests.examples.document import (
     whole_above,
     with_part,
 )
+from tests.running import ran
 
 SCRIPTS = sorted(EXAMPLES.glob("[0-9][0-9]_*.py"))
 FIRST = ("crank-rocker", "engine", "offset-slider-crank", "six-bar")  # those that the pages name
@@ -53,25 +52,20 @@ def named(path: Path) -> str:
     return path.stem
 
 
-def run(*args: object) -> Result:
-    """Run a command in this process."""
-    return CliRunner().invoke(app, [str(arg) for arg in args])
-
-
 def python(folder: Path, *args: str) -> str:
     """What a process of Python says, run in a folder, its warnings being errors."""
     surroundings = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "utf-8"}
     surroundings["TMPDIR"] = surroundings["TEMP"] = str(folder)
-    ran = subprocess.run(
+    found = subprocess.run(
         [sys.executable, "-W", "error", *args],
         cwd=folder,
         env=surroundings,
         capture_output=True,
         check=False,
     )
-    assert ran.returncode == 0, ran.stderr.decode("utf-8")
-    assert not ran.stderr
-    return ran.stdout.decode("utf-8")
+    assert found.returncode == 0, found.stderr.decode("utf-8")
+    assert not found.stderr
+    return found.stdout.decode("utf-8")
 
 
 def my_scene(folder: Path, part: str = "") -> Path:
@@ -118,13 +112,13 @@ def test_the_textbook_is_met(tmp_path: Path) -> None:
 def test_a_scene_is_right_by_both_routes(scene: Path) -> None:
     mechanism = graphkin.load(scene)
     assert mechanism.witness(mechanism.solve()).agrees
-    assert run("check", scene).exit_code == 0
+    assert ran("check", scene).exit_code == 0
 
 
 @pytest.mark.parametrize("view", ["task", "key"])
 def test_a_scene_gives_its_sheets(view: str, tmp_path: Path) -> None:
     scene = SCENES[0]
-    result = run("sheet", scene, "-o", tmp_path, "--view", view)
+    result = ran("sheet", scene, "-o", tmp_path, "--view", view)
     assert result.exit_code == 0, result.stderr
     expected = {f"{scene.stem}-{document.format(view)}" for document in DOCUMENTS}
     assert {path.name for path in tmp_path.iterdir()} == expected
@@ -134,8 +128,8 @@ def test_the_scene_of_the_readme_is_read_solved_and_drawn(tmp_path: Path) -> Non
     (block,) = blocks(README, "toml")
     path = tmp_path / "my.toml"
     path.write_text(block.text, encoding="utf-8")
-    assert run("check", path).exit_code == 0
-    result = run("sheet", path, "-o", tmp_path)
+    assert ran("check", path).exit_code == 0
+    result = ran("sheet", path, "-o", tmp_path)
     assert result.exit_code == 0, result.stderr
     shipped = tomllib.loads((EXAMPLES / "scenes/offset-slider-crank.toml").read_text("utf-8"))
     assert tomllib.loads(block.text) == shipped
@@ -174,7 +168,7 @@ def test_a_mistake_gives_the_message_on_the_page(
 ) -> None:
     my_scene(tmp_path, mistake.part)
     monkeypatch.chdir(tmp_path)
-    result = run("check", "my.toml")
+    result = ran("check", "my.toml")
     assert result.exit_code == 2
     assert result.stderr == f"graphkin: my.toml: {mistake.message}\n"
 
@@ -187,7 +181,7 @@ def test_commands_on_the_page_answer_as_it_says(
     told = list(commands(SCENES_PAGE))
     assert told
     for command, answer in told:
-        assert run(*command.split()[1:]).output == answer
+        assert ran(*command.split()[1:]).output == answer
 
 
 @pytest.mark.parametrize(
@@ -196,7 +190,7 @@ def test_commands_on_the_page_answer_as_it_says(
 def test_what_check_shows_on_the_page_is_what_it_shows(block: Block, tmp_path: Path) -> None:
     path = tmp_path / "my.toml"
     path.write_text(whole_above(SCENES_PAGE, block.line), encoding="utf-8")
-    assert block.text in run("check", path).stdout
+    assert block.text in ran("check", path).stdout
 
 
 def test_every_scene_is_named_on_the_page_once() -> None:
@@ -230,8 +224,8 @@ def test_a_scale_is_real_over_drawn_and_one_that_does_not_fit_is_refused(tmp_pat
     text = (EXAMPLES / "scenes/engine.toml").read_text("utf-8")
     path = tmp_path / "engine.toml"
     path.write_text(f"{text}\n[sheet]\nscale = 10\n", encoding="utf-8")
-    result = run("sheet", path, "-o", tmp_path / "out")
+    result = ran("sheet", path, "-o", tmp_path / "out")
     assert result.exit_code == 0, result.stderr
     assert "1:10" in (tmp_path / "out/engine-velocity-key.svg").read_text("utf-8")
     path.write_text(f"{text}\n[sheet]\nscale = 2\n", encoding="utf-8")
-    assert run("sheet", path, "-o", tmp_path / "none").exit_code == 2
+    assert ran("sheet", path, "-o", tmp_path / "none").exit_code == 2

@@ -53,9 +53,6 @@ def test_a_four_bar_moves_by_its_closed_form_in_both_closures(name: str, other: 
     follows(found, "C", pin, (degrees(q), speed, rate))
 
 
-# --- centres -------------------------------------------------------------------------------------
-
-
 # --- several loops -------------------------------------------------------------------------------
 
 

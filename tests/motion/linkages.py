@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import acos, degrees
+
 from graphkin.mechanism import Mechanism
 from tests.mechanisms import mechanism_of
 
@@ -111,3 +113,8 @@ def five_bar(
     return mechanism_of(
         FIVE_BAR.format(first=first, second=second, speed=speed, other=other, push=push)
     )
+
+
+def cosine_rule(near: float, far: float, opposite: float) -> float:
+    """The angle (degrees) between two sides of a triangle, opposite the third."""
+    return degrees(acos((near**2 + far**2 - opposite**2) / (2 * near * far)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import acos, asin, degrees, sqrt
+from math import asin, degrees, sqrt
 
 import numpy as np
 import pytest
@@ -14,14 +14,9 @@ from graphkin.motion.follower_limits import followers, movers_of
 from graphkin.motion.refine import crossings_of_nought
 from graphkin.motion.single_loop import class_of, loop_of
 from tests.bench.chain import scene as chain
-from tests.motion.linkages import four_bar, slider_crank
+from tests.motion.linkages import cosine_rule, four_bar, slider_crank
 
 EXACT = 1e-9
-
-
-def cosine_rule(near: float, far: float, opposite: float) -> float:
-    """The angle (degrees) between two sides of a triangle, opposite the third."""
-    return degrees(acos((near**2 + far**2 - opposite**2) / (2 * near * far)))
 
 
 @pytest.mark.parametrize("lengths", [(40, 90, 70, 100), (1, 3, 2.5, 3.2), (0.2, 9, 4, 10)])

@@ -10,15 +10,10 @@ import pytest
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text.errors import ClosureError, SceneError
-from tests.motion.linkages import five_bar, four_bar, slider_crank
+from tests.motion.linkages import cosine_rule, five_bar, four_bar, slider_crank
 
 EXACT = 6e-11
 """Degrees: 1e-12 of a radian."""
-
-
-def cosine_rule(near: float, far: float, opposite: float) -> float:
-    """The angle (degrees) between two sides of a triangle, opposite the third."""
-    return degrees(acos((near**2 + far**2 - opposite**2) / (2 * near * far)))
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,10 @@ from typing import Any
 
 import mpmath
 
-MP = mpmath.mp.clone()
-MP.dps = 60
-HEAD = 'graphkin = 1\ntitle = "t"\nunits = { length = "m", angle = "deg", speed = "rad/s" }\n'
-STILL = MP.mpc(0)
+from tests.stress.cases import HEAD
+from tests.stress.closed import Moving, Turning, cranked, fixed, turning, two_bars
 
-Moving = tuple[Any, Any, Any]
-"""Position, velocity and acceleration of a point."""
+DIGITS = mpmath.workdps(60)
 
 
 @dataclass(frozen=True)
@@ -24,122 +21,89 @@ class Truth:
 
     text: str
     points: dict[str, Moving]
-    rates: dict[str, tuple[Any, Any]]
+    rates: dict[str, Turning]
 
 
 def written(x: Any) -> str:
     """A number with so many digits that the scene has it as the truth does."""
-    return str(MP.nstr(x, 56, strip_zeros=False))
+    return str(mpmath.nstr(x, 56, strip_zeros=False))
 
 
 def rounded(x: Any, digits: int = 50) -> Any:
     """A number that can be written."""
-    return MP.mpf(MP.nstr(x, digits))
-
-
-def dot(u: Any, v: Any) -> Any:
-    return u.real * v.real + u.imag * v.imag
-
-
-def cross(u: Any, v: Any) -> Any:
-    return u.real * v.imag - u.imag * v.real
-
-
-def both(u: Any, w: Any, p: Any, q: Any) -> Any:
-    """The vector with the products p with u and q with w."""
-    return MP.mpc((p * w.imag - q * u.imag), (u.real * q - w.real * p)) / cross(u, w)
-
-
-def dyad(p: Moving, q: Moving, a: Any, b: Any, side: int) -> Moving:
-    """The pin of two bars, to the left (side 1) of the way from p to q, or to the right."""
-    way = q[0] - p[0]
-    d = abs(way)
-    x = (a * a - b * b + d * d) / (2 * d)
-    pin = p[0] + (x + 1j * side * MP.sqrt(a * a - x * x)) * way / d
-    u, w = pin - p[0], pin - q[0]
-    v = both(u, w, dot(u, p[1]), dot(w, q[1]))
-    pushed = (dot(u, p[2]) - abs(v - p[1]) ** 2, dot(w, q[2]) - abs(v - q[1]) ** 2)
-    return pin, v, both(u, w, *pushed)
-
-
-def rates(p: Moving, q: Moving) -> tuple[Any, Any]:
-    """ω and ε of the link through two points."""
-    bar = q[0] - p[0]
-    return cross(bar, q[1] - p[1]) / dot(bar, bar), cross(bar, q[2] - p[2]) / dot(bar, bar)
-
-
-def turned(arm: Any, omega: Any, epsilon: Any) -> Moving:
-    """The motion of the end of an arm that turns about its start."""
-    return arm, 1j * omega * arm, (1j * epsilon - omega**2) * arm
+    return mpmath.mpf(mpmath.nstr(x, digits))
 
 
 def power(rng: random.Random, low: float, high: float) -> Any:
     """A power of ten, evenly spread in its logarithm."""
-    return rounded(MP.mpf(10) ** rng.uniform(low, high), 6)
+    return rounded(mpmath.mpf(10) ** rng.uniform(low, high), 6)
 
 
+@DIGITS
 def chain(rng: random.Random, count: int) -> Truth:
     """A crank and a chain of flat dyads, the sine at each pin from 1e-3 to 1e-1."""
-    omega, epsilon = MP.mpf(1), MP.mpf("0.3")
-    last, name = turned(MP.expj(40 * MP.pi / 180), omega, epsilon), "A"
-    points, turning = {"A": last}, {"1": (omega, epsilon)}
+    omega, epsilon = mpmath.mpf(1), mpmath.mpf("0.3")
+    last, name = cranked(fixed(0), 1, mpmath.mpf(40), omega, epsilon), "A"
+    points, rates = {"A": last}, {"1": Turning(omega, epsilon)}
     frame, links, sides = "O1 = [0, 0]\n", "[links.1]\nO1-A = 1\n", ""
     for i in range(1, count + 1):
-        a, b = (MP.mpf(rng.randint(8, 15)) / 10 for _ in range(2))
-        sine, side = MP.mpf(10) ** rng.uniform(-3, -1), rng.choice([1, -1])
+        a, b = (mpmath.mpf(rng.randint(8, 15)) / 10 for _ in range(2))
+        sine, side = mpmath.mpf(10) ** rng.uniform(-3, -1), rng.choice([1, -1])
         folded = -1 if abs(a - b) > 0.25 and rng.random() < 0.4 else 1
-        apart = MP.sqrt(a * a + b * b + folded * 2 * a * b * MP.sqrt(1 - sine**2))
-        foot = last[0] + apart * MP.expj(rng.uniform(0, 6.28))
-        foot = MP.mpc(rounded(foot.real), rounded(foot.imag))
-        pivot, pin = (foot, STILL, STILL), f"B{i}"
-        found = dyad(last, pivot, a, b, side)
+        apart = mpmath.sqrt(a * a + b * b + folded * 2 * a * b * mpmath.sqrt(1 - sine**2))
+        foot = last.place + apart * mpmath.expj(rng.uniform(0, 6.28))
+        pivot, pin = fixed(rounded(foot.real), rounded(foot.imag)), f"B{i}"
+        foot, (found, _) = pivot.place, two_bars(last, pivot, a, b, side)
         frame += f'Q{i} = ["{written(foot.real)}", "{written(foot.imag)}"]\n'
         links += f'[links.{2 * i}]\n{name}-{pin} = "{written(a)}"\n'
         links += f'[links.{2 * i + 1}]\nQ{i}-{pin} = "{written(b)}"\n'
         sides += f'{pin} = "{"left" if side > 0 else "right"} of {name}-Q{i}"\n'
         points[pin] = found
-        turning |= {f"{2 * i}": rates(last, found), f"{2 * i + 1}": rates(pivot, found)}
+        rates |= {f"{2 * i}": turning(last, found), f"{2 * i + 1}": turning(pivot, found)}
         last, name = found, pin
     driver = '[[drivers]]\nturn = 1\nangle = 40\nspeed = 1\nacceleration = "0.3"\n'
     text = f"{HEAD}[frame]\n{frame}{links}{driver}[branches]\n{sides}"
-    return Truth(text, points, turning)
+    return Truth(text, points, rates)
 
 
+@DIGITS
 def four_bar(rng: random.Random, scale: float, sine: float) -> Truth:
     """Bars of 1e±scale m, the sine at the rocker's pin down to 1e-sine."""
+    rate = Turning(mpmath.mpf(1), mpmath.mpf("0.5"))
     while True:
         crank, coupler, rocker = (power(rng, -scale, scale) for _ in range(3))
-        angle = rounded(MP.mpf(rng.uniform(5, 175)))
-        pin = turned(crank * MP.expj(angle * MP.pi / 180), MP.mpf(1), MP.mpf("0.5"))
-        s = MP.mpf(10) ** rng.uniform(-sine, -0.01)
-        cosine = rng.choice([1, -1]) * MP.sqrt(1 - s * s)
-        square = coupler**2 + rocker**2 - 2 * coupler * rocker * cosine - pin[0].imag ** 2
+        angle = rounded(mpmath.mpf(rng.uniform(5, 175)))
+        pin = cranked(fixed(0), crank, angle, *rate)
+        s = mpmath.mpf(10) ** rng.uniform(-sine, -0.01)
+        cosine = rng.choice([1, -1]) * mpmath.sqrt(1 - s * s)
+        square = coupler**2 + rocker**2 - 2 * coupler * rocker * cosine - pin.place.imag**2
         if square > 0:
             break
     side = rng.choice([1, -1])
-    foot = (MP.mpc(rounded(pin[0].real + rng.choice([1, -1]) * MP.sqrt(square), 55)), STILL, STILL)
-    found = dyad(pin, foot, coupler, rocker, side)
+    foot = fixed(rounded(pin.place.real + rng.choice([1, -1]) * mpmath.sqrt(square), 55))
+    found, _ = two_bars(pin, foot, coupler, rocker, side)
     text = (
-        f'{HEAD}[frame]\nO1 = [0, 0]\nO2 = ["{written(foot[0].real)}", 0]\n'
+        f'{HEAD}[frame]\nO1 = [0, 0]\nO2 = ["{written(foot.place.real)}", 0]\n'
         f'[links.1]\nO1-A = "{written(crank)}"\n[links.2]\nA-B = "{written(coupler)}"\n'
         f'[links.3]\nO2-B = "{written(rocker)}"\n[[drivers]]\nturn = 1\n'
         f'angle = "{written(angle)}"\nspeed = 1\nacceleration = "0.5"\n'
         f'[branches]\nB = "{"left" if side > 0 else "right"} of A-O2"\n'
     )
-    turning = {"1": (MP.mpf(1), MP.mpf("0.5")), "2": rates(pin, found), "3": rates(foot, found)}
-    return Truth(text, {"A": pin, "B": found}, turning)
+    rates = {"1": rate, "2": turning(pin, found), "3": turning(foot, found)}
+    return Truth(text, {"A": pin, "B": found}, rates)
 
 
+@DIGITS
 def gears(rng: random.Random, span: float) -> Truth:
     """One to three wheels on a first one, radii of 1e±span m, all on an arm that turns."""
     radii = [power(rng, -span, span) for _ in range(rng.randint(2, 4))]
-    places = [sum(radii[:i], MP.mpf(0)) * 2 + radii[i] - radii[0] for i in range(len(radii))]
-    speed, lead = power(rng, -3, 3), MP.mpf(rng.randint(1, 9))
-    arm, wheel = (MP.mpf(0), lead, MP.mpf(2)), (MP.pi / 3, speed, MP.mpf(1))
+    places = [sum(radii[:i], mpmath.mpf(0)) * 2 + radii[i] - radii[0] for i in range(len(radii))]
+    speed, lead = power(rng, -3, 3), mpmath.mpf(rng.randint(1, 9))
+    arm, wheel = (mpmath.mpf(0), lead, mpmath.mpf(2)), (mpmath.mpf(60), speed, mpmath.mpf(1))
     text = f"{HEAD}[frame]\nO = [0, 0]\n[links.arm]\nO = [0, 0]\n"
     text += "".join(f'P{i} = ["{written(x)}", 0]\n' for i, x in enumerate(places) if i)
     points: dict[str, Moving] = {}
-    turning = {"arm": (arm[1], arm[2])}
+    rates = {"arm": Turning(*arm[1:])}
     for i, radius in enumerate(radii):
         centre = f"P{i}" if i else "O"
         text += f'[links.w{i}]\n{centre} = [0, 0]\nT{i} = ["{written(radius)}", 0]\n'
@@ -148,13 +112,13 @@ def gears(rng: random.Random, span: float) -> Truth:
             text += f'rolls = {{ on = "w{i - 1}" }}\n'
             ratio = radii[i - 1] / radius
             wheel = tuple(a - (w - a) * ratio for w, a in zip(wheel, arm, strict=True))
-        carried = turned(places[i] * MP.mpc(1), arm[1], arm[2])
-        rim = turned(radius * MP.expj(wheel[0]), wheel[1], wheel[2])
-        points[f"T{i}"] = tuple(a + b for a, b in zip(carried, rim, strict=True))
-        turning[f"w{i}"] = wheel[1], wheel[2]
+        carried = cranked(fixed(0), places[i], *arm)
+        rim = cranked(fixed(0), radius, *wheel)
+        points[f"T{i}"] = Moving(*(a + b for a, b in zip(carried, rim, strict=True)))
+        rates[f"w{i}"] = Turning(*wheel[1:])
     text += f'[[drivers]]\nturn = "w0"\nangle = 60\nspeed = "{written(speed)}"\nacceleration = 1\n'
     text += f'[[drivers]]\nturn = "arm"\nangle = 0\nspeed = "{written(lead)}"\nacceleration = 2\n'
-    return Truth(text, points, turning)
+    return Truth(text, points, rates)
 
 
 FAMILIES: dict[str, Callable[[random.Random], Truth]] = {
@@ -165,6 +129,7 @@ FAMILIES: dict[str, Callable[[random.Random], Truth]] = {
 }
 
 
+@DIGITS
 def errors(solution: Any, truth: Truth) -> dict[str, float]:
     """True errors over the largest of their kind, as the witness counts, by the quantity's name."""
     places = [abs(a[0] - b[0]) for a in truth.points.values() for b in truth.points.values()]
@@ -183,7 +148,7 @@ def errors(solution: Any, truth: Truth) -> dict[str, float]:
     for name, motion in truth.points.items():
         for key, value in zip(("position", "velocity", "acceleration"), motion, strict=True):
             ours = getattr(solution.points[name], key)
-            found[f"points.{name}.{key}"] = float(abs(MP.mpc(ours) - value) / scales[key])
+            found[f"points.{name}.{key}"] = float(abs(mpmath.mpc(ours) - value) / scales[key])
     for name, rate in truth.rates.items():
         for key, value in zip(("omega", "epsilon"), rate, strict=True):
             ours = getattr(solution.links[name], key)

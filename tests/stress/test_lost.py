@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 import re
 
+import mpmath
 import pytest
 from click.testing import CliRunner
 
@@ -13,7 +14,10 @@ from graphkin.diagnosis.exact_intersection import ROUNDING
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
-from tests.stress.families import MP, chain
+from tests.stress.families import chain
+
+MP = mpmath.mp.clone()
+MP.dps = 60
 
 LOST = (11, 55, 185)
 """Chains of six flat dyads whose last arcs doubles do not find to meet."""

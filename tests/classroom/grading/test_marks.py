@@ -69,20 +69,6 @@ def test_points_of_a_segment_too_short_to_be_measured_go_to_the_value():
     assert graded.mark("a_D_mm").points == 0
 
 
-def test_a_rate_follows_rightly_from_a_right_velocity_at_the_edge_of_its_tolerance():
-    """ω = v/l with the own v, which is right, over a bar that was measured half a percent short."""
-    marker = marker_of("slotted-lever", 7)
-    found = marker.standard
-    speed = found.key["v_A3"] + 0.98 * found.tolerance["v_A3"].value
-    own = speed * found.key["omega_3"] / found.key["v_A3"] / 0.995
-    assert own > found.key["omega_3"] + found.tolerance["omega_3"].value
-    mark = marked(marker, v_A3=speed, omega_3=own)["omega_3"]
-    assert (mark.status, mark.source) == (Status.RIGHT, "v_A3")
-    assert mark.earned == mark.points
-    alone = marked(marker, omega_3=own)["omega_3"]
-    assert alone.earned == 0
-
-
 def test_what_turns_the_other_way_from_own_values_is_no_power_of_ten():
     """An own acceleration from which ε comes out a tenth of its size, the other way."""
     marker = marker_of("pump", 12)

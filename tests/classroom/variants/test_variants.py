@@ -11,7 +11,6 @@ import sys
 from fractions import Fraction
 
 import pytest
-from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import Book
@@ -26,10 +25,9 @@ from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.classroom.variants.class_words import class_lines
-from graphkin.cli.main import app
 from graphkin.text.errors import PageError, RosterError
 from tests.classroom.variants.rederiving import read_rule, rederived
-from tests.running import killed_at
+from tests.running import killed_at, ran
 
 NUMBERS = Range(Fraction(1), Fraction(30), Fraction(1))
 STUDENTS = [Student(n + 1, f"{n:04d}", n, f"Student {n}", "A") for n in range(1, 31)]
@@ -45,10 +43,6 @@ def drawing_lab(fair: Fair | None = None, tries: int = 100):
 @pytest.fixture
 def roster(tmp_path):
     return listed(tmp_path)
-
-
-def run(*args):
-    return CliRunner().invoke(app, [str(arg) for arg in args])
 
 
 # ----------------------------------------------------------------------------------- assigned
@@ -217,17 +211,17 @@ def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp
     """The table is new and the manifest old; print and grade take neither for the other."""
     folder, other = tmp_path / "class", tmp_path / "other.csv"
     other.write_text("number;id;limba\n3;0003;it\n", encoding="utf-8")
-    assert run("variants", "pump", roster, "-o", folder).exit_code == 1
+    assert ran("variants", "pump", roster, "-o", folder).exit_code == 1
     args = ["variants", "pump", other, "-o", folder, "--force"]
     killed_at(2, *args)
     assert list(folder.rglob("*.part"))
     for command in (("print", folder), ("grade", folder, other)):
-        refused = run(*command)
+        refused = ran(*command)
         assert refused.exit_code == 2
         assert "variants.csv: was changed since; expected the table that was written with" in (
             refused.stderr
         )
-    assert run(*args).exit_code == 0
+    assert ran(*args).exit_code == 0
     assert not list(folder.rglob("*.part"))
     (only,) = read_edition(folder).takers
     assert (only.student.id, only.spoken) == ("0003", "it")
@@ -250,7 +244,7 @@ def test_a_full_disk_leaves_nothing(tmp_path, roster, monkeypatch):
 
 
 def test_the_command_writes_tells_and_leaves_with_1_for_unfair_data(tmp_path, roster):
-    result = run("variants", "pump", roster, "-o", tmp_path / "out")
+    result = ran("variants", "pump", roster, "-o", tmp_path / "out")
     assert result.exit_code == 1
     assert "29 of 30 students" in result.stdout
     assert (
@@ -263,19 +257,19 @@ def test_the_command_writes_tells_and_leaves_with_1_for_unfair_data(tmp_path, ro
 
 
 def test_check_tries_a_lab_and_a_scene_stays_as_it_was(tmp_path):
-    made = run("new", "lab", "mine", "-o", tmp_path)
+    made = ran("new", "lab", "mine", "-o", tmp_path)
     assert made.exit_code == 0
-    whole = run("check", tmp_path / "mine")
+    whole = ran("check", tmp_path / "mine")
     assert whole.exit_code == 0, whole.stderr
     assert "30 of 30 variants" in whole.stdout
     path = tmp_path / "mine" / "lab.toml"
     path.write_text(path.read_text(encoding="utf-8").replace("v_B_mm", "v_b_mm"), encoding="utf-8")
-    wrong = run("check", tmp_path / "mine")
+    wrong = ran("check", tmp_path / "mine")
     assert wrong.exit_code == 2
     assert "lab.toml: marks.v_b_mm: no field of this scene" in wrong.stderr
     assert "did you mean v_B_mm?" in wrong.stderr
     path.unlink()
-    alone = run("check", tmp_path / "mine")
+    alone = ran("check", tmp_path / "mine")
     assert alone.exit_code == 0
     assert whole.stdout.startswith(alone.stdout)
     assert "variants" not in alone.stdout
@@ -284,7 +278,7 @@ def test_check_tries_a_lab_and_a_scene_stays_as_it_was(tmp_path):
 def test_a_number_that_the_scene_does_not_allow_is_told_beside_the_other_mistakes(tmp_path):
     path = tmp_path / "class.csv"
     path.write_text("number;id\n31;a\nx;b\n7;a\n", encoding="utf-8")
-    said = run("variants", "pump", path, "-o", tmp_path / "class")
+    said = ran("variants", "pump", path, "-o", tmp_path / "class")
     assert said.exit_code == 2
     lines = said.stderr.splitlines()
     for row, word in (
@@ -326,7 +320,7 @@ def test_whose_language_no_page_has_is_told_by_row_and_name(tmp_path):
     path = tmp_path / "class.csv"
     rows = [f"{i};{i};{name};{'fr' if i != 1 else 'en'}" for i, name in enumerate("ABCDEF", 1)]
     path.write_text("\n".join(["id;number;name;Limba", *rows]), encoding="utf-8")
-    result = run("variants", "pump", path, "-o", tmp_path / "class")
+    result = ran("variants", "pump", path, "-o", tmp_path / "class")
     assert result.exit_code == 0, result.stderr
     column = 'column "Limba"'
     assert f"class.csv, row 3, {column}, B (2); class.csv, row 4, {column}, C (3);" in result.stderr
@@ -340,7 +334,7 @@ def test_a_class_list_that_is_not_there_is_told_with_what_to_do(tmp_path):
         ("none/x.csv", f"there is no folder {tmp_path / 'none'}"),
         ("qqqqqqq", "a spreadsheet program saves one as XLSX or as CSV UTF-8"),
     ):
-        result = run("variants", "pump", tmp_path / name, "-o", tmp_path / "out")
+        result = ran("variants", "pump", tmp_path / name, "-o", tmp_path / "out")
         assert result.exit_code == 2
         assert f"{tmp_path / name}: cannot be read: no such file or directory" in result.stderr
         assert said in result.stderr
@@ -354,7 +348,7 @@ def test_a_class_has_a_language_that_it_keeps_when_it_is_written_again(tmp_path,
         (("--force",), "en"),
         (("--lang", "it", "--force"), "it"),
     ):
-        run("variants", "offset-slider-crank", roster, "-o", folder, *args)
+        ran("variants", "offset-slider-crank", roster, "-o", folder, *args)
         assert read_edition(folder).language == language
         assert ('"language"' in (folder / "manifest.json").read_text("utf-8")) == bool(language)
 
