@@ -184,7 +184,7 @@ def cause_of(scene: Scene, effect: Effect) -> str:
             return "numbers that the scene states, and the shapes of its links"
         case "centrodes":
             return "the centres of a whole motion, which only the sheet and the cycle follow"
-    return next((kind.cause(scene) for kind in CAUSES if kind.effect is effect), "")
+    return next((kind.cause(scene) for kind in CAUSES if kind.effect == effect), "")
 
 
 def absence_of(scene: Scene, effect: Effect) -> str:
@@ -201,7 +201,7 @@ def absence_of(scene: Scene, effect: Effect) -> str:
             return "[ask] names no centrodes"
         case "acceleration poles" if not ask.any_poles:
             return "[ask] names no poles"
-    return next((kind.absence(scene) for kind in CAUSES if kind.effect is effect), "")
+    return next((kind.absence(scene) for kind in CAUSES if kind.effect == effect), "")
 
 
 def drivers_words(numbers: list[int]) -> str:

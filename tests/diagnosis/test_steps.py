@@ -283,6 +283,13 @@ def test_the_pump_counted_by_eye():
     assert found["rates of links and slides"] == 6
 
 
+def test_what_brings_an_effect_in_is_told_before_what_needs_it():
+    rows = {row.name: row.reason for row in effects(shipped("pump"))}
+    cause, needed = rows["normal components"].split("; ", 1)
+    assert cause == "points that move about others need a normal component"
+    assert needed.startswith("needed for acceleration of D")
+
+
 @EVERY
 def test_what_an_effect_is_needed_for_is_found_by_taking_it_away(name):
     """A target whose slice has a step of an effect is named in its reason, and no other."""
