@@ -109,7 +109,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     )
     sign: ClassVar[str] = "c"
     look: ClassVar[str] = "coriolis"
-    effect: ClassVar[Effect] = Effect.CORIOLIS
+    effect: ClassVar[Effect] = "Coriolis"
     laid_off_key: ClassVar[str] = "coriolis"
     laid_off_reason: ClassVar[str] = "why.coriolis"
     follows: ClassVar[bool] = True
@@ -455,7 +455,7 @@ def coriolis_of(
     key = ("coriolis", link, tail, tip)
     if key not in pen.shared:
         index = index or letter(point) + letter(under(point, link))
-        with pen.calls_for(Effect.CORIOLIS):
+        with pen.calls_for("Coriolis"):
             triangles = similar_triangles(pen, link, tail, tip, point, index)
             read = triangles.get("read")
             with pen.on(Part.NORMAL, Plane.NUMBERS):
@@ -535,7 +535,7 @@ def end_of(pen: Pen, start: int, vector: int, *, back: bool = False) -> int:
     assert isinstance(component, CoriolisComponent)
     key = ("laid off", start, vector)
     if back or key not in pen.shared:
-        with pen.calls_for(Effect.CORIOLIS):
+        with pen.calls_for("Coriolis"):
             pen.shared[key] = pen.draw(lay_back if back else lay_off, start, vector)
         corner = pen.shared[key]
         pen.make(LaidOff(component=component, start=start, corner=corner, back=back))

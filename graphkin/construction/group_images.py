@@ -204,7 +204,7 @@ class GroupImages(Struct, frozen=True):
 
 def sliding_effect(pen: Pen, given: int) -> Effect | None:
     """A component along a guide is a driver's where that is accelerated."""
-    return Effect.DRIVER if accelerated(pen, given) else None
+    return "driver acceleration" if accelerated(pen, given) else None
 
 
 VELOCITIES = GroupImages(VELOCITY, BarVelocity, GuideVelocity)

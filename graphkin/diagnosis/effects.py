@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from typing import get_args
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -22,18 +23,18 @@ from graphkin.scene.model import Scene
 BY_HAND = "by-hand marks"
 PENCIL = "pencil"
 CERTIFICATION = "certification"
-OF_PART = {
-    Part.SHAPE: Effect.SHAPE,
-    Part.POSITION: Effect.POSITION,
-    Part.VELOCITY: Effect.VELOCITY,
-    Part.NORMAL: Effect.NORMAL,
-    Part.ACCELERATION: Effect.ACCELERATION,
-    Part.CENTRE: Effect.CENTRE,
-    Part.POLE: Effect.POLE,
-    Part.RESULT: Effect.RESULT,
+OF_PART: Mapping[Part, Effect] = {
+    Part.SHAPE: "data and shapes",
+    Part.POSITION: "position",
+    Part.VELOCITY: "velocity",
+    Part.NORMAL: "normal components",
+    Part.ACCELERATION: "acceleration",
+    Part.CENTRE: "instantaneous centres",
+    Part.POLE: "acceleration poles",
+    Part.RESULT: "rates of links and slides",
 }
 """What a step is drawn for where it does not say so itself."""
-NAMES = tuple(effect.value for effect in Effect)
+EFFECTS: tuple[Effect, ...] = get_args(Effect)
 """The effects whose steps add up to those of what is asked."""
 BY_COMMAND = {
     PENCIL: "only `solve --pencil MM` asks what a pencil makes of each step",
@@ -62,12 +63,12 @@ def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
     wants, ask = wanted_by(mechanism), mechanism.scene.ask  # centrodes share steps of centres
     rows = [
         EffectRow(
-            effect.value,
+            effect,
             counts[effect],
             reason(mechanism.scene, effect, wants.get(effect, []), asked),
             counts[effect] > 0 or (effect is Effect.CENTRODE and bool(ask.centrodes)),
         )
-        for effect in Effect
+        for effect in EFFECTS
     ]
     by_command = [EffectRow(name, 0, why, False) for name, why in BY_COMMAND.items()]
     return (*rows, by_hand(program, asked), *by_command)
@@ -79,7 +80,7 @@ def measured(mechanism: Mechanism) -> tuple[EffectRow, ...]:
     trace = mechanism.trace(asked, by_hand=True)
     numbers: dict[str, list[int]] = {BY_HAND: hand_steps(program, asked)}
     for number, effect in parted(mechanism).items():
-        numbers.setdefault(effect.value, []).append(number)
+        numbers.setdefault(effect, []).append(number)
     return tuple(
         replace(row, time=time_of_steps(trace, numbers[row.name], mechanism.scene.values))
         if row.steps
@@ -93,7 +94,7 @@ def parted(mechanism: Mechanism) -> dict[int, Effect]:
     program, asked = mechanism.program, mechanism.asked()
     found = {number: effect_of(program.steps[number]) for number in program.needed(asked)}
     for number in own_to_centrodes(mechanism.scene, program, asked):
-        found[number] = Effect.CENTRODE
+        found[number] = "centrodes"
     return found
 
 
@@ -101,7 +102,7 @@ def effect_of(step: Step) -> Effect:
     """The one effect that a step is drawn for."""
     if step.given is not None:
         is_timed = any(TIME in quantity.uses() for quantity in step.given.quantities)
-        return Effect.TIME if is_timed else Effect.SHAPE
+        return "laws of time" if is_timed else "data and shapes"
     return step.effect or OF_PART[step.part]
 
 
@@ -152,7 +153,7 @@ def reason(scene: Scene, effect: Effect, wants: list[Target], asked: tuple[Targe
         every = len(wants) == len(set(asked))
         needed = "all that is asked" if every else targets_words(wants)
         return f"{cause}; needed for {needed}" if cause else f"needed for {needed}"
-    if effect is Effect.CENTRODE and scene.ask.centrodes:
+    if effect == "centrodes" and scene.ask.centrodes:
         return "the centres that are asked anyway, followed over the motion"
     return absence_of(scene, effect) or f"{targets_words(asked)} can be found without"
 
@@ -168,34 +169,34 @@ def targets_words(targets: Sequence[Target]) -> str:
 def cause_of(scene: Scene, effect: Effect) -> str:
     """What in the scene brings an effect in; empty where only what is asked does."""
     match effect:
-        case Effect.TIME:
+        case "laws of time":
             return f"{drivers_words(timed_drivers(scene))} a law of time"
-        case Effect.DRIVER:
+        case "driver acceleration":
             return f"{drivers_words(accelerated_drivers(scene))} an acceleration"
-        case Effect.TANGENTIAL:
+        case "tangential components":
             return "links that no driver turns at a given rate speed up or slow down"
-        case Effect.SHAPE:
+        case "data and shapes":
             return "numbers that the scene states, and the shapes of its links"
-        case Effect.CENTRODE:
+        case "centrodes":
             return "the centres of a whole motion, which only the sheet and the cycle follow"
-    return next((kind.cause(scene) for kind in CAUSES if kind.effect is effect), "")
+    return next((kind.cause(scene) for kind in CAUSES if kind.effect == effect), "")
 
 
 def absence_of(scene: Scene, effect: Effect) -> str:
     """What in the scene keeps an effect out; empty where only what is asked does."""
     ask = scene.ask
     match effect:
-        case Effect.TIME if not timed_drivers(scene):
+        case "laws of time" if not timed_drivers(scene):
             return "no driver is written in t"
-        case Effect.DRIVER if not accelerated_drivers(scene):
+        case "driver acceleration" if not accelerated_drivers(scene):
             return "every driver has a constant speed"
-        case Effect.CENTRE if not ask.any_centres:
+        case "instantaneous centres" if not ask.any_centres:
             return "[ask] names no centres"
-        case Effect.CENTRODE if not ask.centrodes:
+        case "centrodes" if not ask.centrodes:
             return "[ask] names no centrodes"
-        case Effect.POLE if not ask.any_poles:
+        case "acceleration poles" if not ask.any_poles:
             return "[ask] names no poles"
-    return next((kind.absence(scene) for kind in CAUSES if kind.effect is effect), "")
+    return next((kind.absence(scene) for kind in CAUSES if kind.effect == effect), "")
 
 
 def drivers_words(numbers: list[int]) -> str:

@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from graphkin import load
-from graphkin.construction.core.program import Effect
-from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, NAMES, EffectRow, effects
+from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, EFFECTS, EffectRow, effects
 from tests.running import ROOT, Run
 
 SCENES = ROOT / "examples" / "scenes"
@@ -32,12 +31,14 @@ def told(run: Run, *args: object) -> Any:
 @pytest.mark.parametrize("name", ["pump", SCENES / "oscillating-slide.toml"])
 def test_every_effect_that_is_in_has_its_own_time_and_no_other(run: Run, name: object) -> None:
     found = told(run, name)
-    assert {row["effect"] for row in found["effects"]} == {*NAMES, BY_HAND, *BY_COMMAND}
+    assert {row["effect"] for row in found["effects"]} == {*EFFECTS, BY_HAND, *BY_COMMAND}
     for row in found["effects"]:
         assert (row["time"] is not None) == (row["steps"] > 0), row
         if row["time"]:
             assert 0 < row["time"]["low"] <= row["time"]["median"] <= row["time"]["high"]
-    assert sum(r["steps"] for r in found["effects"] if r["effect"] in NAMES) == found["steps_asked"]
+    assert (
+        sum(r["steps"] for r in found["effects"] if r["effect"] in EFFECTS) == found["steps_asked"]
+    )
     assert found["steps_asked"] < found["steps_everything"]
     assert found["time_asked"]["rounds"] == 25
 
@@ -62,7 +63,7 @@ def test_only_the_steps_of_an_effect_are_timed(monkeypatch: pytest.MonkeyPatch) 
     assert every == list(program.needed(asked, by_hand=True))
     in_order = iter(handed)
     effect_of = {row.name: next(in_order) for row in rows if row.steps}
-    for number in effect_of[Effect.CORIOLIS.value]:
+    for number in effect_of["Coriolis"]:
         action = program.steps[number].action
         assert action is not None
         assert action.key in ("coriolis", "lay-off", "lay-back")

@@ -10,7 +10,7 @@ from msgspec import Struct
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.solution_record import heading
 from graphkin.construction.core.timing import Timing, timing
-from graphkin.diagnosis.effects import NAMES, EffectRow, effects, measured
+from graphkin.diagnosis.effects import EFFECTS, EffectRow, effects, measured
 from graphkin.scene.model import Scene
 from graphkin.text.errors import ClosureError
 from graphkin.text.plain_table import table
@@ -98,7 +98,7 @@ def in_words(time: Timing) -> str:
 
 def share(rows: Sequence[EffectRow]) -> str:
     """What the effects add up to, beside a whole run."""
-    seconds = sum(row.time.median for row in rows if row.time and row.name in NAMES)
+    seconds = sum(row.time.median for row in rows if row.time and row.name in EFFECTS)
     return f"the effects alone add up to {micro(seconds)} µs"
 
 

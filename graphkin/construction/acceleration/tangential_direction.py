@@ -14,7 +14,6 @@ from graphkin.construction.core.arrows import acceleration_arrow, component_arro
 from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, about, letter
-from graphkin.construction.core.program import Effect
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
@@ -47,7 +46,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
 def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
     """Through the end of a normal component the perpendicular to its bar."""
     ends = pen.the("position", pivot), pen.the("position", pin)
-    with pen.calls_for(Effect.TANGENTIAL):
+    with pen.calls_for("tangential components"):
         line = pen.draw(square_to, corner, *ends)
     names = {
         "p": letter(pivot),

@@ -9,7 +9,7 @@ from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_no_length, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter
-from graphkin.construction.core.program import Effect, Plane
+from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.segments import letter_at
@@ -179,14 +179,16 @@ def turned_image(
     pivot, pin = points
     places = pen.the("position", pivot), pen.the("position", pin)
     omega = pen.the(OMEGA, link)
-    with pen.calls_for(Effect.NORMAL):
+    with pen.calls_for("normal components"):
         end = pen.draw(centripetal, start, *places, omega, name=name if steady else "")
     if not steady or start != pen.pole(Plane.ACCELERATIONS):
         component_arrow(pen, start, end, "ν", pin, pivot)
     epsilon, image = None, None
     if not steady:
         epsilon = pen.the(EPSILON, link)
-        with pen.calls_for(Effect.DRIVER if accelerated(pen, epsilon) else Effect.TANGENTIAL):
+        with pen.calls_for(
+            "driver acceleration" if accelerated(pen, epsilon) else "tangential components"
+        ):
             image = pen.draw(driven_tangential, end, *places, epsilon, name=name)
         component_arrow(pen, end, image, "τ", pin, pivot)
     pen.make(

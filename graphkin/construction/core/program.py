@@ -4,32 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 from msgspec import Struct
 
 from graphkin.construction.core.vocabulary import Action
 from graphkin.numbers.arithmetic import Kind, at, pick
 
-
-class Effect(Enum):
-    """What of a motion a step is drawn for, in the order of the work; its value is its name."""
-
-    TIME = "laws of time"
-    SHAPE = "data and shapes"
-    POSITION = "position"
-    ROLLING = "rolling"
-    GEARS = "gears"
-    VELOCITY = "velocity"
-    RESULT = "rates of links and slides"
-    ACCELERATION = "acceleration"
-    DRIVER = "driver acceleration"
-    NORMAL = "normal components"
-    TANGENTIAL = "tangential components"
-    CORIOLIS = "Coriolis"
-    CENTRE = "instantaneous centres"
-    CENTRODE = "centrodes"
-    POLE = "acceleration poles"
+Effect = Literal[
+    "laws of time",
+    "data and shapes",
+    "position",
+    "rolling",
+    "gears",
+    "velocity",
+    "rates of links and slides",
+    "acceleration",
+    "driver acceleration",
+    "normal components",
+    "tangential components",
+    "Coriolis",
+    "instantaneous centres",
+    "centrodes",
+    "acceleration poles",
+]
+"""What of a motion a step is drawn for, in the order of the work."""
 
 
 class Part(Enum):

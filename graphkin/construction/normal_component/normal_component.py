@@ -103,7 +103,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("tip", "edge", "line", "cut", "end", "read", "vector")
     sign: ClassVar[str] = "ν"
     look: ClassVar[str] = "normal"
-    effect: ClassVar[Effect] = Effect.NORMAL
+    effect: ClassVar[Effect] = "normal components"
     limited: ClassVar[str] = TriangleComponent.drawn_in
     laid_off_key: ClassVar[str] = ""
     laid_off_reason: ClassVar[str] = "why.normal"
@@ -313,9 +313,9 @@ def normal_component(
     images = pen.the("velocity", pivot), pen.the("velocity", pin)
     relative_arrow(pen, pin, pivot)
     index = about(pen, pin, pivot)
-    with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for(Effect.NORMAL):
+    with pen.on(Part.NORMAL, Plane.MECHANISM), pen.calls_for("normal components"):
         own = drawn(index) if drawn else right_triangle(pen, places, images, letter(pin), index)
-    with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for(Effect.NORMAL):
+    with pen.on(Part.NORMAL, Plane.NUMBERS), pen.calls_for("normal components"):
         name = f"a_{index}^ν"
         vector = pen.draw_shared(key, normal, *places, *images, name=name, by_hand=own["read"])
     pen.make(
@@ -362,7 +362,7 @@ def lay_off_normal(pen: Pen, pivot: str, pin: str, vector: int) -> int:
     """The normal component laid off from the pivot's second image, parallel to the bar."""
     start, component = pen.the("acceleration", pivot), pen.steps[vector].of
     assert isinstance(component, NormalComponent)
-    with pen.calls_for(Effect.NORMAL):
+    with pen.calls_for("normal components"):
         end = pen.draw(lay_off, start, vector)
     pen.make(LaidOff(component=component, start=start, corner=end))
     component_arrow(pen, start, end, "ν", pin, pivot)

@@ -43,7 +43,7 @@ def by_contact(draw: Callable[Concatenate[Pen, P], R]) -> Callable[Concatenate[P
     @wraps(draw)
     def drawn(pen: Pen, /, *args: P.args, **options: P.kwargs) -> R:
         contact = contact_among(args)
-        effect = Effect.GEARS if meshes(pen.scene, contact) else Effect.ROLLING
+        effect: Effect = "gears" if meshes(pen.scene, contact) else "rolling"
         with pen.calls_for(effect):
             return draw(pen, *args, **options)
 
@@ -93,8 +93,8 @@ def words_of(contact: Contact) -> str:
 
 
 TOUCHING = (
-    TouchingEffect(Effect.ROLLING, False, "without slip roll", "no wheel rolls along a track"),
-    TouchingEffect(Effect.GEARS, True, "in mesh are", "no wheels are in mesh"),
+    TouchingEffect("rolling", False, "without slip roll", "no wheel rolls along a track"),
+    TouchingEffect("gears", True, "in mesh are", "no wheels are in mesh"),
 )
 """The effects that only wheels have."""
 
