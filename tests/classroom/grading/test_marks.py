@@ -86,6 +86,10 @@ def test_what_turns_the_other_way_from_own_values_is_no_power_of_ten():
     marks = marked(marker, **{field: own[field] for field in fields})
     for name in fields[1:]:
         assert marks[name].status is Status.FOLLOWS, name
+    given_up = {field: own[field] for field in fields} | {"epsilon_4": 3 * right}
+    marks = marked(marker, **given_up)
+    assert marks["epsilon_4"].status is not Status.FOLLOWS
+    assert marks["epsilon_4_sense"].status is Status.SLIP  # it would follow with its size only
     alone = marked(marker, epsilon_4=0.1 * right, epsilon_4_sense=-own["epsilon_4_sense"])
     assert alone["epsilon_4"].slip == "power_of_ten"
     against = marked(marker, epsilon_4=0.1 * right, epsilon_4_sense=own["epsilon_4_sense"])
