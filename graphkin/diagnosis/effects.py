@@ -66,7 +66,7 @@ def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
             effect,
             counts[effect],
             reason(mechanism.scene, effect, wants.get(effect, []), asked),
-            counts[effect] > 0 or (effect is Effect.CENTRODE and bool(ask.centrodes)),
+            counts[effect] > 0 or (effect == "centrodes" and bool(ask.centrodes)),
         )
         for effect in EFFECTS
     ]
