@@ -13,7 +13,7 @@ from typing import get_args
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.program import Effect, Part, Program, Step, Target
+from graphkin.construction.core.program import OF_PART, Effect, Part, Program, Step, Target
 from graphkin.construction.core.timing import Timing, time_of_steps
 from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism
@@ -23,17 +23,6 @@ from graphkin.scene.model import Scene
 BY_HAND = "by-hand marks"
 PENCIL = "pencil"
 CERTIFICATION = "certification"
-OF_PART: Mapping[Part, Effect] = {
-    Part.SHAPE: "data and shapes",
-    Part.POSITION: "position",
-    Part.VELOCITY: "velocity",
-    Part.NORMAL: "normal components",
-    Part.ACCELERATION: "acceleration",
-    Part.CENTRE: "instantaneous centres",
-    Part.POLE: "acceleration poles",
-    Part.RESULT: "rates of links and slides",
-}
-"""What a step is drawn for where it does not say so itself."""
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
 """The effects whose steps add up to those of what is asked."""
 BY_COMMAND = {

@@ -44,6 +44,19 @@ class Part(Enum):
     RESULT = "result"
 
 
+OF_PART: Mapping[Part, Effect] = {
+    Part.SHAPE: "data and shapes",
+    Part.POSITION: "position",
+    Part.VELOCITY: "velocity",
+    Part.NORMAL: "normal components",
+    Part.ACCELERATION: "acceleration",
+    Part.CENTRE: "instantaneous centres",
+    Part.POLE: "acceleration poles",
+    Part.RESULT: "rates of links and slides",
+}
+"""What a step is drawn for where it does not say so itself."""
+
+
 class Plane(Enum):
     """The drawing in which a step's value lies; numbers are drawn nowhere."""
 
