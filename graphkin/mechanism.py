@@ -22,6 +22,7 @@ from graphkin.construction.core.solution import (
     without_touching,
 )
 from graphkin.numbers.arithmetic import FLOAT, Kind
+from graphkin.numbers.arrays import np
 from graphkin.scene import scene_files
 from graphkin.scene.link_names import in_language
 from graphkin.scene.link_points import ends_of
@@ -274,8 +275,6 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     def entered(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
         """Parameters as arrays of floats of one length. Raises SceneError as batch does."""
-        import numpy as np
-
         strangers = sorted(set(parameters) - set(self.scene.values))
         if strangers:
             known = ", ".join(self.scene.values) or "none: the scene has no parameters"
@@ -295,8 +294,6 @@ class Mechanism(Struct, frozen=True, dict=True):
 
     def run_many(self, given: Mapping[str, Any], asked: bool, kind: str) -> Solution:
         """The motion of variants whose parameters are arrays of floats."""
-        import numpy as np
-
         values = {**self.scene.values, **given}
         targets = self.asked() if asked else self.program.answers
         needed = self.program.needed(targets)
@@ -321,8 +318,6 @@ class Mechanism(Struct, frozen=True, dict=True):
         It looks where crossings are so flat (``sines`` is the product of their sines), or lengths
         of the scene so unequal, that rounding may take every digit.
         """
-        import numpy as np
-
         count = max(np.size(value) for value in values.values()) if values else 1
         with np.errstate(all="ignore"):
             losing = (sines * self.evenness) ** 2 * solution.margin

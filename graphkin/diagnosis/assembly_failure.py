@@ -22,6 +22,7 @@ from graphkin.diagnosis.exact_intersection import Meeting, loci_of, meeting
 from graphkin.diagnosis.ranges import closes_where, closings, where_it_closes
 from graphkin.diagnosis.singularity_words import closed_by, in_line
 from graphkin.numbers.arithmetic import FLOAT
+from graphkin.numbers.arrays import np
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS, shortest
 from graphkin.text.errors import ClosureError, Problem, Sought, Written
@@ -179,8 +180,6 @@ def branch_of(scene: Scene, links: Sequence[str]) -> str:
 
 def least_miss(scene: Scene, failed: StepFailed) -> str:
     """By how much a group of higher class fails to close, at the value that comes nearest."""
-    import numpy as np
-
     closer = closer_of(failed.step)
     assert closer is not None
     trying = closer.trying

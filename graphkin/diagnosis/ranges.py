@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
+from graphkin.numbers.arrays import np
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import LENGTHS
 from graphkin.structure.driver_count import driver_name
@@ -150,8 +151,6 @@ def closing(scene: Scene, number: int = 1) -> ClosingRanges:
 
 def ranges_of(course: Course, count: int) -> list[Range]:
     """The ranges in which a course closes, from so many positions, evenly spread."""
-    import numpy as np
-
     from graphkin.motion.course import closing_columns
     from graphkin.motion.driving import TURN
     from graphkin.motion.turns_followed import led_both
@@ -187,8 +186,6 @@ def ranges_of(course: Course, count: int) -> list[Range]:
 
 def touched(margins: Any, closed: Any, whole: bool) -> Any:
     """Single positions between two that close at which loci only touch: change points."""
-    import numpy as np
-
     about = np.pad(closed, 1, mode="wrap" if whole else "constant")
     return np.isfinite(margins).all(axis=0) & about[:-2] & about[2:]
 
@@ -218,8 +215,6 @@ def swept(scene: Scene, number: int) -> Sweep:
 
 def refined(course: Course, at: Any, steps: Any) -> Any:
     """The ends of closing ranges, each between a position that closes and one a step further."""
-    import numpy as np
-
     count = FEWER_PARTS if course.tries_several else PARTS
     share = np.arange(1, count) / count
     for _ in range(NARROWINGS):

@@ -16,6 +16,7 @@ from graphkin.construction.core.solution import Curve, Solution, Verdict, gather
 from graphkin.documents.composing import Needs, Search, Stated, searched_scales
 from graphkin.drawing.scale import Extent, Scales, digits, extent_of, preferred
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arrays import np
 from graphkin.scene.model import Sheet
 from graphkin.scene.quantity import Quantity
 from graphkin.text import Words, words
@@ -93,7 +94,6 @@ def stated(mechanism: Mechanism) -> Stated:
 
 def stated_of(sheet: Sheet, values: Mapping[str, Any], count: int, *kind: Any) -> list[Stated]:
     """The same of variants, whose parameters are arrays or shared."""
-    import numpy as np
 
     def numbers(quantity: Quantity | None) -> list[float]:
         value = quantity.number(values, *kind) if quantity is not None else 0.0

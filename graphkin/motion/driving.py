@@ -6,6 +6,7 @@ from math import degrees
 from typing import Any, Literal, NamedTuple, get_args
 
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import At, Driver, DriverKind, Scene, lengths_of
 from graphkin.scene.quantity import Quantity
@@ -48,8 +49,6 @@ def motion_at(driver: Driver, values: dict[str, Any], at: Any) -> tuple[Any, Any
     A driver without a law moves from its stated position, at the time nought, with its stated
     speed, evenly accelerated.
     """
-    import numpy as np
-
     law = TIME in driver.position.uses()
     here = values | ({TIME: at} if law else {})
     kind = batch_kind()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.solution import Curve
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arrays import np
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
@@ -82,8 +83,6 @@ def piece(
 
     It ends where a point is NaN; a round that is ``closed`` goes on at its beginning.
     """
-    import numpy as np
-
     here = int(np.nanargmin(abs(points - fit)))
     if closed:
         places = np.arange(len(points) - 1) + here - len(points) // 2
@@ -96,8 +95,6 @@ def piece(
 
 def along(points: Any, far: float) -> list[complex]:
     """The points after the first, as many as reach so far along them, until they turn back."""
-    import numpy as np
-
     ways = np.diff(points)
     gone = np.cumsum(abs(ways))  # NaN from the first place on that cannot be drawn
     short = np.append(0.0, gone[:-1]) < far
@@ -113,8 +110,6 @@ def followed(whole: Cycle) -> Cycle:
     """
     if whole.path.whole:
         return whole if whole.path.returns else come_back(whole)
-    import numpy as np
-
     low, high = whole.ranges[0]
     turns = np.linspace(0, np.pi, STEPS + 1)[1:-1]
     return whole.along((low + high) / 2 - (high - low) / 2 * np.cos(turns))
@@ -122,8 +117,6 @@ def followed(whole: Cycle) -> Cycle:
 
 def come_back(whole: Cycle) -> Cycle:
     """The turns after which all stands as before; the one turn where that takes too many."""
-    import numpy as np
-
     from graphkin.motion.cycle import cycle_at
     from graphkin.motion.driving import TURN
     from graphkin.motion.period import until_return
@@ -157,8 +150,6 @@ def centrodes_of(mechanism: Mechanism, whole: Cycle, link: str) -> Iterator[Curv
 
 def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
     """A curve in runs, broken where a centre is far away; a turn that comes back closes it."""
-    import numpy as np
-
     ends = [p.position for p in whole.solution.points.values() if p.position is not None]
     breadth = max(float(np.ptp(part)) for p in ends for part in (np.real(p), np.imag(p))) or 1.0
     middle = np.mean([np.mean(p) for p in ends])
@@ -173,8 +164,6 @@ def runs_of(whole: Cycle, path: Any) -> tuple[tuple[complex, ...], ...]:
 
 def once(path: Any) -> Any:
     """A closed curve drawn once, though the motion may go round it several times."""
-    import numpy as np
-
     size = float(np.abs(path - np.mean(path)).max())
     for count in range(len(path) // 3, 1, -1):
         if len(path) % count == 0:

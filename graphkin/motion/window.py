@@ -15,6 +15,7 @@ from graphkin.motion.driving import (
     reach_of,
     stated_motion,
 )
+from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Link, Scene
 from graphkin.text.errors import Problem, SceneError
@@ -132,8 +133,6 @@ def turn_evenly(speed: float, push: float) -> float | None:
 
 def turn_by_law(driver: Driver, scene: Scene) -> float | None:
     """The time at which a law of time has first turned its driver by a whole turn."""
-    import numpy as np
-
     for times, (angle, _, _) in doubled(driver, scene):
         past = np.flatnonzero(np.abs(angle - angle[0]) >= TURN)
         if past.size:
@@ -151,8 +150,6 @@ def turn_by_law(driver: Driver, scene: Scene) -> float | None:
 def to_and_fro(driver: Driver, scene: Scene) -> float | None:
     """The time (s) in which a law of time moves its driver to and fro: from where it first turns
     back to where it does so for the third time."""
-    import numpy as np
-
     for times, (_, speed, _) in doubled(driver, scene):
         if not np.isfinite(speed).all():
             return None
@@ -168,8 +165,6 @@ def to_and_fro(driver: Driver, scene: Scene) -> float | None:
 
 def doubled(driver: Driver, scene: Scene) -> Iterator[tuple[Any, tuple[Any, Any, Any]]]:
     """Times (N,) from nought on, each time over twice the span, with a driver's motion at them."""
-    import numpy as np
-
     span = 1e-3
     for _ in range(DOUBLINGS):
         times = np.linspace(0, span, GRID + 1)

@@ -17,6 +17,8 @@ from typing import Any
 
 from msgspec import Struct, field
 
+from graphkin.numbers.arrays import np
+
 Real = Any
 """A real number of some kind: float, or an array of floats."""
 Point = Any
@@ -59,8 +61,6 @@ class Kind(Struct, frozen=True):
 def nearest_quarter(degrees: Any) -> Any:
     """Whole number of quarter turns nearest to an exact angle, or to each of an array of them."""
     if hasattr(degrees, "shape"):
-        import numpy as np
-
         return np.rint(degrees / 90)
     return math.floor(Fraction(degrees) / 90 + Fraction(1, 2))
 
@@ -68,8 +68,6 @@ def nearest_quarter(degrees: Any) -> Any:
 def quarter_turns(quarter: Any) -> Any:
     """The power of i that turns by so many quarters, exactly."""
     if hasattr(quarter, "shape"):
-        import numpy as np
-
         left = quarter - 4 * np.rint(quarter / 4)
         size = abs(left)
         return (1 - size) + 1j * (left * (2 - size))
@@ -87,7 +85,6 @@ FLOAT = Kind("float", float, math.pi, math.cos, math.sin, math.sqrt, is_finite)
 
 def batch_kind() -> Kind:
     """Arrays of numpy doubles: many variants at once; what cannot be drawn becomes NaN."""
-    import numpy as np
 
     def number(exact: Any) -> Any:
         return np.asarray(exact, dtype=float) if hasattr(exact, "shape") else float(exact)
@@ -135,8 +132,6 @@ def sqrt(x: Real) -> Real:
         return x.context.sqrt(x)
     if is_ball(x) or is_formal(x):
         return x.sqrt()
-    import numpy as np
-
     return np.sqrt(x)
 
 
@@ -148,8 +143,6 @@ def phase(z: Point) -> Real:
         return z.context.arg(z)
     if is_ball(z) or is_formal(z):
         return z.arg()
-    import numpy as np
-
     return np.angle(z)
 
 
@@ -163,8 +156,6 @@ def turn_by(angle: Real) -> Point:
         return at(angle.cos(), angle.sin())
     if is_formal(angle):
         return angle.turn()
-    import numpy as np
-
     return np.cos(angle) + 1j * np.sin(angle)
 
 
@@ -172,8 +163,6 @@ def pick(condition: Any, yes: Any, no: Any) -> Any:
     """One of two values by a condition, element by element in a batch."""
     if isinstance(condition, bool):
         return yes if condition else no
-    import numpy as np
-
     return np.where(condition, yes, no)
 
 

@@ -12,6 +12,8 @@ from collections.abc import Callable, Sequence
 from itertools import product
 from typing import Any, NamedTuple
 
+from graphkin.numbers.arrays import np
+
 HALVED = 4
 """How often cells of two unknowns are halved; those of more are too many."""
 SLACK = 0.5
@@ -74,8 +76,6 @@ class Cells(NamedTuple):
 
 def joined(cells: Sequence[Cells]) -> Cells:
     """Some cells after others."""
-    import numpy as np
-
     return Cells(*(np.concatenate(column) for column in zip(*cells, strict=True)))
 
 
@@ -92,8 +92,6 @@ def common_roots(
     ``half`` are half the sides of the cells (n,), ``ranges`` how far misfits of each row range
     (R, n), ``edges`` the dyads that may be stretched flat, each with the bit of its sign in rows.
     """
-    import numpy as np
-
     cells, half = narrowed(looked, cells, half, ranges)
     start = drawn_places(missed, cells, half)
     fits = [closed_in(missed, cells.row, start, NEAR * half, ranges)]
@@ -115,8 +113,6 @@ def narrowed(looked: Looked, cells: Cells, half: Array, ranges: Array) -> tuple[
 
 def corners_of(size: int) -> Array:
     """The corners of a cell, of shares nought and one."""
-    import numpy as np
-
     return np.array([*product((0, 1), repeat=size)])
 
 
@@ -134,8 +130,6 @@ def may_vanish(
     ``some`` and ``whole`` tell whether some corners, or all, can be drawn; ``ranges`` how far
     misfits range.
     """
-    import numpy as np
-
     bent = np.where(whole, BENT * side.max() ** 2, ROOT * np.sqrt(side.max()))
     slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
     with np.errstate(all="ignore"):
@@ -151,8 +145,6 @@ def may_vanish(
 
 def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
     """The halves, in each direction, of cells in which all misfits may vanish."""
-    import numpy as np
-
     size = len(half)
     nodes = np.array([*product((-1, 0, 1), repeat=size)])
     places = (cells.middle[:, None, :] + nodes * half).reshape(-1, size)
@@ -181,8 +173,6 @@ def closed_in(
 
     Steps are halved that lead beyond what can be drawn, or no nearer.
     """
-    import numpy as np
-
     share, value = start.copy(), missed(row, start)
     which = np.flatnonzero(np.isfinite(value).all(axis=1))
     found = [np.empty(0, dtype=int)]
@@ -221,8 +211,6 @@ def closed_in(
 
 def roots_beside(missed: Misses, start: Array) -> Array:
     """Where Newton's method comes to rest from starts (K, n); NaN where it does not."""
-    import numpy as np
-
     share, left = start.copy(), np.arange(len(start))
     for _ in range(ROUNDS):
         way = steps_of(missed, left, share[left], missed(left, share[left]))
@@ -236,8 +224,6 @@ def roots_beside(missed: Misses, start: Array) -> Array:
 
 def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Array]:
     """Of those that all but stand at one place only one, with the steps of each."""
-    import numpy as np
-
     place = np.round((share[which] + way) / ONE_PLACE)
     _, first = np.unique(np.column_stack([row[which], place]), axis=0, return_index=True)
     return which[first], way[first]
@@ -245,8 +231,6 @@ def apart(row: Array, share: Array, which: Array, way: Array) -> tuple[Array, Ar
 
 def drawn_places(missed: Misses, cells: Cells, half: Array) -> Array:
     """A place of each cell that can be drawn: its middle, else a corner."""
-    import numpy as np
-
     share = cells.middle.copy()
     lost = np.arange(len(share))
     for corner in np.array([[0] * len(half), *product((-1, 1), repeat=len(half))]):
@@ -270,8 +254,6 @@ class FlatDyad(NamedTuple):
 
     def fits(self, cells: Cells, half: Array, ranges: Array) -> list[tuple[Array, Array]]:
         """The fits near cells that the dyad does not reach all over: rows and shares."""
-        import numpy as np
-
         here = self.reach(cells.row, cells.middle)
         slopes = np.empty(cells.middle.shape)
         for j, side in enumerate(half):
@@ -294,8 +276,6 @@ class FlatDyad(NamedTuple):
         self, j: int, cells: Cells, slope: Array, half: Array, ranges: Array
     ) -> tuple[Array, Array]:
         """The fits near cells with v in place of a share whose ``slope`` of the reach is known."""
-        import numpy as np
-
         row, middle = cells
         scale, plain = np.sqrt(abs(slope) * half[j]), row & ~self.bit
 
@@ -328,16 +308,12 @@ class FlatDyad(NamedTuple):
 
 def far(value: Array, scale: Array) -> Array:
     """How large misfits are, in parts of their ranges; infinite without a value."""
-    import numpy as np
-
     size = np.sqrt(((value / scale) ** 2).sum(axis=1))
     return np.where(np.isfinite(size), size, np.inf)
 
 
 def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
     """The steps of Newton's method; NaN where there is no slope."""
-    import numpy as np
-
     size = share.shape[1]
     slope = np.empty((len(row), size, size))
     for k in range(size):
@@ -352,8 +328,6 @@ def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
 def solutions(slopes: Array, right: Array) -> Array:
     """What makes linear equations true (K, n), of slopes (K, n, n) and right sides (K, n); NaN
     where slopes have no value or no inverse."""
-    import numpy as np
-
     good: Array = np.isfinite(slopes).all(axis=(1, 2))
     good &= np.linalg.det(np.where(good[:, None, None], slopes, 0.0)) != 0
     slopes = np.where(good[:, None, None], slopes, np.eye(slopes.shape[1]))

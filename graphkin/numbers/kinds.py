@@ -12,6 +12,7 @@ from functools import partial
 from typing import Any
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, batch_kind, is_ball, is_decimal, sqrt
+from graphkin.numbers.arrays import np
 
 PI_REST = 1.2246467991473532e-16
 """What pi is more than its double, to 33 digits in all together."""
@@ -25,8 +26,6 @@ def array_kind(name: str) -> Kind:
     What all variants share is worked out in doubles, or in longdoubles where those are asked, and
     joins the arrays as a number of their own type: a choice between two of Python's own would not.
     """
-    import numpy as np
-
     if name == "float64":
         return batch_kind()
     dtype = np.dtype(name).type
@@ -53,8 +52,6 @@ def split(exact: Any, dtype: Any) -> Any:
 
 def sound_scalar(value: Any) -> bool:
     """True unless a number of numpy's is infinite or none."""
-    import numpy as np
-
     return not isinstance(value, np.number) or bool(np.isfinite(value))
 
 
@@ -130,8 +127,6 @@ NAMES = {"d": "float64", "D": "float64", "f": "float32", "F": "float32", "g": "l
 def in_doubles(value: Any) -> Any:
     """The double, or the array of doubles, next to a number of any kind."""
     if hasattr(value, "shape") and value.shape:
-        import numpy as np
-
         return value.astype(np.complex128 if value.dtype.kind == "c" else np.float64)
     if isinstance(value, complex | float | int):
         return value

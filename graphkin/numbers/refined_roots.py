@@ -13,6 +13,7 @@ from itertools import product
 from typing import Any
 
 from graphkin.numbers.arithmetic import is_ball
+from graphkin.numbers.arrays import np
 from graphkin.numbers.kinds import middle
 
 Misfit = Callable[[Any], Any]
@@ -62,8 +63,6 @@ def by_secant(misfit: Misfit, start: Any, step: Any) -> Any:
 
 def by_secants(misfit: Misfit, start: Any, turns: bool) -> Any:
     """As by_secant for an array; each step gains all the digits that the first double had."""
-    import numpy as np
-
     old, new = start + APART * (1 if turns else np.maximum(abs(start), APART)), start
     before, after = misfit(old), misfit(new)
     for _ in range(ARRAY_STEPS):

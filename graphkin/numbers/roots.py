@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from graphkin.numbers.arrays import np
+
 Array = Any
 Misfit = Callable[[Array, Array], Array]
 
@@ -49,8 +51,6 @@ def roots_and_touches(misfit: Misfit, grid: Array) -> tuple[Array, Array, Array]
     misfit turns back towards zero its least value is looked for, and where a function breaks off
     the very end of it, so that two roots close together are found there too.
     """
-    import numpy as np
-
     size, places = grid.shape
     owner = np.repeat(np.arange(size), places)
     value = misfit(owner, grid.ravel()).reshape(grid.shape)
@@ -70,8 +70,6 @@ def roots_and_touches(misfit: Misfit, grid: Array) -> tuple[Array, Array, Array]
 
 def beside_breaks(misfit: Misfit, grid: Array, value: Array) -> list[tuple[Array, Array, Array]]:
     """Intervals with a root between the last place of a grid and where the function breaks off."""
-    import numpy as np
-
     there = np.isfinite(value)
     element, at = np.nonzero(there[:, :-1] != there[:, 1:])
     if not element.size:
@@ -96,8 +94,6 @@ def roots_beside_poles(misfit: Misfit, pole: Misfit, grid: Array) -> tuple[Array
 
     ``pole`` vanishes at the poles.
     """
-    import numpy as np
-
     size, places = grid.shape
     value = pole(np.repeat(np.arange(size), places), grid.ravel()).reshape(grid.shape)
     element, at = np.nonzero(value[:, :-1] * value[:, 1:] < 0)
@@ -140,8 +136,6 @@ def touches(
 
 def largest(value: Array) -> Array:
     """The largest value of each function on its grid."""
-    import numpy as np
-
     return np.nanmax(abs(value), axis=1, initial=0)
 
 
@@ -151,8 +145,6 @@ def turns(misfit: Misfit, grid: Array, value: Array) -> tuple[Array, Array, Arra
     Golden section towards it, until it has been found, or crosses zero by more than rounding, then
     negative, or stands so much higher than it rises on both sides that it cannot fall to zero.
     """
-    import numpy as np
-
     size = abs(value)
     here, near = size[:, 1:-1], np.sign(value[:, 1:-1])
     turns = (here <= size[:, :-2]) & (here <= size[:, 2:])
@@ -185,8 +177,6 @@ def closed_in(misfit: Misfit, which: Array, low: Array, high: Array) -> Array:
 
     Dowell and Jarratt (1971). Both ends must differ in sign, or be zero.
     """
-    import numpy as np
-
     low, high = low.copy(), high.copy()
     left, right = np.array(misfit(which, low)), np.array(misfit(which, high))
     height = np.maximum(abs(left), abs(right))
@@ -227,8 +217,6 @@ def halved_in(
     So does one that lies just before a jump of its function. ``found`` are the best place of each
     and the misfit there, which are set anew.
     """
-    import numpy as np
-
     (low, high), (best, least) = ends, found
     live = np.flatnonzero(rough)
     if not live.size:

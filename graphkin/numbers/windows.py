@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from graphkin.numbers.arrays import np
 from graphkin.numbers.roots import CLOSE, NEXT, Array, Misfit, roots, roots_and_touches
 
 BESIDE = 0.5
@@ -50,8 +51,6 @@ def narrowed(reaches: Misfit, windows: Windows) -> tuple[Windows, Ends]:
 
     Places lead up to such an end, not into it.
     """
-    import numpy as np
-
     owner, places = windows
     size, count = places.shape
     which, at = roots(lambda row, place: reaches(owner[row], place), places)
@@ -76,8 +75,6 @@ def narrowed(reaches: Misfit, windows: Windows) -> tuple[Windows, Ends]:
 
 def ease(share: Any) -> Any:
     """Shares from 0 to 1, closer together near both ends: there a root grows steeply."""
-    import numpy as np
-
     return (1 - np.cos(np.pi * share)) / 2
 
 
@@ -92,8 +89,6 @@ def fits_beside(
     ``misfit`` gives the values of which functions (K,), at which places and signs (K,). ``at`` has
     where each ends (n,), in radians or shares of a way, ``beside`` the window's place next to it.
     """
-    import numpy as np
-
     way = beside - at
     grain = NEXT * np.maximum(abs(at), 1) / np.maximum(abs(way), NEXT)
     straight = np.minimum(STRAIGHT * grain / CLOSE, WHOLE)
@@ -132,8 +127,6 @@ def fits_beside(
 
 def may_vanish(value: Array) -> Array:
     """Of which rows of values some change their sign, or turn back towards zero."""
-    import numpy as np
-
     size = abs(value)
     turned = (size[:, 1:-1] <= size[:, :-2]) & (size[:, 1:-1] <= size[:, 2:])
     return (np.sign(value[:, 1:]) != np.sign(value[:, :-1])).any(axis=1) | turned.any(axis=1)

@@ -14,6 +14,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.numbers.arrays import np
 from graphkin.scene.file_limits import file_bytes
 from graphkin.text.errors import FileError, Problem
 from graphkin.writers.files import file_part
@@ -132,7 +133,6 @@ def hash_of_picture(photograph: Photograph) -> str:
 
 def grey_of(photograph: Photograph) -> Any:
     """The picture as an upright array of greys. Raises Unreadable with the reason."""
-    import numpy as np
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:

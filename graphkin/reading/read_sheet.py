@@ -17,6 +17,7 @@ from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
 from graphkin.classroom.printing.register_crosses import without_crosses
 from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.marks import Page
+from graphkin.numbers.arrays import np
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Photograph, Unreadable, grey_of
@@ -272,8 +273,6 @@ def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
 
 def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
     """The pixels of a grid of places."""
-    import numpy as np
-
     if not grid.x or not grid.y:
         return ()
     places = np.stack(np.meshgrid(grid.x, grid.y), axis=-1).reshape(-1, 2)

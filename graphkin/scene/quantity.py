@@ -11,6 +11,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real
+from graphkin.numbers.arrays import np
 from graphkin.scene.evaluate import BOUNDLESS, EvaluationError, differentiated, evaluate
 from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Pair, Tree, names, parse, size
 from graphkin.scene.findings import shown
@@ -147,8 +148,6 @@ def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:
     """Value of a tree; in a batch what does not exist is masked without a warning."""
     if not any(hasattr(value, "shape") for value in values.values()):
         return evaluate(tree, values, kind)
-    import numpy as np
-
     with np.errstate(all="ignore"):
         return evaluate(tree, values, kind)
 

@@ -19,6 +19,7 @@ from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import extent_of, preferred
 from graphkin.drawing.symbol_markup import escape
 from graphkin.motion.driving import TURN
+from graphkin.numbers.arrays import np
 from graphkin.text import Words
 from graphkin.web.fixed_parts import standing
 from graphkin.web.frame_marks import cut, driver_marks, mechanism_seen, plan_box, plan_seen
@@ -193,8 +194,6 @@ def taken(drawing: Drawing) -> Iterator[complex]:
 
 def paths_of(motion: FrameSequence) -> Iterator[tuple[complex, ...]]:
     """The paths of the points whose velocities, accelerations or paths are asked."""
-    import numpy as np
-
     cycle = motion.cycle
     ask, fixed = cycle.scene.ask, cycle.scene.fixed_points
     rows = np.isin(cycle.piece, range(1, len(cycle.path.ranges[0]) + 1))

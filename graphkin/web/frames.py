@@ -21,6 +21,7 @@ from graphkin.documents.scaling import drawing, natural_seconds, targets_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN
+from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError
@@ -133,8 +134,6 @@ def place_in(cycle: Cycle, low: float, high: float) -> float:
 
 def shown_range(cycle: Cycle) -> tuple[float, float]:
     """The range of the scene, cut where rates grow beyond bounds towards a dead point."""
-    import numpy as np
-
     pieces = cycle.path.ranges[0]
     low, high = pieces[0].low.at, pieces[-1].high.at
     rows = (cycle.piece <= len(pieces)) & (cycle.piece > 0)

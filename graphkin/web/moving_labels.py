@@ -18,6 +18,7 @@ from msgspec import Struct
 from graphkin.drawing.field import XY
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class
 from graphkin.drawing.richtext import extent
+from graphkin.numbers.arrays import np
 
 if TYPE_CHECKING:
     from graphkin.drawing.areas import Rect
@@ -145,8 +146,6 @@ def rules_over(moments: Sequence[FrameView], rect: Rect, fars: Sequence[float]) 
 
     ``rect`` is what letters should stay in; ``fars`` is how far they may stand off, in mm.
     """
-    import numpy as np
-
     found: dict[str, Rule] = {}
     covered = [obstacles(seen.marks) for seen in moments]
     boxes: list[list[tuple[XY, float]]] = [[] for _ in moments]
@@ -187,8 +186,6 @@ def turns() -> tuple[XY, ...]:
 
 def spots_of(seen: FrameView, name: str, near: tuple[str, ...], fars: Sequence[float]) -> Any:
     """Where the rules put the letter of a point at one moment, in their order (n by 2, mm)."""
-    import numpy as np
-
     at, wide, found = seen.places[name], seen.letters[name].width / 4, []
     c, s = np.array(turns()).T
     for others in frames_of(near):
@@ -202,8 +199,6 @@ def spots_of(seen: FrameView, name: str, near: tuple[str, ...], fars: Sequence[f
 
 def obstacles(marks: Sequence[Mark]) -> tuple[Any, Any, Any]:
     """The lines of some marks (n by 4, mm) with their prices, and the middles of small circles."""
-    import numpy as np
-
     lines: list[tuple[float, ...]] = []
     prices: list[float] = []
     points: list[XY] = []
@@ -244,8 +239,6 @@ def price(
     rect: Rect,
 ) -> Any:
     """What it costs a letter to stand at each of some places (n by 2, mm) at one moment."""
-    import numpy as np
-
     lines, prices, points = lies
     half = width / 2 + GAP / 2, LETTER / 2 + GAP / 2
     ends = lines.reshape(-1, 2, 2)
@@ -267,8 +260,6 @@ def price(
 
 def crossed(spots: Any, half: XY, lines: Any) -> Any:
     """Which boxes about some places (n) each of some lines (m) crosses: n by m."""
-    import numpy as np
-
     ends = lines.reshape(-1, 2, 2)
     middle, ways = ends.mean(axis=1), (ends[:, 1] - ends[:, 0]) / 2
     away = middle[None] - spots[:, None]

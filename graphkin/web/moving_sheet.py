@@ -15,6 +15,7 @@ from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import Trace
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.numbers.arithmetic import larger, pick, smaller
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Circle, Ratio, dot
 from graphkin.web.body_pose import BodyPose, unit
 
@@ -116,8 +117,6 @@ class MovingSheet(Struct, frozen=True, dict=True):
 
     def arc_span(self, number: int, mm: float) -> tuple[Any, Any]:
         """The drawn part of an arc in degrees, as the layout has it."""
-        import numpy as np
-
         circle: Circle = self.values[number]
         degrees = 180 / np.pi
         half = smaller(degrees * SWEEP / (self.tape.lifted(circle.radius) * mm), 60.0)

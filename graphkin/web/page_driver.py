@@ -16,6 +16,7 @@ from graphkin.construction.tape.traced import TracedNumber
 from graphkin.construction.tape.tracer import traced_kind
 from graphkin.motion.driving import COORDINATES, TURN, What, stated_motion
 from graphkin.motion.sweep import chosen, law_of_time, sweep_of
+from graphkin.numbers.arrays import np
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.scene.quantity import LENGTHS
@@ -189,8 +190,6 @@ def reach_of(
     ``near`` gives the further inputs of the graph at places of the driver. A gap narrower than half
     a degree may be passed.
     """
-    import numpy as np
-
     low, high = window(driven)
     at = np.linspace(low, high, 2 * GRID + 1)
 
@@ -208,8 +207,6 @@ def reach_of(
 
 def around(driven: PageDriver, at: Any, closes: Any) -> Reach | None:
     """The range about the start, its ends looked for ever more finely."""
-    import numpy as np
-
     good = closes(at)
     here = int(np.abs(at - driven.start).argmin())
     if driven.what == "turn" and good[here - GRID // 2 : here + GRID // 2 + 1].all():

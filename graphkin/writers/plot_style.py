@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, filterwarnings
 
+from graphkin.numbers.arrays import np
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -166,8 +168,6 @@ def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
 
     None where no curve runs away, and all may be shown.
     """
-    import numpy as np
-
     even = np.linspace(at.min(), at.max(), 1001)
     order = np.argsort(at)
     after = np.clip(np.searchsorted(at[order], even), 1, len(at) - 1)

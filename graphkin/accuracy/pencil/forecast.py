@@ -28,6 +28,7 @@ from graphkin.accuracy.pencil.read_off import DrawnQuantity, answers
 from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.accuracy.pencil.simulation import Drawn, simulated
 from graphkin.construction.core.program import Target
+from graphkin.numbers.arrays import np
 
 NODE = sqrt(3)
 """Where an error is tried, in standard deviations."""
@@ -125,8 +126,6 @@ def is_alike(each: Expected, few: Drawn) -> bool:
 
 def sources(exact: Original) -> tuple[Any, Any]:
     """The step that owns each source, and the errors of each mark, two rows for each source."""
-    import numpy as np
-
     first: dict[int, int] = {}
     owners: list[int] = []
     for number, mark in exact.marks.items():
@@ -144,8 +143,6 @@ def sources(exact: Original) -> tuple[Any, Any]:
 
 def expected(answer: DrawnQuantity, found: Mapping[int, Any], owners: Any) -> Expected:
     """What is expected of one answer, from the drawings with one error each."""
-    import numpy as np
-
     with np.errstate(all="ignore"):
         off = np.broadcast_to(answer.error(found), 2 * len(owners)).reshape(-1, 2)
         parts = np.stack([off.real, off.imag]) if np.iscomplexobj(off) else off[None]
@@ -161,8 +158,6 @@ def expected(answer: DrawnQuantity, found: Mapping[int, Any], owners: Any) -> Ex
 
 def shares(owners: Any, variances: Any) -> Iterator[tuple[int, float]]:
     """The share of each step in a variance; the sources of a step stand side by side."""
-    import numpy as np
-
     whole = float(variances.sum())
     if isfinite(whole) and whole > 0:
         first = np.flatnonzero(np.diff(owners, prepend=-1))
@@ -176,8 +171,6 @@ def percentile(mean: Any, spread: Any) -> float:
     Its square has the mean tr C + m·m and the variance 2 tr C² + 4 m·C·m; a scaled chi-square of
     the same two stands for it. Infinite where they are not known.
     """
-    import numpy as np
-
     size = float(np.trace(spread) + mean @ mean)
     if not isfinite(size):
         return inf

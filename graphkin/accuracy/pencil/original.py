@@ -17,6 +17,7 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import by_parts, cross
 
 SAME = 1e-9
@@ -156,8 +157,6 @@ def together(every: Sequence[Original]) -> Original:
 def stacked(values: Sequence[Any]) -> Any:
     """One value of each variant as a column, by the parts of a line or circle; what all share
     stays alone."""
-    import numpy as np
-
     first = values[0]
     if isinstance(first, tuple):
         return by_parts(lambda *part: stacked(part), *values)

@@ -12,6 +12,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.numbers.arithmetic import Point, Real, turn_by
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 
@@ -95,8 +96,6 @@ def rounded(value: Real, pencil: Pencil, mm: float) -> Real:
     """A length as a pencil with a grid leaves it."""
     if not pencil.grid:
         return value
-    import numpy as np
-
     step = pencil.grid * mm
     return np.rint(value / step) * step
 

@@ -11,6 +11,7 @@ from graphkin.accuracy.pencil.pencil_marks import PencilMark, marked
 from graphkin.construction.core.kind import construction
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.numbers.arrays import np
 from graphkin.numbers.common_roots import solutions
 from graphkin.numbers.plane import cross
 
@@ -23,8 +24,6 @@ def redrawn(original: Original, pencil: Pencil, errors: Errors) -> dict[int, Any
 
     What no error reaches stays the one exact value; what cannot be drawn is NaN.
     """
-    import numpy as np
-
     found = dict(original.trace.values)
     with np.errstate(all="ignore"):
         for number in original.order:
@@ -100,8 +99,6 @@ def followed(
 
     ``shift`` (m) is how far what was cut is missed: the error of the mark at the crossing.
     """
-    import numpy as np
-
     trying = closer.trying
     count = len(trying.unknowns)
     signs, sine = exact[count:-1], exact[-1]

@@ -16,6 +16,7 @@ from graphkin.accuracy.pencil.redrawing import redrawn
 from graphkin.construction.core.program import Target
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arrays import np
 
 BLOCK = 4096
 """Drawings made at once: few enough that the values of a step stay in the processor's cache."""
@@ -44,8 +45,6 @@ class Drawn(Struct, frozen=True, dict=True):
 
     def error(self, target: Target, percent: float = COMMON) -> float:
         """How far off so many percent of the drawings are at most; infinite where they fail."""
-        import numpy as np
-
         off = abs(self[target] - self.answers[self.index[target]].value)
         return float(np.percentile(np.where(np.isnan(off), np.inf, off), percent, method="lower"))
 
@@ -68,8 +67,6 @@ def pencil_drawings(
 
 def simulated(exact: Original, pencil: Pencil, count: int, seed: int = 0) -> Drawn:
     """So many drawings of an original."""
-    import numpy as np
-
     wanted = tuple(answers(exact))
     values = [np.empty(count, dtype=np.result_type(type(answer.value))) for answer in wanted]
     streams = {

@@ -24,6 +24,7 @@ from graphkin.construction.core.program import Program, Step
 from graphkin.documents.scaling import scales, the_crank
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arrays import np
 from graphkin.scene.findings import Findings
 from graphkin.scene.model import Scene, quantities_within
 from graphkin.scene.parameters import set_values
@@ -151,8 +152,6 @@ def signs(step: Step) -> tuple[float, ...]:
 
 def all_scales(usual: Mechanism, own: Sequence[Mechanism]) -> list[Scales]:
     """The scale factors of the sheets of each variant."""
-    import numpy as np
-
     like = [i for i, each in enumerate(own) if each.program is usual.program]
     known: dict[int, Scales] = {}
     if by_arrays(usual) and len(like) > 1:

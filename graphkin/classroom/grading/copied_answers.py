@@ -21,6 +21,7 @@ from graphkin.classroom.grading.likelihood import FAR, fit, likelihood_if_drawn,
 from graphkin.classroom.grading.own_ways import by_own_scales, by_slips, rightly
 from graphkin.classroom.grading.slips import Slip
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.numbers.arrays import np
 
 FEW = 3
 """Fewer fields tell nothing."""
@@ -87,8 +88,6 @@ def best_other(
     """The other variant that a student's answers fit best; None where none fits so much better than
     the own, or the own with one of some slips, as is ``enough``, a logarithm.
     """
-    import numpy as np
-
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
     explained = np.array([marks[field].odds >= EXPLAINED for field in keys.fields])
@@ -124,8 +123,6 @@ def best_other(
 
 def nearest(answers: Any, digits: Any, keys: Keys, mine: int) -> Any:
     """The few variants nearer to the answers than the own, each answer taken by itself."""
-    import numpy as np
-
     with np.errstate(invalid="ignore", divide="ignore"):
         apart = (answers - keys.sizes) ** 2 / (keys.deviations**2 + digits**2 / 3)
     far = np.nansum(np.minimum(apart, FAR**2), axis=1)

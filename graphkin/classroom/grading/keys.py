@@ -17,6 +17,7 @@ from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
 from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.numbers.arrays import np
 
 COMPUTED = 0.005
 """Share by which a value may be off that is computed from a length as it was read."""
@@ -42,8 +43,6 @@ class Keys(Struct, frozen=True):
     @classmethod
     def of(cls, standards: Sequence[Expectation]) -> Keys:
         """Those of some variants."""
-        import numpy as np
-
         fields = tuple(standards[0].tolerance)
         places = np.array([standards[0].item[f].what == "place" for f in fields])
         at = {field: place for place, field in enumerate(fields)}
@@ -60,8 +59,6 @@ class Keys(Struct, frozen=True):
 
     def key(self, variant: int, read: Any) -> Key:
         """The key of a variant in the fields that are read, with the errors of pencil and ruler."""
-        import numpy as np
-
         standard, rulers = self.standards[variant], self.rulers[variant][read]
         beside, sizes = self.beside[read], self.sizes[variant][read]
         shared = np.where(beside[:, None] == beside, np.outer(rulers, rulers), 0.0)
@@ -73,16 +70,12 @@ class Keys(Struct, frozen=True):
         """How far readings may be rounded: lengths to half a millimetre, as fine as a ruler is held
         to tell, and to whole ones where a value is computed.
         """
-        import numpy as np
-
         items = self.standards[variant].item
         lengths = [items[f].what in ("segment", "place") for f in self.fields]
         return self.rulers[variant] * STRAIGHT * np.where(lengths, 1.0, 2.0)
 
     def known(self, variant: int) -> Any:
         """The fields whose error in a drawing of a variant is known."""
-        import numpy as np
-
         return np.isfinite(self.deviations[variant]) & np.isfinite(self.sizes[variant])
 
 
@@ -99,8 +92,6 @@ def distinct(standards: Sequence[Expectation]) -> tuple[list[Expectation], Mappi
 
 def read_of(graded: Graded, keys: Keys) -> tuple[Any, Any]:
     """A student's answers as sizes, places with their sign, and how far each may be rounded."""
-    import numpy as np
-
     marks = {mark.item.field: mark for mark in graded.marks}
     given = [marks[field].answer for field in keys.fields]
     values = np.array([float("nan") if a.value is None else a.value for a in given])

@@ -15,6 +15,7 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.graded import SURE
 from graphkin.classroom.grading.slip_diagnosis import ASTRAY, HALF
+from graphkin.numbers.arrays import np
 
 MISTAKES = 0.1
 """The share of answers that are mistakes."""
@@ -59,8 +60,6 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
     The answer that is least like the others is taken for a mistake as long as that is likelier:
     from all of them on, from those near the key, and from each of some ``starts``.
     """
-    import numpy as np
-
     noise = noise_of(rounding, key)
     off = answers - key.sizes
     astray = log(MISTAKES) + scattered(answers, key)
@@ -79,8 +78,6 @@ def fit(answers: Any, rounding: Any, key: Key, *starts: Any) -> Fit:
 
 def noise_of(rounding: Any, key: Key) -> Any:
     """The covariance of what is no pencil's error: digits, computing, and badly laid-off cranks."""
-    import numpy as np
-
     return np.diag(key.computed**2 + rounding**2 / 3) + LAID_OFF**2 * key.cranks.T @ key.cranks
 
 
@@ -106,8 +103,6 @@ def cleared(judge: Callable[[Any], tuple[Fit, int | None]], fits: Any) -> Fit:
 
 def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[Fit, int | None]:
     """The fit where just these answers are drawn, and which of them is least like the others."""
-    import numpy as np
-
     places = np.flatnonzero(fits)
     lost = float(astray[~fits].sum())
     if not len(places):
@@ -136,8 +131,6 @@ def judged(off: Any, spread: Any, noise: Any, astray: Any, fits: Any) -> tuple[F
 
 def scattered(answers: Any, key: Key) -> Any:
     """How densely mistakes lie, as a logarithm: half of them within a factor of two."""
-    import numpy as np
-
     sizes = np.maximum(abs(answers), 1e-12 + 1e-6 * abs(key.sizes))
     apart = np.log(sizes / np.maximum(abs(key.sizes), 1e-12)) / HALF
     size = -np.log(pi * HALF * sizes * (1 + apart**2))

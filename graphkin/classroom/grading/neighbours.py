@@ -22,6 +22,7 @@ from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import exact_text
+from graphkin.numbers.arrays import np
 
 Array = Any
 Asked = tuple[Mapping[str, Fraction], tuple[str, ...]]
@@ -42,8 +43,6 @@ class Neighbours(Struct, frozen=True):
 
     def closest(self) -> tuple[int, int]:
         """The sheet on which a neighbour's key earns most, the first of several; that neighbour."""
-        import numpy as np
-
         rounded = np.round(self.exact, 9)
         own, other = np.unravel_index(np.nanargmax(rounded), rounded.shape)
         return int(own), int(other)
@@ -87,8 +86,6 @@ class RightValues(Struct, frozen=True):
     @classmethod
     def of(cls, found: Sequence[Standard]) -> RightValues:
         """Those of some standards of one form."""
-        import numpy as np
-
         keys = Keys.of([each.expectation for each in found])
         senses = [item.field for item in found[0].items if item.what == "sense"]
         total = np.array([[sum(points_of(each, f) for f in each.key)] for each in found])
@@ -108,8 +105,6 @@ class RightValues(Struct, frozen=True):
 
     def by_key(self) -> Array:
         """What the exact values of each earn on the sheets of all, a row for each sheet."""
-        import numpy as np
-
         shares = self.earned(self, is_within)
         for i, points in enumerate(self.points):
             away, read = self.keys.sizes - self.keys.sizes[i], self.keys.known(i)
@@ -124,8 +119,6 @@ class RightValues(Struct, frozen=True):
         """What the right values of others earn, a row for each own sheet; ``chance`` says of how
         far values lie, of what is allowed and of their deviations, how likely they are right.
         """
-        import numpy as np
-
         shares = np.zeros((len(self.keys.sizes), len(other.keys.sizes)))
         for k in range(self.keys.sizes.shape[1]):
             away = other.keys.sizes[None, :, k] - self.keys.sizes[:, None, k]
@@ -139,8 +132,6 @@ class RightValues(Struct, frozen=True):
 
 def neighbours(found: Sequence[Standard]) -> Neighbours:
     """What each variant's right values earn on every other's sheet."""
-    import numpy as np
-
     own = RightValues.of(found)
     itself = np.eye(len(found), dtype=bool)
     shares = own.by_key(), own.earned(own, comes_within)
@@ -201,8 +192,6 @@ def points_of(standard: Standard, field: str) -> float:
 def comes_within(away: Array, limit: Array, spread: Array) -> Array:
     """How likely a value whose mean is so far away comes to lie within a limit (normal errors)."""
     import math
-
-    import numpy as np
 
     normal = np.vectorize(lambda x: 0.5 * (1.0 + math.erf(x / math.sqrt(2.0))), otypes=[float])
     wide = np.maximum(np.broadcast_to(np.nan_to_num(spread, posinf=0.0), away.shape), 1e-300)

@@ -15,6 +15,7 @@ from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.keys import Keys, coarseness
 from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.numbers.arrays import np
 
 FEW = 3
 """Fewer values tell nothing of a drawing together."""
@@ -24,8 +25,6 @@ def of_one_drawing(
     expected: Expectation, answers: Mapping[str, Answer], beyond: Sequence[str]
 ) -> tuple[str, ...]:
     """Those of the fields ``beyond`` their tolerance that are right by all of the sheet."""
-    import numpy as np
-
     found = tuple(field for field in beyond if is_near(expected, field, answers[field]))
     if not found:
         return ()
@@ -53,8 +52,6 @@ def is_one_drawing(off: Any, rounded: Any, key: Key) -> Any:
 
     ``off`` may hold a row for each of many sheets.
     """
-    import numpy as np
-
     spread = key.spread + np.diag(key.computed**2 + rounded**2 / 3)
     scale, count = np.sqrt(np.diag(spread)), len(spread)
     if count < FEW or not (scale > 0).all():

@@ -19,6 +19,7 @@ from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.slip_diagnosis import SHARE, share
 from graphkin.classroom.grading.slips import UNITS_TAKEN, Slip
+from graphkin.numbers.arrays import np
 
 FEW = 3
 """Fewer values tell nothing of a scale."""
@@ -37,8 +38,6 @@ class OwnWay(Struct, frozen=True):
 
     def key(self, keys: Keys, variant: int, read: Any) -> Key:
         """The key of a variant, in the fields that are read, of whoever goes this way."""
-        import numpy as np
-
         key, times = keys.key(variant, read), self.times[read]
         return replace(
             key,
@@ -51,8 +50,6 @@ class OwnWay(Struct, frozen=True):
 
 def rightly(keys: Keys, variant: int) -> OwnWay:
     """As the key has it."""
-    import numpy as np
-
     return OwnWay(keys.sizes[variant], np.ones(len(keys.fields)))
 
 
@@ -60,8 +57,6 @@ def by_own_scales(answers: Any, keys: Keys, variant: int, read: Any) -> Iterator
     """The values of either plan all as many times too large, by the likeliest factors, where they
     are by far.
     """
-    import numpy as np
-
     sizes, times = keys.sizes[variant], np.ones(len(keys.fields))
     for plan in (1, 2):
         values = read & (keys.plans == plan) & (sizes > 0)
@@ -76,8 +71,6 @@ def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay
     """With each of some slips: what it makes larger is off by more, as what it makes smaller by
     less.
     """
-    import numpy as np
-
     right = keys.standards[variant].key
     for slip in slips:
         told = np.array([slip.values.get(field, right[field]) for field in keys.fields])
@@ -91,8 +84,6 @@ def by_slips(slips: Iterable[Slip], keys: Keys, variant: int) -> Iterator[OwnWay
 
 def from_own_values(graded: Graded, answers: Any, keys: Keys, variant: int) -> Iterator[OwnWay]:
     """What follows from own earlier values as it was told, whatever these are."""
-    import numpy as np
-
     marks = {mark.item.field: mark for mark in graded.marks}
     told = (Status.FOLLOWS, Status.RIGHT)
     follows = np.array([bool(marks[f].source) and marks[f].status in told for f in keys.fields])

@@ -34,6 +34,7 @@ from graphkin.classroom.grading.own_ways import (
     rightly,
 )
 from graphkin.classroom.grading.standard import Expectation
+from graphkin.numbers.arrays import np
 
 FEW = 3
 """Fewer fields tell nothing."""
@@ -75,15 +76,11 @@ class AnswerSheet(Struct, frozen=True):
     @property
     def rounding(self) -> Any:
         """How far each may be rounded."""
-        import numpy as np
-
         return np.maximum(self.digits, self.least)
 
     @property
     def is_read(self) -> Any:
         """The fields that hold a number."""
-        import numpy as np
-
         return ~np.isnan(self.answers)
 
 
@@ -141,8 +138,6 @@ def copies(
 
 def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
     """What a student handed in, as numbers; each at least as coarse as lengths are read."""
-    import numpy as np
-
     answers, digits = read_of(graded, keys)
     marks = {mark.item.field: mark for mark in graded.marks}
     wrong = np.array([marks[field].status is not Status.RIGHT for field in keys.fields])
@@ -190,8 +185,6 @@ def told(
     """How much likelier the same digits in some fields are by a copy of just these fields than by
     chance, as a logarithm; no more exactly than that it is less than ``enough``.
     """
-    import numpy as np
-
     one, other = (sheets[who] for who in pair)
     agree = np.zeros(len(keys.fields), dtype=bool)
     agree[list(places)] = True
@@ -231,8 +224,6 @@ def chosen(keys: Keys, both: Any, agree: Any) -> float:
     """How often just these of the fields that both have are copied, as a logarithm, with its sign
     turned: any number of quantities, each mostly with its length and with its value.
     """
-    import numpy as np
-
     quantities, places = np.unique(keys.beside, return_inverse=True)
     there, taken = (np.bincount(places, each, len(quantities)) for each in (both, agree))
     count, some = int((there > 0).sum()), taken > 0
@@ -267,8 +258,6 @@ def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, res
     own drawing, by each way that the rest of the sheet was gone, as it tells, or may be gone in
     these answers alone; or from a drawing of the other's data, which then the rest tells as well.
     """
-    import numpy as np
-
     if not read.any():
         return 0.0
     sources = [(each.variant, way) for way in each.ways]
@@ -292,8 +281,6 @@ def likelihood(
     """How likely some of a student's answers are, or ``exactly`` their digits, by a way that is
     gone with the data of a variant, as a logarithm: drawn by hand, or computed.
     """
-    import numpy as np
-
     if not read.any():
         return 0.0
     rounding = np.maximum(each.digits, each.least * way.times)[read]
@@ -318,8 +305,6 @@ def misunderstood(
     theirs do, or one that is stated, and their data, as a logarithm. What they make many times as
     large is read as many times as coarsely; what smaller, off by less, and less apart.
     """
-    import numpy as np
-
     if not read.any():
         return 0.0
     finest = pencil or min(pencil_of(each, keys) for each in (one, other))

@@ -28,6 +28,7 @@ from graphkin.documents.scaling import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT, turn_by
+from graphkin.numbers.arrays import np
 
 NOTHING: Mapping[int, Any] = {}
 
@@ -153,8 +154,6 @@ class Standard(Struct, frozen=True, dict=True):
         """How far each field but senses goes where a crank is laid off by a degree too much, a row
         for each that turns; sizes, as they are marked.
         """
-        import numpy as np
-
         values, rows = self.exact.trace.values, []
         for drive in self.layout.program.drives:
             if isinstance(values.get(drive.position), complex):

@@ -24,6 +24,7 @@ from graphkin.accuracy.pencil.simulation import COMMON
 from graphkin.classroom.grading.probes import Probe
 from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.construction.core.program import Plane
+from graphkin.numbers.arrays import np
 
 FINE = 0.5
 """A fine drawing has half the error that is forgiven: no cap takes its marks."""
@@ -90,8 +91,6 @@ def pencil_errors(variants: Sequence[Sequence[Reading]], pencil: Pencil) -> list
     """The 95th percentile of the error of each field over drawings with a pencil, of variants that
     draw the same; a single one is a batch of one.
     """
-    import numpy as np
-
     fields = variants[0]
     if not fields:
         return [Errors((), np.zeros((0, 0)))] * len(variants)
@@ -118,8 +117,6 @@ def covariance(off: Any, errors: Any, bent: Any) -> Any:
 
     Fields whose errors do not just add up are held to go with no other.
     """
-    import numpy as np
-
     parts = np.where(np.asarray(bent)[..., None, None], 0.0, off)
     mean = WEIGHT * parts.sum(axis=-1)
     found = WEIGHT * np.einsum("...isk,...jsk->...ij", parts, parts, optimize=True)
@@ -136,8 +133,6 @@ def added(off: Any) -> tuple[Any, Any]:
 
     A scaled chi-square of the same mean and variance stands for the square, as in the forecast.
     """
-    import numpy as np
-
     with np.errstate(all="ignore"):
         mean = WEIGHT * off.sum(axis=-1)
         variance = (WEIGHT * (off * off).sum(axis=-1) - mean * mean).sum(axis=-1)
@@ -151,8 +146,6 @@ def added(off: Any) -> tuple[Any, Any]:
 
 def joint_errors(readings: Sequence[Reading], pencil: Pencil) -> list[float]:
     """The same from drawings in which every mark is off."""
-    import numpy as np
-
     drawings = joint_drawings(readings[0].exact, pencil, JOINT, SEED)
     found = []
     for reading in readings:
@@ -164,7 +157,6 @@ def joint_errors(readings: Sequence[Reading], pencil: Pencil) -> list[float]:
 
 def joint_drawings(exact: Original, pencil: Pencil, count: int, seed: int) -> dict[int, Any]:
     """Every value of so many drawings in which every mark is off; the same for the same seed."""
-    import numpy as np
 
     def errors(number: int, mark: PencilMark) -> Any:
         stream = np.random.Generator(np.random.PCG64([seed, number]))

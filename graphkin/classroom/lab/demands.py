@@ -12,6 +12,7 @@ from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.quantities import BY_TARGET, RATES
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Vector
 
 Array = Any
@@ -22,8 +23,6 @@ def crossing_angles(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
 
     What only the hand's way of a plate or a triangle needs has another way, or its own limit.
     """
-    import numpy as np
-
     program = sheet.trace.program
     for number, sine in sheet.trace.margins.items():
         step = program.steps[number]
@@ -37,8 +36,6 @@ def segment_lengths(
     sheet: VariantSheet, form: Sequence[Item], scale: Array
 ) -> Iterator[tuple[str, Array]]:
     """How long, in mm, the segment is that each field of the form is measured by, on its sheet."""
-    import numpy as np
-
     for item in form:
         size = measured(sheet, item)
         if size is not None:
@@ -80,8 +77,6 @@ def triangle_ratios(sheet: VariantSheet) -> Iterator[tuple[str, Array]]:
 
 def ray_angles(sheet: VariantSheet, form: Sequence[Item]) -> Iterator[tuple[str, Array]]:
     """The angle in degrees at which the rays to each centre or pole of the form cross."""
-    import numpy as np
-
     program, margins = sheet.trace.program, sheet.trace.margins
     for item in form:
         number = program.targets.get((item.quantity, item.of), -1)

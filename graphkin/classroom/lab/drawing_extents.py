@@ -23,6 +23,7 @@ from graphkin.documents.scaling import sheet_targets
 from graphkin.drawing.scale import Extent
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
 ON_MECHANISM = {
@@ -68,8 +69,6 @@ class VariantSheet(Struct, frozen=True, dict=True):
     @cached_property
     def plan_box(self) -> Extent:
         """The box of the plan once as large as its vectors on the mechanism, in metres."""
-        import numpy as np
-
         scale = self.plan_seconds
         with np.errstate(all="ignore"):  # what does not close has no plan
             points = [p * scale for _, v in self.steps(PLANES[self.kind]) for p in ends(v)]
@@ -83,15 +82,11 @@ class VariantSheet(Struct, frozen=True, dict=True):
     @cached_property
     def reach(self) -> Array:
         """The largest distance in the mechanism along x or y, in metres."""
-        import numpy as np
-
         return np.maximum(self.bare_box.width, self.bare_box.height)
 
     @cached_property
     def largest(self) -> Array:
         """The largest vector of the plan as it is set on the mechanism, in metres."""
-        import numpy as np
-
         vectors = [
             abs(value.tip - value.tail)
             for step, value in self.steps(PLANES[self.kind])
@@ -123,8 +118,6 @@ def ends(value: Any) -> tuple[Any, ...]:
 
 def boxes(points: Sequence[Array], size: int) -> Extent:
     """The boxes around points, each an array or one for all; the origin where there are none."""
-    import numpy as np
-
     low_x, low_y = np.full(size, np.nan), np.full(size, np.nan)
     high_x, high_y = low_x.copy(), low_y.copy()
     for point in points:
@@ -158,8 +151,6 @@ def sketches(
 
     ``values`` are the scene's parameters as arrays; ``rates`` what the hand tries.
     """
-    import numpy as np
-
     program = mechanism.program
     found = []
     for kind, targets in sheet_targets(mechanism).items():
@@ -177,8 +168,6 @@ def sketches(
 
 def needs_of(drafts: Sequence[VariantSheet]) -> list[Needs | None]:
     """The boxes of the drafts of each variant, as in documents.scaling; None for no number."""
-    import numpy as np
-
     bare, whole = (
         Extent(
             *(np.min([getattr(box, side) for box in some], axis=0) for side in ("left", "bottom")),

@@ -20,6 +20,7 @@ from graphkin.classroom.grading.neighbours import pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, judged
 from graphkin.classroom.lab.lab_model import Lab, Range, ValueList
 from graphkin.classroom.lab.rules import Settings
+from graphkin.numbers.arrays import np
 from graphkin.scene.model import Parameter, Scene
 from graphkin.scene.parameters import plain
 from graphkin.text.errors import Problem, SceneError
@@ -58,8 +59,6 @@ class Tried(Struct, frozen=True):
 
     def by_value(self, name: str, bins: int = 12) -> list[tuple[Fraction, Fraction, float, int]]:
         """For each part of a parameter's values: its first, its last, the fair share, the draws."""
-        import numpy as np
-
         values, column = self.space[name], [*self.space].index(name)
         edges = np.linspace(0, len(values), min(bins, len(values)) + 1).astype(int)
         found = []
@@ -218,8 +217,6 @@ def drawn_within(lab: Lab, space: Mapping[str, Range], box: Box, start: int = 1)
 
 def draws(box: Box, count: int, start: int) -> Array:
     """The indices of draws within a box: all that there are, or as many of a design."""
-    import numpy as np
-
     sizes = [high - low + 1 for low, high in box]
     if prod(sizes) <= count:
         found = np.array([*product(*map(range, sizes))])
@@ -235,8 +232,6 @@ def settings_at(space: Space, row: Sequence[int]) -> Settings:
 
 def halton(dimensions: int, count: int, start: int) -> Array:
     """Points that fill a unit cube evenly: the digits of their numbers, mirrored at the point."""
-    import numpy as np
-
     found = np.zeros((count, dimensions))
     for column in range(dimensions):
         base = PRIMES[column % len(PRIMES)]
@@ -284,8 +279,6 @@ def part_of(values: Range | ValueList, low: int, high: int) -> Range | ValueList
 
 def peeled(lab: Lab, tried: Tried) -> Box | None:
     """The box that peeling leaves, all of whose draws are fair; None where nothing is left."""
-    import numpy as np
-
     box, places, fair = whole_box(tried.space), tried.places, tried.fairness.fair
     for turn in range(AGAIN):
         found = peel(box, places, fair)
@@ -335,8 +328,6 @@ def pasted(box: Box, whole: Box, places: Array, fair: Array) -> Box:
 
 def all_runs(lab: Lab, space: Mapping[str, Range], box: Box, name: str) -> Range | ValueList | None:
     """All values of one parameter that are fair with whatever the box holds of the others."""
-    import numpy as np
-
     values, column = space[name], [*space].index(name)
     low, high = box[column] if len(values) > DRAWS // 8 else (0, len(values) - 1)
     good = np.zeros(len(values), dtype=bool)
@@ -368,8 +359,6 @@ def slices(box: Box) -> Iterator[Box]:
 
 def within(box: Box, places: Array) -> Array:
     """Which draws lie in a box."""
-    import numpy as np
-
     low, high = np.array(box).T
     return ((places >= low) & (places <= high)).all(axis=1)
 
@@ -392,8 +381,6 @@ def pencilled(lab: Lab, ranges: Space) -> tuple[Space, float]:
     Where too little would be left for a class the ranges stay whole, with the share of their draws
     in which a pencil is exact enough: the others are drawn again.
     """
-    import numpy as np
-
     box: Box | None = whole_box(ranges)
     places, good, share = np.empty((0, len(ranges)), dtype=int), np.empty(0, dtype=bool), 1.0
     for turn in range(AGAIN):

@@ -7,6 +7,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, Tried
+from graphkin.numbers.arrays import np
 from graphkin.writers.plot_style import (
     COLOURS,
     FORMATS,
@@ -72,8 +73,6 @@ def by_pairs(tried: Tried, names: list[str], title: str) -> Figure:
 
 def fair_map(axes: Axes, tried: Tried, across: str, up: str) -> None:
     """The fair share over two parameters, from red (none) to blue (all)."""
-    import numpy as np
-
     x, y = values_of(tried, across), values_of(tried, up)
     edges = [np.linspace(v.min(), v.max(), min(BINS, len(set(v))) + 1) for v in (x, y)]
     every, _, _ = np.histogram2d(x, y, bins=edges)
@@ -89,7 +88,5 @@ def fair_map(axes: Axes, tried: Tried, across: str, up: str) -> None:
 
 def values_of(tried: Tried, name: str) -> Any:
     """The value of a parameter at each draw."""
-    import numpy as np
-
     values, column = tried.space[name], [*tried.space].index(name)
     return np.array([float(values.value(int(k))) for k in tried.places[:, column]])

@@ -30,6 +30,7 @@ from graphkin.construction.core.solution import FAIR, LinkMotion, PointMotion, S
 from graphkin.construction.registry import LIMITED
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
+from graphkin.numbers.arrays import np
 
 Array = Any
 BLOCK = 4096
@@ -119,8 +120,6 @@ class Fairness(Struct, dict=True):
     @cached_property
     def fair(self) -> Array:
         """Which variants keep all limits."""
-        import numpy as np
-
         low, high = self.limits.triangle
         good = self.closes & self.fits
         good &= (self.flattest >= self.limits.crossing) & (self.shortest >= self.limits.segment)
@@ -166,8 +165,6 @@ class Fairness(Struct, dict=True):
 
 def judged(lab: Lab, many: Sequence[Settings]) -> Fairness:
     """The fairness of variants by their exact data, within what the scene allows."""
-    import numpy as np
-
     count, form = len(many), items(lab.mechanism, lab)
     closes, fits = np.zeros((2, count), dtype=bool)
     found = Fairness(lab.fair, form, closes, fits, *np.full((3, count), np.nan))
@@ -183,8 +180,6 @@ def judge(
     found: Fairness, lab: Lab, block: Sequence[Settings], values: Mapping[str, Any], start: int
 ) -> None:
     """Judge as many variants as go into one block, put at their places from a start on."""
-    import numpy as np
-
     mechanism, where = lab.mechanism, slice(start, start + len(block))
     closes = found.closes[where] = closing(mechanism, values, len(block))
     scaled = scaling(mechanism, values, len(block), lambda i: lab.variant(block[i]), closes)
@@ -209,8 +204,6 @@ def judge(
 
 def closing(mechanism: Mechanism, values: Mapping[str, Any], count: int) -> Array:
     """Which variants can be constructed: all that is asked is finite, no crossing is singular."""
-    import numpy as np
-
     given = {name: value for name, value in values.items() if hasattr(value, "shape")}
     asked = mechanism.run_many(given, asked=True, kind="float64")
     motions: list[PointMotion | LinkMotion | SlideMotion] = [*asked.points.values()]
@@ -239,8 +232,6 @@ def put(
     room: dict[str, Array], found: Iterator[tuple[str, Array]], which: Array, size: int
 ) -> None:
     """Put arrays of some variants at their places; of two under one name the smaller stays."""
-    import numpy as np
-
     for name, value in found:
         empty = np.zeros(size, dtype=bool) if np.asarray(value).dtype == bool else None
         array = room.setdefault(name, np.full(size, np.nan) if empty is None else empty)
@@ -249,8 +240,6 @@ def put(
 
 def least_of(room: Mapping[str, Array], size: int, default: float) -> Array:
     """The least of several arrays for each variant; NaN, where something is not drawn, as none."""
-    import numpy as np
-
     least = np.full(size, np.nan)
     for array in room.values():
         least = np.fmin(least, array)

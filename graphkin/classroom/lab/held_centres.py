@@ -15,6 +15,7 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.areas import AREA
 from graphkin.drawing.scale import Extent, Scales
 from graphkin.numbers.arithmetic import larger
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Ratio
 
 PARTS = {"velocity": Part.CENTRE, "acceleration": Part.POLE}
@@ -59,8 +60,6 @@ def poles_of(sheet: VariantSheet) -> Iterator[Array]:
 
 def placed(sheet: VariantSheet, value: Ratio) -> Array:
     """The point of a centre or pole; NaN at infinity, or as far away as makes no odds."""
-    import numpy as np
-
     with np.errstate(all="ignore"):
         near = np.abs(value.size) * ENDLESS * sheet.reach > np.abs(value.shift)
         return np.where(near, value.start + value.shift / value.size, np.nan + 0j)

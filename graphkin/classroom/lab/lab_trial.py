@@ -13,6 +13,7 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, outside, settings
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
+from graphkin.numbers.arrays import np
 from graphkin.text.errors import Problem, SceneError
 
 TRIED = 1000
@@ -158,8 +159,6 @@ def students_of(lab: Lab, count: int) -> list[Student]:
 
 def quantiles(values: Sequence[float]) -> list[float]:
     """The least, the quartiles and the most of some values that are finite."""
-    import numpy as np
-
     finite = np.asarray(values, dtype=float)
     finite = finite[np.isfinite(finite)]
     return [float(q) for q in np.quantile(finite, SHARES)] if len(finite) else []

@@ -20,6 +20,7 @@ from graphkin.documents.scaling import scales, stated_of
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.numbers.arrays import np
 from graphkin.text.errors import GraphkinError
 
 Array = Any
@@ -42,8 +43,6 @@ class Scaling(Struct):
 
     def together(self, which: Iterable[int]) -> Scales:
         """Those of some variants, of which each factor is an array; NaN where nothing fits."""
-        import numpy as np
-
         some, names = [self.own[i] or NOWHERE for i in which], Scales.__struct_fields__
         factors: list[Any] = [np.array([getattr(each, name) for each in some]) for name in names]
         return Scales(*factors)
@@ -57,8 +56,6 @@ def scaling(
     ``load`` makes one variant's mechanism, for those that are not reckoned in arrays; only those
     that ``closes`` names are tried.
     """
-    import numpy as np
-
     found = Scaling([None] * count)
     done = np.zeros(count, dtype=bool)
     if by_arrays(mechanism):
@@ -85,8 +82,6 @@ def by_arrays(mechanism: Mechanism) -> bool:
 
 def scaled(mechanism: Mechanism, values: Values, found: Scaling) -> Array:
     """Scale what a crank drives that turns; the result says which variants that are."""
-    import numpy as np
-
     size = len(found.own)
     speed = np.broadcast_to(np.abs(mechanism.scene.drivers[0].speed.si(values, batch_kind())), size)
     turning = np.flatnonzero(np.asarray(speed, dtype=float) > 0)
@@ -104,8 +99,6 @@ def side_by_side(
     mechanism: Mechanism, values: Values, speed: Array, said: Sequence[Stated]
 ) -> list[Scales | None]:
     """What the search of each variant ends in; None where nothing fits."""
-    import numpy as np
-
     found: list[Scales | None] = [None] * len(said)
     gives_way = may_give_way(mechanism.program)
     asking: list[Search] = [
@@ -132,8 +125,6 @@ def side_by_side(
 
 def one_by_one(load: Loader, index: int, found: Scaling) -> None:
     """The scale factors of one variant by its own sheet, if it has some."""
-    import numpy as np
-
     try:
         one = load(index)
         own = scales(one)

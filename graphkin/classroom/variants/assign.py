@@ -19,6 +19,7 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.rules import Settings, settings
 from graphkin.classroom.roster.read_roster import Check
 from graphkin.classroom.roster.student import Student
+from graphkin.numbers.arrays import np
 from graphkin.scene.parameters import misfit, range_words
 from graphkin.scene.quantity import shortest
 from graphkin.text.errors import Problem, RosterError, SceneError
@@ -107,8 +108,6 @@ def with_room(
     lab: Lab, kept: list[tuple[Assigned, Standard]], tried: Sequence[tuple[Assigned, Standard]]
 ) -> list[Fault | None]:
     """For each of some data what is too inexact or too near to others; what is not is kept."""
-    import numpy as np
-
     limit, found = lab.fair.apart, list[Fault | None]()
     before, both = len(kept), [*kept, *tried]
     values = RightValues.of([standard for _, standard in both])

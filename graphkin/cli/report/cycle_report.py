@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.cli.report.piece_words import at_words, length_words, pieces_words, short
 from graphkin.cli.report.solution_record import heading
+from graphkin.numbers.arrays import np
 from graphkin.text.plain_table import labelled, listed
 
 if TYPE_CHECKING:
@@ -289,8 +290,6 @@ def witness_words(cycle: Cycle) -> str:
 
 def digits_words(cycle: Cycle) -> Iterator[str]:
     """Of which quantities no digit is sure, and in how many rows."""
-    import numpy as np
-
     unsure = cycle.witnessed.unsure
     if unsure:
         rows = int(np.logical_or.reduce([*unsure.values()]).sum())
@@ -303,8 +302,6 @@ def agrees(cycle: Cycle) -> bool:
 
     Where a crossing is so flat that no digit is sure it need not have an answer at all.
     """
-    import numpy as np
-
     found = cycle.witnessed
     allowed = FLAT / np.maximum(cycle.solution.margin, TINY) ** 3
     flat = (found.difference <= allowed) | (allowed >= 1)

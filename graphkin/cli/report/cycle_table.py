@@ -14,6 +14,7 @@ from graphkin.construction.core.quantities import (
     MotionQuantity,
     motion_value,
 )
+from graphkin.numbers.arrays import np
 from graphkin.numbers.plane import Ratio
 
 if TYPE_CHECKING:
@@ -51,8 +52,6 @@ def columns_of(cycle: Cycle) -> Iterator[Column]:
     sweep = cycle.sweep
     yield f"{sweep.symbol} [{sweep.unit}]", cycle.at
     if sweep.what == "turn":
-        import numpy as np
-
         yield f"{sweep.symbol} [rad]", np.radians(cycle.at)
     yield "piece", cycle.piece
     yield from of_points(cycle)
@@ -95,8 +94,6 @@ def of_links(cycle: Cycle) -> Iterator[Column]:
                 yield f"{rate.target}_{name} [{rate.caret_unit}]", value
         centre = motion.instant_centre
         if isinstance(centre, Ratio):
-            import numpy as np
-
             with np.errstate(all="ignore"):
                 place = centre.start + centre.shift / centre.size
             yield f"Ix_{name} [m]", place.real
