@@ -14,7 +14,7 @@ from graphkin.loops.assemble import assembled
 from graphkin.loops.branch_closures import closures, moved_by, settled_of
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
-from graphkin.loops.newton import newton, scaled
+from graphkin.loops.newton import gap, newton, scaled
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Closure
@@ -157,6 +157,15 @@ def test_a_step_is_no_longer_than_half_a_radian_and_keeps_its_direction(read):
         assert (length.min() > 0.5) == (start is thrown)
         moved = (newton(loops, start, most=1)[0] - start) / loops.columns
         assert moved == pytest.approx(step * np.minimum(1, 0.5 / length), abs=1e-9)
+
+
+def test_how_far_a_driver_is_off_is_measured_on_the_longest_bar(read):
+    """A crank of 40 m a tenth of a radian beyond its angle: its end is 4 m off along its arc."""
+    crank = "frame.O = [0, 0]\nlinks.1.O-A = 40\n[[drivers]]\nturn = 1\nangle = 30\nspeed = 1\n"
+    loops = equations(read(crank))
+    beyond = np.array([[math.radians(30) + 0.1]])
+    assert gap(loops, beyond) == pytest.approx([4.0])
+    assert gap(loops, beyond - 0.1) == pytest.approx([0], abs=1e-15)
 
 
 STRETCHED = """
