@@ -72,6 +72,60 @@ def test_every_link_cuts_off_its_angular_velocity(name):
         assert within(cut, links[link].omega, 1e-12), link
 
 
+@pytest.mark.parametrize("name", (*TRAINS, "gears-kutzbach"))
+def test_speeds_are_read_as_far_from_their_pole_as_the_smallest_wheel_is_large(name):
+    """The line of speeds stands off by its radius, in the time of the driver."""
+    mechanism = example(name) if name in TRAINS else load(FOLDER / f"{name}.toml")
+    found, scene = mechanism.trace(by_hand=True), mechanism.scene
+    (scale,) = constructions(found.program, SpeedPole)
+    wheels = [wheel for link in (scene.frame, *scene.links.values()) for wheel in link.wheels]
+    least = min(float(wheel.radius.si(scene.values)) for wheel in wheels)
+    off = abs(found.values[scale.start] - found.values[scale.pole])
+    assert off == pytest.approx(least / pace(mechanism))
+    rim = found.value("position", scale.p) - found.value("position", scale.q)
+    assert abs(rim) == pytest.approx(least)
+
+
+ON_FIXED_PINS = """
+[frame]
+O = [0, 0]
+P = [PLACE, 0]
+Q = [PAST, 0]
+[links.1]
+P = [0, 0]
+wheel = { centre = "P", teeth = 30 }
+rolls = { on = 2 }
+[links.2]
+O = [0, 0]
+wheel = { centre = "O", teeth = TEETH }
+[links.3]
+Q = [0, 0]
+wheel = { centre = "Q", teeth = 20 }
+rolls = { on = 1 }
+[[drivers]]
+turn = 1
+angle = 0
+speed = 10
+[ask]
+omega = [2, 3]
+"""
+
+
+@pytest.mark.parametrize(
+    ("teeth", "place", "inside", "speed"), [(40, 70, False, -7.5), (80, 50, True, 3.75)]
+)
+def test_wheels_about_fixed_pins_have_speeds_as_their_teeth(teeth, place, inside, speed):
+    """In a ring the pitch point lies beyond the pinion; the smallest wheel is in the last mesh."""
+    ring = f"teeth = {teeth}, inside = true" if inside else f"teeth = {teeth}"
+    text = ON_FIXED_PINS.replace("teeth = TEETH", ring).replace("PLACE", str(place))
+    mechanism = train(text.replace("PAST", str(place + 50)))
+    assert speeds(mechanism) == pytest.approx({"1": 10, "2": speed, "3": -15})
+    found = mechanism.trace(by_hand=True)
+    (scale,) = constructions(found.program, SpeedPole)
+    rim = found.value("position", scale.p) - found.value("position", scale.q)
+    assert abs(rim) == pytest.approx(0.02)
+
+
 @pytest.mark.parametrize("name", TRAINS)
 def test_the_tips_of_all_points_of_a_link_lie_on_its_ray(name):
     """Also those through which it was not drawn: pitch points, and centres on axes and arms."""
