@@ -11,8 +11,9 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import rate_symbol, sense, turning_with, vector_of
-from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
+from graphkin.construction.core.relation import FINE, Relation, answer, figure
 from graphkin.construction.drivers.summed_rate import SummedRate
+from graphkin.construction.links.rolled_turn import willis
 from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import of_wheel, symbol
@@ -131,21 +132,15 @@ def by_radii(
     alike = any(disc.wheel.inside for disc in discs)
     if belt is not None:
         alike = not belt.crossed
-    sign, factor = ("+", 1) if alike else ("−", -1)
+    factor = 1 if alike else -1
     radii = f"{radius_of(discs[1])}/{radius_of(discs[0])}"
     numbers = f"{figure(drawing, discs[1].radius)}/{figure(drawing, discs[0].radius)}"
     ratio = discs[1].radius / discs[0].radius
     whole = carried + factor * (rolled - carried) * ratio
-    if names[1] == FRAME:
-        lead = "−" if factor < 0 else ""
-        symbols = f"{lead}{track}·{radii}"
-        figures = f"{lead}{within(drawing, rolled)}·{numbers}"
-    else:
-        symbols = f"{arm} {sign} ({track} − {arm})·{radii}"
-        less = f"({within(drawing, rolled)} − {within(drawing, carried)})"
-        figures = f"{figure(drawing, carried, FINE)} {sign} {less}·{numbers}"
-        if names[2] == FRAME:
-            symbols = f"{arm} {sign} (0 − {arm})·{radii}"
+    fixed = names[1] == FRAME
+    symbols = willis("" if fixed else arm, "0" if names[2] == FRAME else track, radii, alike=alike)
+    put = [figure(drawing, rate, FINE) for rate in (carried, rolled)]
+    figures = willis("" if fixed else put[0], put[1], numbers, alike=alike)
     result = drawing.words.significant(whole, 4)
     remark = sense(drawing.words, whole)
     unit = drawing.rate.caret_unit

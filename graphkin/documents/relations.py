@@ -33,6 +33,7 @@ from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import KA, laid_bars, of_driver, of_scales
 from graphkin.construction.higher_class.divided_point import SHARE
 from graphkin.construction.higher_class.two_trials import of_trials
+from graphkin.construction.links.plate_points import of_rolled_turns
 from graphkin.construction.rate_relations import of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.vector_equations import is_laid_off, of_equations
@@ -73,7 +74,8 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
     measured = of_lengths(first, [ends for ends in used if ends not in after])
-    return [*sections, ("lengths", list(measured)), *own]
+    turned = list(of_rolled_turns(first))
+    return [*sections, ("turned", turned), ("lengths", list(measured)), *own]
 
 
 def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> Iterator[Relation]:

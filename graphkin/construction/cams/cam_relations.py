@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
-from graphkin.construction.core.relation import Relation, as_read, figure, length_of
+from graphkin.construction.core.relation import Relation, as_read, bracketed, figure, length_of
 from graphkin.drawing.richtext import words_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.cam_motions import BORDER, turned
@@ -148,11 +148,6 @@ def of_piece(drawing: Drawing, piece: LawPiece) -> Iterator[Relation]:
         symbols = form.format(h="*H*", x="*x*", b="*β*")
         figures = form.format(h=bracketed(put(rise)), x=share, b=radians)
         yield Relation("", f"{ahead[0]}{minus}{symbols}", f"{ahead[1]}{minus}{figures}")
-
-
-def bracketed(number: str) -> str:
-    """A printed number as a factor: in brackets where it is negative."""
-    return f"({number})" if number.startswith("−") else number
 
 
 def how_found(drawing: Drawing, centre: CurvatureCentre) -> str:

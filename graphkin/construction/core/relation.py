@@ -113,23 +113,33 @@ def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
 
 
 def put_in(
-    drawing: Drawing, result: str, worth: Callable[..., float], *values: float
+    drawing: Drawing,
+    result: str,
+    worth: Callable[..., float],
+    *values: float,
+    places: int | None = None,
 ) -> tuple[str, ...]:
     """Numbers as they are put into a relation: so many digits that its result follows from them.
 
-    ``worth`` is what a pocket calculator makes of them.
+    ``worth`` is what a pocket calculator makes of them. The result is told to some ``places`` after
+    the mark, or else in four digits.
     """
     for digits in range(DIGITS, DIGITS + MORE):
-        rounded_off = (float(f"{value:.{digits - 1}e}") for value in values)
-        if answer(drawing, worth(*rounded_off)) == result:
+        found = worth(*(float(f"{value:.{digits - 1}e}") for value in values))
+        told = answer(drawing, found) if places is None else drawing.words.fixed(found, places)
+        if told == result:
             break
     return tuple(figure(drawing, value, digits) for value in values)
 
 
 def within(drawing: Drawing, value: float) -> str:
     """A number after a sign: in brackets if it is negative."""
-    text = figure(drawing, value, FINE)
-    return f"({text})" if value < 0 else text
+    return bracketed(figure(drawing, value, FINE))
+
+
+def bracketed(number: str) -> str:
+    """A printed number after a sign: in brackets where it is negative."""
+    return f"({number})" if number.startswith("−") else number
 
 
 def answer(drawing: Drawing, value: float) -> str:

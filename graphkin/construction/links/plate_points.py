@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import degrees
 from typing import Any, ClassVar
 
@@ -11,15 +11,23 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import Construction, Sentence, construction, together
+from graphkin.construction.core.kind import (
+    Construction,
+    Sentence,
+    construction,
+    constructions,
+    together,
+)
 from graphkin.construction.core.naming import nearest_side
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guide_line import point_on_link
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
 from graphkin.construction.links.link_shapes import bar_length, local_place, ratio_of, step_along
+from graphkin.construction.links.rolled_turn import rolled_turn
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, cross, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
@@ -44,13 +52,9 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     point: int
 
     def turned(self, drawing: Drawing) -> float | None:
-        """By how many degrees the link has turned since the start; None where it is not said."""
-        targets, values = drawing.trace.program.targets, drawing.trace.values
-        ends = [targets.get((what, self.link), -1) for what in ("turned", "turned from")]
-        if not all(number in values for number in ends):
-            return None
-        now, start = (float(values[number]) for number in ends)
-        return degrees(now - start)
+        """By how many degrees its wheel has turned the link; None where none turns it."""
+        kind = rolled_turn(drawing, self.link)
+        return None if kind is None else kind.since(drawing)
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """By its distance, and its direction in the plane."""
@@ -75,6 +79,23 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
         if turned is None:
             return words("step.beside-turned", **fields)
         return words("step.beside-rolled", turned=words.fixed(turned, 1), **fields)
+
+    def is_turned(self, drawing: Drawing) -> bool:
+        """Whether its sentence says by how much its wheel has turned the link."""
+        if self.point not in drawing.trace.values or self.link in drawing.scene.unseen:
+            return False
+        turned = self.turned(drawing)
+        slides = drawing.scene.links[self.link].slides
+        return turned is not None and abs(turned) >= UNTURNED and not slides
+
+
+def of_rolled_turns(drawing: Drawing) -> Iterator[Relation]:
+    """How far the wheels have turned since the start that sentences tell, and what that takes."""
+    told: dict[str, float] = {}
+    for each in constructions(drawing.trace.program, PlacedPoint):
+        kind = rolled_turn(drawing, each.link) if each.is_turned(drawing) else None
+        if kind is not None and kind.link not in told:
+            yield from kind.relations(drawing, told)
 
 
 def with_starts_together(drawing: Drawing, found: list[Sentence]) -> list[Sentence]:

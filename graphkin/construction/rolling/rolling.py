@@ -28,6 +28,7 @@ from graphkin.construction.links.counted_turn import (
 )
 from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.links.plate_points import place_point, plate_points
+from graphkin.construction.links.rolled_turn import TurnOnTrack, TurnOnWheel
 from graphkin.construction.rolling.contact_points import (
     CentreOfBelt,
     CentrePath,
@@ -247,8 +248,31 @@ def touch_and_turn(pen: Pen, contact: Contact) -> None:
     if pen.has("axis", wheel):
         return
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        settle_turn(pen, wheel, turned_along(pen, contact, way))
-    pen.want("turned from", wheel, start_turn(pen, contact, wheel))
+        turn = turned_along(pen, contact, way)
+        settle_turn(pen, wheel, turn)
+    tell_on_track(pen, contact, turn)
+
+
+def tell_on_track(pen: Pen, contact: Contact, turn: int) -> None:
+    """How a wheel came by its angle that touches its straight track so far along it."""
+    rolling, (wheel, on) = contact.rolling, contact.links
+    assert rolling.through is not None
+    lead, start, way, radius = pen.steps[turn].args
+    drivers = (d for d in pen.scene.drivers if d.kind == "roll" and d.link == wheel)
+    kind = TurnOnTrack(
+        link=wheel,
+        start=start,
+        turn=turn,
+        leads={on: lead},
+        sign=contact.sign_of(pen.scene, wheel),
+        on=on,
+        through=rolling.through,
+        touching=letter(contact_name(contact)),
+        way=way,
+        radius=radius,
+        driver=next((each for each in drivers if each.against == on), None),
+    )
+    pen.make(kind)
 
 
 @by_contact
@@ -336,8 +360,23 @@ def touch_wheels(pen: Pen, contact: Contact, link: str) -> None:
 
 def roll_round(pen: Pen, contact: Contact, link: str) -> None:
     """The axis of a wheel from its contact with another."""
-    settle_turn(pen, link, rolled_to(pen, contact, link))
-    pen.want("turned from", link, start_turn(pen, contact, link))
+    turn, arm, other = rolled_to(pen, contact, link), contact.arm, partner(contact, link)
+    assert arm is not None
+    settle_turn(pen, link, turn)
+    start, since = pen.steps[turn].args
+    carried, rolled, track, radius = pen.steps[since].args
+    kind = TurnOnWheel(
+        link=link,
+        start=start,
+        turn=turn,
+        leads={arm: carried, other: rolled},
+        arm=arm,
+        other=other,
+        wheels=(contact.wheel_of(link), contact.wheel_of(other)),
+        signs=(contact.sign_of(pen.scene, link), contact.sign_of(pen.scene, other)),
+        radii=(radius, track),
+    )
+    pen.make(kind)
 
 
 @by_contact

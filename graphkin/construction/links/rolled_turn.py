@@ -1,0 +1,186 @@
+"""How far wheels have turned since the start: by the way along a track, or by another wheel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import degrees, pi
+from typing import ClassVar
+
+from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import angle_symbol, place
+from graphkin.construction.core.relation import Relation, as_read, bracketed, figure, put_in
+from graphkin.drawing.symbol_markup import escape, of_wheel, symbol
+from graphkin.scene.model import FRAME, Driver, Wheel
+from graphkin.scene.quantity import Quantity
+
+SAME = 1e-6
+"""Angles nearer than this, in degrees, are the same."""
+
+
+class RolledTurn(Construction, frozen=True, kw_only=True):
+    """The ``turn`` in radians of a ``link``, as its wheel has turned it from that at the ``start``.
+
+    ``leads`` are, by their names, the steps of how far the links have turned that it follows from.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("turn",)
+
+    link: str
+    start: int
+    turn: int
+    leads: Mapping[str, int]
+
+    def since(self, drawing: Drawing) -> float:
+        """By how many degrees it has turned."""
+        now, start = (float(drawing.trace.values[each]) for each in (self.turn, self.start))
+        return degrees(now - start)
+
+    def lead(self, drawing: Drawing, link: str) -> float:
+        """By how many degrees a link has turned that it follows from; nought of the frame."""
+        return degrees(float(drawing.trace.values[self.leads[link]]))
+
+    def relations(self, drawing: Drawing, told: dict[str, float]) -> list[Relation]:
+        """Its relation after those that it takes, of links that are not ``told`` before.
+
+        None where one of those was told from another start.
+        """
+        found: list[Relation] = []
+        known = dict(told)
+        for link in self.leads:
+            if link == FRAME:
+                continue
+            if link not in known and (kind := rolled_turn(drawing, link)):
+                found += kind.relations(drawing, known)
+            elif link not in known:
+                known[link] = self.lead(drawing, link)
+                found.append(read_turn(drawing, link, known[link]))
+            before = known.get(link)
+            if before is None or abs(before - self.lead(drawing, link)) > SAME:
+                return []
+        told |= known | {self.link: self.since(drawing)}
+        return [*found, *self.own(drawing)]
+
+    def own(self, drawing: Drawing) -> Iterator[Relation]:
+        """How it follows from them."""
+        raise NotImplementedError
+
+
+class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
+    """A wheel called ``sign`` that came a ``way`` along a straight track on link ``on``.
+
+    The ``radius`` is negative to the right of the track. The way is counted from the point
+    ``through`` to the place ``touching``; ``driver`` is the one that gives it, if one does.
+    """
+
+    sign: str
+    on: str
+    through: str | tuple[Quantity, Quantity]
+    touching: str
+    way: int
+    radius: int
+    driver: Driver | None
+
+    def own(self, drawing: Drawing) -> Iterator[Relation]:
+        """The way, where it is measured, and what it is in degrees about the radius."""
+        words = drawing.words
+        way, radius = (float(drawing.trace.values[each]) for each in (self.way, self.radius))
+        s, r = str(of_wheel("s", self.sign)), of_wheel("r", self.sign)
+        if self.driver is not None:
+            s = angle_symbol(drawing.scene, self.driver)
+        else:
+            radius, way = (radius, way) if way >= 0 else (-radius, -way)
+            ends = {"start": place(drawing, self.on, self.through), "end": symbol(self.touching)}
+            read = as_read(drawing, drawing.on_paper(way), drawing.scales.kL / 1000)
+            yield Relation(s, "", *read, "m", words("calculation.measured_way", **ends))
+        sign, sense = ("−", -1) if radius > 0 else ("+", 1)
+        turned = words.fixed(self.since(drawing), 1)
+
+        def worth(lead: float, along: float, across: float) -> float:
+            return lead + sense * along / across * 180 / pi
+
+        values = self.lead(drawing, self.on), way, abs(radius)
+        lead, along, across = put_in(drawing, turned, worth, *values, places=1)
+        symbols, figures = f"{s}/{r}·180/π", f"{bracketed(along)}/{across}·180/π"
+        if self.on == FRAME:
+            before = sign.strip("+")
+            symbols, figures = before + symbols, before + figures
+        else:
+            symbols = f"{turn_symbol(self.on)} {sign} {symbols}"
+            figures = f"{lead} {sign} {figures}"
+        yield Relation(turn_symbol(self.link), symbols, figures, turned, "°")
+
+
+class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
+    """A wheel that turns with another, both about points of an ``arm`` (Willis).
+
+    ``wheels`` are it and that of the ``other`` link, ``signs`` what they are called, ``radii`` the
+    steps of theirs: of unlike signs where both turn alike against the arm.
+    """
+
+    arm: str
+    other: str
+    wheels: tuple[Wheel, Wheel]
+    signs: tuple[str, str]
+    radii: tuple[int, int]
+
+    def own(self, drawing: Drawing) -> Iterator[Relation]:
+        """Against the arm by the radii, or by the numbers of teeth."""
+        own, other = (float(drawing.trace.values[each]) for each in self.radii)
+        alike, letter, sizes = own * other < 0, "r", (abs(other), abs(own))
+        teeth = [float(each.teeth.si(drawing.scene.values)) for each in self.wheels if each.teeth]
+        if len(teeth) == 2:
+            letter, sizes = "z", (teeth[1], teeth[0])
+        carried, rolled = (self.lead(drawing, link) for link in (self.arm, self.other))
+        sense = 1 if alike else -1
+        turned = drawing.words.fixed(self.since(drawing), 1)
+
+        def worth(arm: float, track: float, large: float, small: float) -> float:
+            return arm + sense * (track - arm) * large / small
+
+        put = put_in(drawing, turned, worth, carried, rolled, *sizes, places=1)
+        names = [of_wheel(letter, sign) for sign in self.signs]
+        fixed = self.arm == FRAME
+        symbols = willis(
+            "" if fixed else turn_symbol(self.arm),
+            "0" if self.other == FRAME else turn_symbol(self.other),
+            f"{names[1]}/{names[0]}",
+            alike=alike,
+        )
+        figures = willis("" if fixed else put[0], put[1], f"{put[2]}/{put[3]}", alike=alike)
+        yield Relation(turn_symbol(self.link), symbols, figures, turned, "°")
+
+
+def read_turn(drawing: Drawing, link: str, angle: float) -> Relation:
+    """By how many degrees a link has turned that a driver turns, or as is measured."""
+    driven = any(
+        driver.kind == "turn" and (driver.link, driver.against) == (link, FRAME)
+        for driver in drawing.scene.drivers
+    )
+    remark = drawing.words(f"calculation.turned_{'driven' if driven else 'measured'}")
+    return Relation(turn_symbol(link), result=figure(drawing, angle), unit="°", remark=remark)
+
+
+def turn_symbol(link: str) -> str:
+    """Symbol of the angle by which a link has turned since the start."""
+    return f"Δ*φ*_{{{escape(link)}}}"
+
+
+def rolled_turn(drawing: Drawing, link: str) -> RolledTurn | None:
+    """How its wheel has turned a link; None for others, and where that is not known."""
+    program = drawing.trace.program
+    number = program.targets.get(("turned", link), -1)
+    if number not in drawing.trace.values:
+        return None
+    kind = program.steps[number].of
+    return kind if isinstance(kind, RolledTurn) else None
+
+
+def willis(arm: str, track: str, ratio: str, *, alike: bool) -> str:
+    """By how much, or how fast, a wheel turns with another, in symbols or in figures.
+
+    Without an ``arm`` about fixed pivots. Both may turn ``alike`` against it.
+    """
+    if not arm:
+        return f"{'' if alike else '−'}{bracketed(track)}·{ratio}"
+    return f"{arm} {'+' if alike else '−'} ({bracketed(track)} − {bracketed(arm)})·{ratio}"
