@@ -6,6 +6,7 @@ What was laid off, what was crossed, and what follows by length.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from operator import truediv
 
 from msgspec.structs import replace
 
@@ -18,15 +19,13 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
-from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import (
     Relation,
     answer,
     as_read,
-    figure,
+    laid_off,
     length_of,
-    rounded_figure,
-    ruler,
+    put_in,
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
@@ -209,11 +208,12 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     vector, scale = plan_vector(step), scale_of(drawing, drawing.plane) / 1000
     assert vector is not None
     size = drawing.settled(abs(value.tip - value.tail))
+    drawn = laid_off(drawing, drawn_in(drawing, drawing.plane, size))
     return Relation(
         segment_of(drawing, step),
         f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
-        f"{figure(drawing, size)}/{figure(drawing, scale)}",
-        ruler(drawing, OnPaper(rounded_figure(size) / rounded_figure(scale))),
+        "/".join(put_in(drawing, drawn, truediv, size, scale, told=laid_off)),
+        drawn,
         "mm",
         drawing.words("calculation.drawn"),
     )

@@ -160,7 +160,9 @@ def test_a_vector_has_one_value_on_the_sheet_and_in_the_calculation(which):
     compared = 0
     for drawing in both:
         for row in vector_rows(drawing, empty=False):
-            vector, *_, value = row.cells
+            vector, segment, drawn, value = row.cells
+            laid, length = told.get(segment, ("", drawn))
+            assert length == drawn, (segment, laid)
             symbols, result = told.get(vector, ("", ""))
             if symbols.startswith("*k*_"):
                 assert result == value, (vector, symbols)
