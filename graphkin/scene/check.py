@@ -280,7 +280,7 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
 
 
 def other_ends(scene: Scene, link: Link) -> list[Written]:
-    """Of a driver along a guide of a link: the blocks on that, or what the link itself slides on."""
+    """Of a driver along a link's guide: the blocks on that, or what the link itself slides on."""
     pairs = [(each.name, slide.on) for each in scene.links.values() for slide in each.slides]
     blocks = [("slide", block) for block, on in pairs if on == link.name]
     guides = [("against", on) for block, on in pairs if block == link.name]
