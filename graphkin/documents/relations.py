@@ -6,6 +6,7 @@ What was laid off, what was crossed, and what follows by length.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from operator import truediv
 
 from msgspec.structs import replace
@@ -16,6 +17,7 @@ from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
@@ -32,7 +34,7 @@ from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import KA, laid_bars, of_driver, of_scales
 from graphkin.construction.higher_class.divided_point import SHARE
 from graphkin.construction.higher_class.two_trials import of_trials
-from graphkin.construction.rate_relations import of_slides, of_sum, of_turning
+from graphkin.construction.rate_relations import by_radius, of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
@@ -71,15 +73,16 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
         ("cams", cams + driven),
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
-    measured = of_lengths(first, [ends for ends in used if ends not in after])
-    return [*sections, ("lengths", list(measured)), *own]
+    return [*sections, *of_lengths(first, [ends for ends in used if ends not in after]), *own]
 
 
-def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> Iterator[Relation]:
-    """The lengths that are measured on the mechanism, bars that lie on one another together.
+def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]:
+    """The lengths that follow from radii of wheels, then those that are measured on the mechanism,
+    bars that lie on one another together.
 
     What the data tell, or is laid off when the mechanism is drawn, is known.
     """
+    radii, measured = [], []
     told = (*told_bars(drawing.scene.bare), *laid_bars(drawing))
     known = {ends_on(drawing, *ends) for ends in told}
     alike: dict[frozenset[complex], list[Bar]] = {}
@@ -88,15 +91,29 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> Iterator[Relation]:
     for places, some in alike.items():
         if places in known:
             continue
-        mm = drawing.on_paper(length_of(drawing, *some[0]))
-        yield Relation(
-            " = ".join(bar(*ends) for ends in some),
-            "",
-            *as_read(drawing, mm, drawing.scales.kL / 1000),
-            "m",
-            drawing.words("calculation.measured"),
-            over=tuple(some),
-        )
+        name, length = " = ".join(bar(*ends) for ends in some), length_of(drawing, *some[0])
+        if found := wheel_about(drawing, places):
+            radii.append(replace(by_radius(drawing, *found), left=name, over=tuple(some)))
+            continue
+        told = as_read(drawing, drawing.on_paper(length), drawing.scales.kL / 1000)
+        remark = drawing.words("calculation.measured")
+        measured.append(Relation(name, "", *told, "m", remark, over=tuple(some)))
+    return ("radii", radii), ("lengths", measured)
+
+
+def wheel_about(drawing: Drawing, places: frozenset[complex]) -> tuple[Disc, int] | None:
+    """The wheel of which a bar with its ends at two places is a radius, from the centre to where it
+    touches, or a diameter, from one such place to that across; with the number of radii.
+    """
+    near, touches = NOISE * drawing.reach, drawing.standing.touches
+    for disc in (each for touch in touches for each in (touch.disc, touch.other) if each):
+        rim = [t.at for t in touches if t.belt is None and disc in (t.disc, t.other)]
+        spans = [(1, disc.centre, at) for at in rim]
+        spans += [(2, a, b) for a, b in combinations(rim, 2) if abs(a + b - 2 * disc.centre) < near]
+        for radii, *ends in spans:
+            if all(min(abs(z - end) for z in places) < near for end in ends):
+                return disc, radii
+    return None
 
 
 def told_bars(scene: Scene) -> Iterator[Bar]:
