@@ -389,12 +389,21 @@ def notes(opened: Edition, given: Answers, words: Words) -> None:
     from graphkin.classroom.grading.class_report import language_lines, stranger_lines, unread_lines
 
     names = [taker.student for taker in opened.takers]
-    tell_some(list(stranger_lines(given, words)), words)
+    tell_some(list(stranger_lines(given, earning(opened), words)), words)
     tell_some([words("class.no_table", who=each.name) for each in given.empty], words)
     tell_some(list(language_lines(opened.takers, words)), words)
     tell_some(list(unread_lines(names, given.unread, words)), words)
     if given.unread:
         complain(words("class.mend"))
+
+
+def earning(opened: Edition) -> set[str]:
+    """The fields that earn points on somebody's form."""
+    from graphkin.classroom.lab.asking import asked_of
+
+    form, points = opened.book.form, opened.book.lab.rubric.points
+    every = (asked_of(form, points, taker.compute)[1] for taker in opened.takers)
+    return {field for worths in every for field, worth in worths.items() if worth}
 
 
 def tell_some(lines: list[str], words: Words) -> None:

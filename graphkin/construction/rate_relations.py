@@ -114,6 +114,18 @@ def by_teeth(drawing: Drawing, disc: Disc) -> Relation:
     return Relation(radius_of(disc), count, figures, radius, drawing.scene.units["length"])
 
 
+def by_radius(drawing: Drawing, disc: Disc, radii: int) -> Relation:
+    """A length of so many radii of a wheel: as that is given, or from module and teeth."""
+    symbols, figures = f"{radii}·{radius_of(disc)}", f"{radii}·{figure(drawing, disc.radius)}"
+    if radii == 1:
+        symbols, figures = radius_of(disc), ""
+    if disc.wheel.teeth is not None:
+        half, teeth = "/2" if radii == 1 else "", float(disc.wheel.teeth.si(drawing.scene.values))
+        symbols += f" = *m*·{of_wheel('z', disc.sign)}{half}"
+        figures = f"{figure(drawing, disc.module)}·{figure(drawing, teeth)}{half}"
+    return Relation("", symbols, figures, answer(drawing, radii * disc.radius), "m")
+
+
 def rate_at(drawing: Drawing, link: str) -> float | None:
     """The rate of a link on this sheet; nought for the frame."""
     return 0.0 if link == FRAME else drawing.turning(link)

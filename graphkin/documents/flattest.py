@@ -13,6 +13,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Part
 from graphkin.construction.higher_class.closed_group import ClosedGroup
+from graphkin.documents.sentences import sentences
 from graphkin.drawing.areas import BELOW, TABLES
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
@@ -34,19 +35,18 @@ OWN = {
 def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
     """The flattest crossing of a sheet, its angle, and what a millimetre of pencil becomes there.
 
-    ``start`` is where there is room, in mm; a name that has none there goes without its index,
-    then without what a millimetre becomes.
+    ``start`` is where there is room, in mm; a name that has none there is written shorter, then
+    it goes without what a millimetre becomes.
     Nothing where no lines cross. What stands on a sheet before this one is not drawn again.
     """
     worst = flattest(crossings_on(drawing))
     if worst is None:
         return
-    letter = letter_of_crossing(drawing, worst)
     forms = "page.flattest", "page.flattest_angle"
-    for form, name in product(forms, (letter, without_index(letter))):
+    for form, name in product(forms, names_of_crossing(drawing, worst)):
         text = drawing.words(
             form,
-            name=symbol(name),
+            name=name,
             angle=drawing.words.fixed(degrees(worst.angle), 0),
             factor=drawing.words.significant(worst.factor, 2),
         )
@@ -79,12 +79,18 @@ def is_gap(drawing: Drawing, crossing: Crossing) -> bool:
     return group is not None and len(group.traced) > 1
 
 
-def letter_of_crossing(drawing: Drawing, crossing: Crossing) -> str:
-    """The letter of a crossing as it is drawn; of one that closes a group that of the locus."""
+def names_of_crossing(drawing: Drawing, crossing: Crossing) -> tuple[str, str]:
+    """Markup of what a crossing is called, and the same shorter.
+
+    Its letter as it is drawn; of one that closes a group that of the locus; of a triangle whose
+    corners no sentence names, and perhaps no letter, the component that it is for.
+    """
     group, step = group_closed(drawing, crossing), drawing.trace.program.steps[crossing.number]
+    kind, letter = construction(step), step.name or crossing.name
     if group is not None and group.locus:
-        return group.locus
-    kind = construction(step)
-    if isinstance(kind, TriangleComponent):
-        return kind.letter(drawing, step.role)
-    return step.name or crossing.name
+        letter = group.locus
+    elif isinstance(kind, TriangleComponent):
+        letter = kind.letter(drawing, step.role)
+        if not any(symbol(letter) in said.markup for said in sentences(drawing)):
+            return (drawing.words("page.crossing_for", a=kind.symbol),) * 2
+    return symbol(letter), symbol(without_index(letter))

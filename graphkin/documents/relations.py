@@ -6,6 +6,8 @@ What was laid off, what was crossed, and what follows by length.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
+from operator import truediv
 
 from msgspec.structs import replace
 
@@ -15,18 +17,17 @@ from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
 from graphkin.construction.core.program import Part, Step
-from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import (
     Relation,
     answer,
     as_read,
-    figure,
+    laid_off,
     length_of,
-    rounded_figure,
-    ruler,
+    put_in,
 )
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
@@ -34,7 +35,7 @@ from graphkin.construction.drivers.driver_relations import KA, laid_bars, of_dri
 from graphkin.construction.higher_class.divided_point import SHARE
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.links.plate_points import of_rolled_turns
-from graphkin.construction.rate_relations import of_slides, of_sum, of_turning
+from graphkin.construction.rate_relations import by_radius, of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.vector_equations import is_laid_off, of_equations
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
@@ -73,16 +74,17 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
         ("cams", cams + driven),
     ]
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
-    measured = of_lengths(first, [ends for ends in used if ends not in after])
-    turned = list(of_rolled_turns(first))
-    return [*sections, ("turned", turned), ("lengths", list(measured)), *own]
+    lengths = of_lengths(first, [ends for ends in used if ends not in after])
+    return [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
 
 
-def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> Iterator[Relation]:
-    """The lengths that are measured on the mechanism, bars that lie on one another together.
+def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]:
+    """The lengths that follow from radii of wheels, then those that are measured on the mechanism,
+    bars that lie on one another together.
 
     What the data tell, or is laid off when the mechanism is drawn, is known.
     """
+    radii, measured = [], []
     told = (*told_bars(drawing.scene.bare), *laid_bars(drawing))
     known = {ends_on(drawing, *ends) for ends in told}
     alike: dict[frozenset[complex], list[Bar]] = {}
@@ -91,15 +93,29 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> Iterator[Relation]:
     for places, some in alike.items():
         if places in known:
             continue
-        mm = drawing.on_paper(length_of(drawing, *some[0]))
-        yield Relation(
-            " = ".join(bar(*ends) for ends in some),
-            "",
-            *as_read(drawing, mm, drawing.scales.kL / 1000),
-            "m",
-            drawing.words("calculation.measured"),
-            over=tuple(some),
-        )
+        name, length = " = ".join(bar(*ends) for ends in some), length_of(drawing, *some[0])
+        if found := wheel_about(drawing, places):
+            radii.append(replace(by_radius(drawing, *found), left=name, over=tuple(some)))
+            continue
+        read = as_read(drawing, drawing.on_paper(length), drawing.scales.kL / 1000)
+        remark = drawing.words("calculation.measured")
+        measured.append(Relation(name, "", *read, "m", remark, over=tuple(some)))
+    return ("radii", radii), ("lengths", measured)
+
+
+def wheel_about(drawing: Drawing, places: frozenset[complex]) -> tuple[Disc, int] | None:
+    """The wheel of which a bar with its ends at two places is a radius, from the centre to where it
+    touches, or a diameter, from one such place to that across; with the number of radii.
+    """
+    near, touches = NOISE * drawing.reach, drawing.standing.touches
+    for disc in (each for touch in touches for each in (touch.disc, touch.other) if each):
+        rim = [t.at for t in touches if t.belt is None and disc in (t.disc, t.other)]
+        spans = [(1, disc.centre, at) for at in rim]
+        spans += [(2, a, b) for a, b in combinations(rim, 2) if abs(a + b - 2 * disc.centre) < near]
+        for radii, *ends in spans:
+            if all(min(abs(z - end) for z in places) < near for end in ends):
+                return disc, radii
+    return None
 
 
 def told_bars(scene: Scene) -> Iterator[Bar]:
@@ -211,11 +227,12 @@ def laid_off_length(drawing: Drawing, step: Step, value: Vector) -> Relation:
     vector, scale = plan_vector(step), scale_of(drawing, drawing.plane) / 1000
     assert vector is not None
     size = drawing.settled(abs(value.tip - value.tail))
+    drawn = laid_off(drawing, drawn_in(drawing, drawing.plane, size))
     return Relation(
         segment_of(drawing, step),
         f"{symbol(vector.symbol)}/*k*_{drawing.vector.letter}",
-        f"{figure(drawing, size)}/{figure(drawing, scale)}",
-        ruler(drawing, OnPaper(rounded_figure(size) / rounded_figure(scale))),
+        "/".join(put_in(drawing, drawn, truediv, size, scale, told=laid_off)),
+        drawn,
         "mm",
         drawing.words("calculation.drawn"),
     )

@@ -12,7 +12,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence
 from graphkin.construction.core.layout import lay_out, lowered
 from graphkin.documents.detail import parted
-from graphkin.documents.flattest import crossings_on, group_closed, is_gap, letter_of_crossing
+from graphkin.documents.flattest import crossings_on, group_closed, is_gap, names_of_crossing
 from graphkin.documents.inset import insets
 from graphkin.documents.listing import written
 from graphkin.documents.sentences import sentences
@@ -31,7 +31,6 @@ from graphkin.drawing.frame import sheet_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import flowed, words_of
 from graphkin.drawing.style import NOW
-from graphkin.drawing.symbol_markup import symbol
 
 LEADING, SMALL_LEADING = 6.2, 4.6
 """Distance of lines of the sentence to do, and of those that are done, in mm."""
@@ -120,7 +119,7 @@ def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
     words = drawing.words
     text = words(
         "page.crossing",
-        name=symbol(letter_of_crossing(drawing, worst)),
+        name=names_of_crossing(drawing, worst)[0],
         angle=words.fixed(degrees(worst.angle), 0),
         factor=words.significant(worst.factor, 2),
     )

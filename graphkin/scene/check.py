@@ -265,7 +265,9 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
         return
     if driver.link == driver.against:
         what = "the frame, which is at rest" if driver.link == FRAME else "itself"
-        findings.add(f"{place}.{driver.kind}", f"against {what}", "a link that moves")
+        ends = other_ends(scene, link) if driver.kind == "slide" else []
+        expected = " or ".join(f"{end.key} = {end.value}" for end in ends) or "a link that moves"
+        findings.add(f"{place}.{driver.kind}", f"against {what}", expected, changes=tuple(ends))
         return
     for point in driver.of or ():
         known_point(point, link.points, f"link {link.name}", f"{place}.of", findings)
@@ -275,6 +277,14 @@ def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -
         check_slid(scene, driver, link, place, findings)
     else:
         check_driven(driver, link, place, findings)
+
+
+def other_ends(scene: Scene, link: Link) -> list[Written]:
+    """Of a driver along a link's guide: the blocks on that, or what the link itself slides on."""
+    pairs = [(each.name, slide.on) for each in scene.links.values() for slide in each.slides]
+    blocks = [("slide", block) for block, on in pairs if on == link.name]
+    guides = [("against", on) for block, on in pairs if block == link.name]
+    return [Written(quoted(name), key) for key, name in (blocks + guides)[:3]]
 
 
 def check_slid(scene: Scene, driver: Driver, link: Link, place: str, findings: Findings) -> None:

@@ -76,7 +76,7 @@ def lab_report(outcome: LabTrial, words: Words) -> LabReport:
     names = [each.student.id for each in outcome.compared]
     closest = ""
     if near is not None:
-        own, other = near.closest()
+        own, other = near.closest()[0]
         gaps = {"own": names[own], "other": names[other], "share": str(shares[own][other])}
         closest = words("studio.closest", **gaps)
     rows = [student_row(i, each, shares, names, words) for i, each in enumerate(outcome.compared)]

@@ -160,12 +160,38 @@ def test_a_vector_has_one_value_on_the_sheet_and_in_the_calculation(which):
     compared = 0
     for drawing in both:
         for row in vector_rows(drawing, empty=False):
-            vector, *_, value = row.cells
+            vector, segment, drawn, value = row.cells
+            laid, length = told.get(segment, ("", drawn))
+            assert length == drawn, (segment, laid)
             symbols, result = told.get(vector, ("", ""))
             if symbols.startswith("*k*_"):
                 assert result == value, (vector, symbols)
                 compared += 1
     assert compared or not any(vector_rows(each, empty=False) for each in both)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("gears-planet", {"PT": "*r*_{3} = *m*·*z*_{3}/2 = 0.004·20/2 = 0.04000 m"}),
+        ("gears-lever", {"QT": "*r*_{4} = 0.05000 m"}),
+        (
+            "hoist-differential",
+            {
+                "T_{3}T_{4}": "2·*r*_{4} = 2·0.085 = 0.1700 m",
+                "T_{3}P": "*r*_{4} = 0.08500 m",
+                "T_{4}P": "*r*_{4} = 0.08500 m",
+            },
+        ),
+        ("belts-arm", {}),
+    ],
+)
+def test_a_bar_that_is_a_radius_or_a_diameter_of_a_wheel_follows_from_the_data(name, told):
+    sections = dict(relations(drawings(name)))
+    found = {r.left.replace("*", ""): r.parts(solved=True)[1:] for r in sections["radii"]}
+    assert {bar: " ".join(parts)[2:] for bar, parts in found.items()} == told
+    measured = {ends for relation in sections["lengths"] for ends in relation.over}
+    assert not measured.intersection(e for r in sections["radii"] for e in r.over)
 
 
 def test_what_two_trial_plans_miss_of_a_driver_between_moving_links_is_reckoned_in_figures():

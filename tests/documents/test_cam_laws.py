@@ -160,3 +160,13 @@ def test_a_form_asks_for_the_law_and_the_distance_before_the_velocity_that_follo
     centre, *_ = constructions(found[0].trace.program, CurvatureCentre)
     swing = next(r.result for r in of_cams(found[0], []) if r.unit == "°")
     assert float(swing) == pytest.approx(degrees(values[centre.lift]), abs=5e-4)
+
+
+@pytest.mark.parametrize(("name", "language"), [("cam-flat", "ro"), ("cam-carried", "it")])
+def test_how_far_a_flat_face_is_laid_off_follows_from_base_circle_and_law(name, language):
+    drawing = drawings(name, None, language)[0]
+    (high,) = (r for r in of_cams(drawing) if r.symbols.startswith("*r*_b"))
+    printed, unit = last_digit(high.result)
+    assert value_of(high.figures) == pytest.approx(printed, abs=1.000001 * unit)
+    drawn = re.search(r"\d+[.,]\d\d mm", high.remark)[0]
+    assert any(drawn in said.markup for said in sentences(drawing))

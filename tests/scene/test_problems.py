@@ -14,6 +14,7 @@ from tests.scene_files import scene_text
 
 Finder = Callable[..., Problem]
 Finders = Callable[..., list[Problem]]
+TURNED = "turn = 1\nangle"
 SLIDES = 'slides = { on = 0, through = "O1", angle = 0 }'
 
 CASES = [
@@ -134,6 +135,8 @@ CASES = [
     ("turn = 1", "turn = 8", "drivers[0].turn", "link 8 is not in [links]", "one of 0, 1"),
     ("turn = 1", "turn = 0", "drivers[0].turn", "against the frame, which is at rest", ""),
     ("turn = 1", "turn = 2\nagainst = 2", "drivers[0].turn", "against itself", ""),
+    (TURNED, "slide = 5\nagainst = 5\nposition", "drivers[0].slide", "itself", "against = 0"),
+    (TURNED, "slide = 0\nposition", "drivers[0].slide", "against the frame", "slide = 5"),
     ("turn = 1", "turn = 1\nagainst = 9", "drivers[0].against", "link 9 is not in", ""),
     ("turn = 1", "trun = 1", "drivers[0]", "nothing driven", "did you mean turn?"),
     ("turn = 1", "turn = 1\nslide = 5", "drivers[0]", "turn and slide", "one of turn"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from fractions import Fraction
 from statistics import mean, median
 
@@ -189,13 +189,14 @@ def open_cells(result: Result, unread: Iterable[Unread]) -> list[Unread]:
     return [cell for cell in unread if (cell.who, cell.field) in waiting]
 
 
-def stranger_lines(given: Answers, words: Words) -> Iterator[str]:
-    """Columns that are no fields, and fields that have no column."""
+def stranger_lines(given: Answers, earning: Container[str], words: Words) -> Iterator[str]:
+    """Columns that are no fields, and fields ``earning`` points that have no column."""
     for each in given.strangers:
         near = f"; {words('class.meant', field=each.near)}" if each.near else ""
         yield words("class.stranger", file=each.file, name=each.name) + near
-    if given.missing:
-        yield words("class.unanswered", fields=", ".join(given.missing))
+    missing = [name for name in given.missing if name in earning]
+    if missing:
+        yield words("class.unanswered", fields=", ".join(missing))
 
 
 def language_lines(takers: Iterable[Taker], words: Words) -> Iterator[str]:

@@ -41,11 +41,13 @@ class Neighbours(Struct, frozen=True):
     drawn: Array
     pencil: Array
 
-    def closest(self) -> tuple[int, int]:
-        """The sheet on which a neighbour's key earns most, the first of several; that neighbour."""
+    def closest(self) -> list[tuple[int, int]]:
+        """The sheets on which a neighbour's key earns most, each with that neighbour; of two sheets
+        on which the key of either earns so, the first."""
         rounded = np.round(self.exact, 9)
-        own, other = np.unravel_index(np.nanargmax(rounded), rounded.shape)
-        return int(own), int(other)
+        most = np.argwhere(rounded == np.nanmax(rounded)).tolist()
+        both = {(own, other) for own, other in most}
+        return [(i, j) for i, j in most if i < j or (j, i) not in both]
 
 
 def standards_of(lab: Lab, many: Sequence[Asked]) -> list[Standard]:

@@ -137,7 +137,7 @@ def scale_words(scales: tuple[float, float, float]) -> tuple[str, str, str]:
 
 
 def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -> list[str]:
-    """What right values of one student would earn on another's sheet: spread, and who is closest.
+    """What right values of one student would earn on another's sheet: spread, who are closest.
 
     ``names`` are numbers or ids, ``who`` says which.
     """
@@ -150,10 +150,14 @@ def apart_lines(neighbours: Neighbours | None, names: Sequence[str], who: str) -
             ("another's careful drawing, %", neighbours.drawn),
         )
     ]
-    own, other = neighbours.closest()
+    (own, other), *more = neighbours.closest()
     share = f"{100 * neighbours.exact[own, other]:.0f} %"
     closest = f"closest: {who} {names[other]}'s right values earn {share} on the sheet of"
-    return [*table(SPREAD, rows), f"{closest} {names[own]}"]
+    alike = [f"{names[j]}'s on that of {names[i]}" for i, j in more[:SHOWN]]
+    if len(more) > SHOWN:
+        alike.append(f"and of {len(more) - SHOWN} more pairs")
+    likewise = f"; likewise {', '.join(alike)}" if alike else ""
+    return [*table(SPREAD, rows), f"{closest} {names[own]}{likewise}"]
 
 
 def broken_lines(named: Iterable[tuple[str, Sequence[Fault]]], who: str = "") -> Iterator[str]:

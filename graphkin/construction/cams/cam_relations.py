@@ -12,6 +12,8 @@ from msgspec.structs import replace
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, as_read, bracketed, figure, length_of
 from graphkin.drawing.richtext import words_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
@@ -54,6 +56,7 @@ def of_cams(drawing: Drawing, used: Container[tuple[str, str]] = ()) -> Iterator
     for centre in constructions(drawing.trace.program, CurvatureCentre):
         if centre.point in drawing.trace.values:
             yield from of_law(drawing, centre)
+            yield from of_height(drawing, centre)
             how = how_found(drawing, centre)
             if how:
                 first, *more = words_of(how)
@@ -73,6 +76,24 @@ def of_law(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
     for (name, number, unit), formula in zip(centre.law_values(drawing), formulas, strict=True):
         said = "" if formula.symbols else remark
         yield replace(formula, left=name, result=number, unit=unit, remark=said)
+
+
+def of_height(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
+    """How far a flat face that a guide leads stands from the pivot of its cam along that guide."""
+    cam, words, k = drawing.scene.cams[centre.follower], drawing.words, escape(centre.follower)
+    if not cam.is_flat or cam.lever or cam.slides:
+        return
+    base = float(cam.base.si(drawing.scene.values))
+    high = base + float(drawing.trace.values[centre.lift])
+    lift, lifted, unit = next(centre.law_values(drawing))
+    yield Relation(
+        words("calculation.face_height", b=symbol(cam.point), o=symbol(centre.start), k=k)
+    )
+    drawn = in_mm(words, drawing.on_paper(high))
+    remark = words("calculation.guide_drawn", guide=way_of(drawing, centre.follower), drawn=drawn)
+    figures = f"{words.fixed(drawing.length(base), 3)} + {bracketed(lifted)}"
+    result = words.fixed(drawing.length(high), 3)
+    yield Relation(f"*h*_{{{k}}}", f"*r*_b + {lift}", figures, result, unit, remark)
 
 
 class LawPiece(Struct, frozen=True):

@@ -112,22 +112,25 @@ def figure(drawing: Drawing, value: float, digits: int = DIGITS) -> str:
     return text.rstrip("0").rstrip(mark) if mark in text and "·" not in text else text
 
 
+def answer(drawing: Drawing, value: float) -> str:
+    """A number as it comes out of a relation."""
+    return drawing.words.significant(value, 4)
+
+
 def put_in(
     drawing: Drawing,
     result: str,
     worth: Callable[..., float],
     *values: float,
-    places: int | None = None,
+    told: Callable[[Drawing, float], str] = answer,
 ) -> tuple[str, ...]:
     """Numbers as they are put into a relation: so many digits that its result follows from them.
 
-    ``worth`` is what a pocket calculator makes of them. The result is told to some ``places`` after
-    the mark, or else in four digits.
+    ``worth`` is what a pocket calculator makes of them, ``told`` how that is written.
     """
     for digits in range(DIGITS, DIGITS + MORE):
-        found = worth(*(float(f"{value:.{digits - 1}e}") for value in values))
-        told = answer(drawing, found) if places is None else drawing.words.fixed(found, places)
-        if told == result:
+        rounded_off = (float(f"{value:.{digits - 1}e}") for value in values)
+        if told(drawing, worth(*rounded_off)) == result:
             break
     return tuple(figure(drawing, value, digits) for value in values)
 
@@ -140,11 +143,6 @@ def within(drawing: Drawing, value: float) -> str:
 def bracketed(number: str) -> str:
     """A printed number after a sign: in brackets where it is negative."""
     return f"({number})" if number.startswith("−") else number
-
-
-def answer(drawing: Drawing, value: float) -> str:
-    """A number as it comes out of a relation."""
-    return drawing.words.significant(value, 4)
 
 
 UNSEEN = 0.1
@@ -161,9 +159,9 @@ def ruler_places(millimetres: OnPaper) -> int:
     return max(1 - floor(log10(millimetres)), 1) if millimetres else 1
 
 
-def ruler(drawing: Drawing, millimetres: OnPaper) -> str:
-    """A drawn length as it is set with a ruler."""
-    return drawing.words.fixed(millimetres, ruler_places(millimetres))
+def laid_off(drawing: Drawing, millimetres: float) -> str:
+    """A length to be laid off, as the sheet's sentence has it: to 0.01 mm, or finer if tiny."""
+    return drawing.words.fixed(millimetres, max(ruler_places(OnPaper(millimetres)), 2))
 
 
 def as_read(drawing: Drawing, millimetres: OnPaper, scale: float) -> tuple[str, str]:

@@ -94,13 +94,13 @@ class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
             read = as_read(drawing, drawing.on_paper(way), drawing.scales.kL / 1000)
             yield Relation(s, "", *read, "m", words("calculation.measured_way", **ends))
         sign, sense = ("−", -1) if radius > 0 else ("+", 1)
-        turned = words.fixed(self.since(drawing), 1)
+        turned = in_tenths(drawing, self.since(drawing))
 
         def worth(lead: float, along: float, across: float) -> float:
             return lead + sense * along / across * 180 / pi
 
         values = self.lead(drawing, self.on), way, abs(radius)
-        lead, along, across = put_in(drawing, turned, worth, *values, places=1)
+        lead, along, across = put_in(drawing, turned, worth, *values, told=in_tenths)
         symbols, figures = f"{s}/{r}·180/π", f"{bracketed(along)}/{across}·180/π"
         if self.on == FRAME:
             before = sign.strip("+")
@@ -133,12 +133,12 @@ class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
             letter, sizes = "z", (teeth[1], teeth[0])
         carried, rolled = (self.lead(drawing, link) for link in (self.arm, self.other))
         sense = 1 if alike else -1
-        turned = drawing.words.fixed(self.since(drawing), 1)
+        turned = in_tenths(drawing, self.since(drawing))
 
         def worth(arm: float, track: float, large: float, small: float) -> float:
             return arm + sense * (track - arm) * large / small
 
-        put = put_in(drawing, turned, worth, carried, rolled, *sizes, places=1)
+        put = put_in(drawing, turned, worth, carried, rolled, *sizes, told=in_tenths)
         names = [of_wheel(letter, sign) for sign in self.signs]
         fixed = self.arm == FRAME
         symbols = willis(
@@ -149,6 +149,11 @@ class TurnOnWheel(RolledTurn, frozen=True, kw_only=True):
         )
         figures = willis("" if fixed else put[0], put[1], f"{put[2]}/{put[3]}", alike=alike)
         yield Relation(turn_symbol(self.link), symbols, figures, turned, "°")
+
+
+def in_tenths(drawing: Drawing, degrees: float) -> str:
+    """An angle as sentences tell it, in tenths of a degree."""
+    return drawing.words.fixed(degrees, 1)
 
 
 def read_turn(drawing: Drawing, link: str, angle: float) -> Relation:

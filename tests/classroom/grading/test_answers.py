@@ -9,6 +9,7 @@ import pytest
 
 from graphkin.classroom.grading.answer_numbers import read_answer, rounding
 from graphkin.classroom.grading.answers import Unread, read_answers
+from graphkin.classroom.grading.class_report import stranger_lines
 from graphkin.classroom.grading.feedback_rows import unread
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.lab.lab_model import Item
@@ -120,6 +121,8 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(read):
     assert found.of["ĂÎ-3"]["v_D_mm"].is_blank
     assert found.unread == [Unread("a.csv", 3, "ĂÎ-3", "v_D", "abc", "number", "m/s")]
     assert found.missing == ["omega_3"]
+    told = [" ".join(stranger_lines(found, earn, words("en"))) for earn in ({"omega_3"}, {"v_D"})]
+    assert ["no column for omega_3" in line for line in told] == [True, False]
     assert [(each.file, each.name) for each in found.strangers] == [("a.csv", "comment")]
 
 

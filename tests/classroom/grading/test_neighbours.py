@@ -18,6 +18,7 @@ from graphkin.classroom.grading.neighbours import (
     standards_of,
     worst_drawn,
 )
+from graphkin.classroom.lab.fairness_words import apart_lines
 from graphkin.classroom.lab.lab_model import LabRule, Range
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
@@ -38,7 +39,13 @@ def test_a_key_earns_on_another_sheet_what_its_marking_says(found):
     """Each field's answer is written down, and marked by itself."""
     told = neighbours([*found, found[0]])
     assert told.exact[0, len(found)] == pytest.approx(1)  # the same data earn everything
-    assert told.closest() in {(0, len(found)), (len(found), 0)}
+    assert told.closest() == [(0, len(found))]
+    names = "abcdefg"
+    twice = neighbours([*found, found[0], found[1]])
+    assert twice.closest() == [(0, len(found)), (1, len(found) + 1)]
+    assert apart_lines(twice, names, "id")[-1].endswith(
+        "on the sheet of a; likewise g's on that of b"
+    )
     for i, own in enumerate(found):
         total = sum(points_of(own, field) for field in own.key)
         for j, other in enumerate(found):
