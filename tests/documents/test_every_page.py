@@ -98,7 +98,7 @@ def test_in_every_view_nothing_stands_on_anything(which):
         last = by_itself(drawing, "steps", "1/2")[-1]
         assert not faults(last), faults(last)
         assert not crossed(last), crossed(last)
-        for page in (overlay(drawing, "1/2", layout), sheet(drawing, "task", "1/2", layout)):
+        for page in (overlay(drawing, "1/2"), sheet(drawing, "task", "1/2", layout)):
             on, off = collisions(page.marks), outside(page.marks)
             off = [mark for mark in off if " crop " not in mark and " corner " not in mark]
             assert not on and not off, on + off

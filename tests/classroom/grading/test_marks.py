@@ -8,7 +8,7 @@ from math import pi
 import pytest
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.form_relations import Own, computed
+from graphkin.classroom.grading.form_relations import Own, OwnLengths
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard
@@ -236,7 +236,7 @@ def test_the_component_of_a_wheel_follows_from_an_own_rate(scene):
     points = dict.fromkeys((rate, field), Fraction(1))
     found = standard(mechanism, asked, Rubric(points=points, follow=0.8))
     own = 1.2 * abs(found.key[rate])
-    told = [*computed(found, {rate: Own(own, 0.0, rate)}, field, 0.0)]
+    told = [*OwnLengths(found, {rate: Own(own, 0.0, rate)}).computed(field, 0.0)]
     if length is None:
         assert told == []
         return
