@@ -95,9 +95,9 @@ def of_lengths(drawing: Drawing, bars: Sequence[Bar]) -> tuple[Section, Section]
         if found := wheel_about(drawing, places):
             radii.append(replace(by_radius(drawing, *found), left=name, over=tuple(some)))
             continue
-        told = as_read(drawing, drawing.on_paper(length), drawing.scales.kL / 1000)
+        read = as_read(drawing, drawing.on_paper(length), drawing.scales.kL / 1000)
         remark = drawing.words("calculation.measured")
-        measured.append(Relation(name, "", *told, "m", remark, over=tuple(some)))
+        measured.append(Relation(name, "", *read, "m", remark, over=tuple(some)))
     return ("radii", radii), ("lengths", measured)
 
 
