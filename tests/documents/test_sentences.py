@@ -68,7 +68,7 @@ def test_every_length_of_the_calculation_is_known_or_measured_before_and_once(bo
         drawn_before |= section == "lengths"
         for relation in found:
             bars = [ends_on(first, *ends) for ends in relation.over]
-            if section == "lengths":
+            if section in ("radii", "lengths"):
                 assert len(set(bars)) == 1 and bars[0] not in known, relation
                 known.add(bars[0])
             elif drawn_before:
