@@ -43,7 +43,7 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
     def relations(self, drawing: Drawing, told: dict[str, float]) -> list[Relation]:
         """Its relation after those that it takes, of links that are not ``told`` before.
 
-        None where one of those was told from another start.
+        Nothing where one of those was told from another start.
         """
         found: list[Relation] = []
         known = dict(told)
