@@ -578,6 +578,19 @@ class Reader(Trials):
         self.put(name, self.at(p) + along)
 
     @says(
+        r"by the law s[^;]*; from ⟨p⟩ lay off ⟨size:number⟩ mm (?P<way>[a-z ]+), along guide "
+        r"⟨k:number⟩, then ⟨aside:number⟩ mm (?P<side>[a-z ]+), square to it: ⟨name⟩, "
+        r"the centre of curvature of cam ⟨g:number⟩"
+    )
+    def centre_under_a_face(
+        self, p: str, size: str, way: str, k: str, aside: str, side: str, name: str, **_: str
+    ) -> None:
+        along = self.direction(f"guide {k}")
+        steps = ((size, way, along), (aside, side, along * 1j))
+        off = (number(mm) * on * math.copysign(1, dot(WAYS[to], on)) for mm, to, on in steps)
+        self.put(name, self.at(p) + sum(off))
+
+    @says(
         rf"wheels ⟨g:wheel⟩ and ⟨k:wheel⟩ touch in ⟨name⟩ on their line of centres, "
         rf"{RADIUS}(?: = m·z_\{{[^}}]*\}}/2)? \(⟨r:number⟩ mm\) from ⟨o⟩"
     )
