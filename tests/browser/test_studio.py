@@ -450,6 +450,7 @@ def test_what_is_written_is_completed_and_mended(studio):
     page.keyboard.press("Control+End")
     page.keyboard.type("[links.6]\nsl")
     assert page.locator("#offered li").all_inner_texts() == ["slides"]
+    page.dispatch_event("#text", "scroll")  # a long text moves as one writes at its end
     page.keyboard.press("Enter")
     page.keyboard.type(" = { on = 0, thr")
     page.keyboard.press("Tab")

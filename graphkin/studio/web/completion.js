@@ -81,13 +81,26 @@ function offer(asked = false) {
       return item;
     }),
   );
-  const at = scene.caret();
   list.hidden = false;
+  place();
+  text.setAttribute("aria-controls", "offered");
+  mark();
+}
+
+/** Set the list beside the writing mark. */
+function place() {
+  const at = scene.caret();
   list.style.left = `${Math.min(at.left, innerWidth - list.offsetWidth - 8)}px`;
   const below = at.bottom + 2;
   list.style.top = `${below + list.offsetHeight < innerHeight ? below : at.top - list.offsetHeight - 2}px`;
-  text.setAttribute("aria-controls", "offered");
-  mark();
+}
+
+/** Where the text has moved, by writing too, the list goes along; with the mark out of sight it closes. */
+function follow() {
+  const at = scene.caret();
+  const seen = text.getBoundingClientRect();
+  if (at.bottom < seen.top || at.top > seen.bottom) close();
+  else place();
 }
 
 function mark() {
@@ -112,7 +125,7 @@ function take() {
 text.addEventListener("input", ({ inputType }) => (inputType === "insertText" ? offer() : close()));
 text.addEventListener("blur", close);
 text.addEventListener("pointerdown", close);
-text.addEventListener("scroll", close, { passive: true });
+text.addEventListener("scroll", () => list.hidden || follow(), { passive: true });
 text.addEventListener("keydown", (event) => {
   if (event.key === " " && event.ctrlKey) {
     event.preventDefault();
