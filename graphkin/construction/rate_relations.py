@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from msgspec.structs import replace
 
@@ -39,6 +40,11 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
         again = drawing.words("calculation.willis") if relation.left in names_of(found) else ""
         remark = "; ".join(filter(None, (relation.remark, again)))
         yield replace(relation, remark=remark)
+
+
+def finds_rates(drawing: Drawing) -> bool:
+    """Whether some angular rate has a relation: they are not all given."""
+    return any(chain(of_links(drawing), of_gears(drawing)))
 
 
 def names_of(found: Sequence[Relation]) -> set[str]:

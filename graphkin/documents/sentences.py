@@ -14,7 +14,7 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.relation import beside_plan
 from graphkin.construction.core.segments import TINY
 from graphkin.construction.links.idle_links import idle_sentences
-from graphkin.construction.rate_relations import of_turning
+from graphkin.construction.rate_relations import finds_rates
 from graphkin.construction.registry import TOGETHER
 from graphkin.construction.step_sentences import point_sentence
 from graphkin.documents.indices import with_indices
@@ -56,7 +56,7 @@ def unexplained(drawing: Drawing) -> list[Sentence]:
 def read_off(drawing: Drawing) -> Iterator[Sentence]:
     """What is read off at the end, if anything; how a link turns only where one's rate is found."""
     words, velocity = drawing.words, drawing.kind == "velocity"
-    turns = any(of_turning(drawing))
+    turns = finds_rates(drawing)
     turning = words(f"step.read-{'omega' if velocity else 'epsilon'}") if turns else ""
     if markup := set_on_mechanism(drawing, turning):
         yield Sentence(-1, TURNING if turns else SET_ON, markup)

@@ -290,3 +290,13 @@ def test_no_sentence_lays_off_what_is_too_short_or_draws_its_triangle(which):
                 own, is_short = plain(symbol(name)), length < TINY
                 assert sum(own in after for _, _, after in said) == is_short, name
                 assert not (is_short and any(own in before for before, _, _ in said)), name
+
+
+@pytest.mark.parametrize(
+    ("name", "is_said"), [("crank-rocker", True), ("excavator-relative", False)]
+)
+def test_how_a_rate_is_read_is_said_where_one_is_found(name, is_said):
+    """Of an excavator the drivers give the rates of all links; of a crank-rocker that of one."""
+    drawing = drawings(name)[0]
+    how = plain(drawing.words("step.read-omega"))
+    assert any(how in plain(each.markup) for each in sentences(drawing)) is is_said
