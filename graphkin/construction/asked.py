@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from graphkin.construction.core.palette import TRANSFER, Move, vector_at_point
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector
 from graphkin.construction.core.program import Plane
@@ -15,13 +16,13 @@ from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of
 
 
-@action("set-on")
+@action("set-on", move=Move(TRANSFER, vector_at_point))
 def set_on(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
     """A velocity of the plan set on the mechanism at its point."""
     return Vector(point, point + (image - o) * seconds)
 
 
-@action("set-on-twice")
+@action("set-on-twice", move=Move(TRANSFER, vector_at_point))
 def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
     """An acceleration of the plan set on the mechanism at its point."""
     return Vector(point, point + (image - o) * (seconds * seconds))

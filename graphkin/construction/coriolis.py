@@ -16,14 +16,13 @@ from graphkin.construction.core.component import (
     LaidOff,
     Measured,
     OwnSizes,
-    PaletteAction,
-    Picks,
     Size,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Wording, construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
+from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
 from graphkin.construction.core.pen import PRIME, Pen, letter
 from graphkin.construction.core.plan_vector import PlanVector, foot_of, plan_vector
 from graphkin.construction.core.program import Effect, Part, Plane
@@ -125,6 +124,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         "coriolis",
         (("rate", ("rate",)), ("velocity", ("arrow",))),
         "(rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))]",
+        plane=NUMBERS,
     )
     titled: ClassVar[str] = "the Coriolis triangles of {pin_name} about {pivot_name}"
 

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence
+from graphkin.construction.core.palette import (
+    COINCIDE,
+    COMPASS,
+    CUT,
+    DIVIDE,
+    JOIN,
+    LAY_OFF,
+    MARK_OFF,
+    PARALLEL,
+    PERPENDICULAR,
+    POLE,
+    SIMILAR,
+    TRANSFER,
+    PaletteAction,
+)
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.coriolis import CoriolisComponent
 from graphkin.construction.higher_class.two_trials import with_trials_together
@@ -25,12 +40,27 @@ COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, Corio
 """The components of accelerations that follow from velocities."""
 LIMITED = next(kind.limited for kind in COMPONENTS if kind.limited)
 """What the figure is called that can be too narrow or too long to be drawn."""
-ON_PALETTE = tuple(
-    action
-    for kind in (NormalComponent, KleinComponent, CoriolisComponent)
-    if (action := kind.palette) is not None
-)
-"""The actions of a page's palette that give components."""
+PALETTE: Mapping[str, PaletteAction] = {
+    action.key: action
+    for action in (
+        PERPENDICULAR,
+        PARALLEL,
+        CUT,
+        LAY_OFF,
+        COMPASS,
+        MARK_OFF,
+        SIMILAR,
+        COINCIDE,
+        NormalComponent.palette,
+        KleinComponent.palette,
+        CoriolisComponent.palette,
+        JOIN,
+        DIVIDE,
+        POLE,
+        TRANSFER,
+    )
+}
+"""The actions of a page's palette, in its order."""
 CAUSES: tuple[type[Component] | TouchingEffect, ...] = (*COMPONENTS, *TOUCHING)
 """What knows why an effect is in or out of a scene."""
 SAID_FIRST = {PLAN: BEGINNING}

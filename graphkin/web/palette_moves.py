@@ -13,36 +13,26 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.asked import set_on, set_on_twice
-from graphkin.construction.centres.acceleration_poles import AccelerationPole
-from graphkin.construction.centres.centre import Centre, VelocityNormal, velocity_normal
-from graphkin.construction.centres.relative_centre import kennedy_line, kennedy_meet
+from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
 from graphkin.construction.core.naming import rate_symbol, sense, vector_of
+from graphkin.construction.core.palette import Move
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import (
     Action,
-    along_bar,
     in_proportion,
     lay_back,
     lay_off,
-    meet,
     similar_point,
 )
 from graphkin.construction.drivers.driven_slide import DrivenSlide
-from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
-from graphkin.construction.guides.set_by_coordinate import set_at
-from graphkin.construction.higher_class.divided_point import DividedPoint, between, line_through
-from graphkin.construction.links.driven_crank import mark_off
-from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
-from graphkin.construction.registry import ON_PALETTE
-from graphkin.construction.velocity.image_of_link import alike
-from graphkin.construction.velocity.lines_through import parallel_to, square_to
+from graphkin.construction.higher_class.divided_point import DividedPoint
+from graphkin.construction.registry import PALETTE
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
 from graphkin.construction.velocity.turned_velocity import LaidOffByRate, TurnedVelocity
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
@@ -51,37 +41,10 @@ from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
 
-CURVE = ("locus", "guide", "circle")
-FOUND = ("image", "centre")
-PALETTE: Mapping[str, tuple[tuple[str, tuple[str, ...]], ...]] = {
-    "perpendicular": (("through", ("point", "image")), ("square", ("bar", "arrow"))),
-    "parallel": (("through", ("image",)), ("along", ("guide", "bar"))),
-    "cut": (("line", CURVE), ("and", CURVE)),
-    "lay_off": (("from", ("image",)), ("vector", ("vector",))),
-    "compass": (("about", ("point",)), ("opening", ("length",))),
-    "mark_off": (("on", ("guide",)), ("length", ("length",))),
-    "similar": (("image", ("image",)), ("and", ("image",)), ("point", ("point",))),
-    "coincide": (("point", ("point",)), ("image", ("image",))),
-    **{action.key: action.slots for action in ON_PALETTE},
-    "join": (("point", FOUND), ("and", FOUND)),
-    "divide": (("image", ("image",)), ("and", ("image",))),
-    "pole": (("on", ("bar",)), ("image", ("image",)), ("and", ("image",))),
-    "transfer": (("vector", ("arrow",)), ("at", ("point",))),
-}
-"""The actions of the palette, each with what it is drawn from: the word for it, and its kinds."""
-
 PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
 """The drawings by the numbers under which the page knows them."""
 LAID_OFF: tuple[Action, ...] = (lay_off, lay_back)
 """What lays off a component of an acceleration from a point of a plan."""
-CROSSED: tuple[Action, ...] = (meet, arcs_meet, arc_cuts_line, kennedy_meet)
-"""What finds a point where two lines or arcs cut."""
-JOINED: tuple[Action, ...] = (line_through, kennedy_line)
-"""What draws the line of two points."""
-SET: tuple[Action, ...] = (set_on, set_on_twice)
-"""What transfers a vector of a plan to its point."""
-MEASURED: tuple[Action, ...] = (mark_off, set_at)
-"""What lays off a length on a line."""
 
 
 Way = tuple[str, tuple[str, ...]]
@@ -288,52 +251,24 @@ class MoveFinder:
             return None
         by_hand = step.by_hand in self.values and step.by_hand is not None
         drawn = self.steps[step.by_hand] if by_hand and step.by_hand is not None else step
-        if isinstance(kind, Centre) and not by_hand and drawn.action not in CROSSED:
-            return None
-        if isinstance(kind, AccelerationPole):
+        move = step.action.move if step.action is not None else None
+        if move is not None and move.at_once:
             if not by_hand or self.place(number) is None:
                 return None
-            _, p, q, *images = step.args
             self.parts |= dict.fromkeys(drawn.args, number)
-            return self.all_of("pole", self.bar(p, q), *map(self.point_or_line, images))
-        return self.way_of_action(number, step, drawn)
+            return self.by_move(move, number, step)
+        if isinstance(kind, LaidOffByRate) and not step.arrow:
+            return self.by_move(kind.move, number, step)
+        move = drawn.action.move if drawn.action is not None else None
+        return self.by_move(move, number, drawn) if move is not None else None
 
-    def way_of_action(self, number: int, step: Step, drawn: Step) -> Way | None:
-        """The action of the palette that draws as a recorded one does."""
-        action, args = drawn.action, drawn.args
-        in_plan = step.plane in PLANES[1:3]
-        pick = self.point_or_line
-        if action in CROSSED and self.place(number) is not None:
-            return self.all_of("cut", pick(args[0]), pick(args[1]))
-        if action is square_to:
-            return self.all_of("perpendicular", pick(args[0]), self.bar(args[1], args[2]))
-        if action is velocity_normal:
-            return self.all_of("perpendicular", pick(args[0]), self.arrow(args[1], args[2]))
-        if action is along_bar and in_plan:
-            return self.all_of("parallel", pick(args[0]), self.bar(args[1], args[2]))
-        if action is parallel_to and in_plan:
-            return self.all_of("parallel", pick(args[0]), pick(args[1]))
-        if action is compass:
-            return self.all_of("compass", pick(args[0]), self.length(number, args[1]))
-        if action in MEASURED:
-            return self.all_of("mark_off", pick(args[0]), self.length(number, args[1]))
-        by_rate = isinstance(construction(step), LaidOffByRate) and not step.arrow
-        if in_plan and (action in LAID_OFF or by_rate):
-            return self.all_of("lay_off", pick(args[0]), self.vector(number, step))
-        if action is similar_point and in_plan and number in self.places:
-            point = pick(self.places[number][0])
-            return self.all_of("similar", pick(args[0]), pick(args[1]), point)
-        if action is alike and number in self.places:
-            return self.all_of("coincide", pick(self.places[number][0]), pick(args[0]))
-        if action is between:
-            return self.all_of("divide", pick(args[0]), pick(args[1]))
-        if action in JOINED:
-            return self.all_of("join", pick(args[0]), pick(args[1]))
-        if action in SET:
-            vector = plan_vector(step)
-            name = symbol(vector.symbol) if vector else ""
-            return self.all_of("transfer", self.arrow(args[1], args[2], name), pick(args[0]))
-        return None
+    def by_move(self, move: Move, number: int, drawn: Step) -> Way | None:
+        """A move with its inputs; None where it is none in this drawing, or leads to no place."""
+        if move.in_plan and self.steps[number].plane not in PLANES[1:3]:
+            return None
+        if move.action.shape == "point" and self.place(number) is None:
+            return None
+        return self.all_of(move.action.key, *move.inputs(self, number, drawn.args))
 
     def all_of(self, action: str, *inputs: str | None) -> Way | None:
         """An action with its inputs; None where one of them cannot be picked."""
@@ -468,8 +403,20 @@ class MoveFinder:
         needs = self.needs([length])
         return self.noted(key, "length", name, Plane.NUMBERS, needs, self.values[length])
 
-    def vector(self, number: int, step: Step) -> str | None:
+    def place_of(self, image: int) -> str | None:
+        """The point of the mechanism whose image a step is, the first if it is that of several."""
+        places = self.places.get(image)
+        return self.point_or_line(places[0]) if places else None
+
+    def shown_vector(self, number: int) -> str | None:
+        """The vector of a plan that a step sets on the mechanism."""
+        step = self.steps[number]
+        vector = plan_vector(step)
+        return self.arrow(*step.args[1:3], symbol(vector.symbol) if vector else "")
+
+    def vector(self, number: int) -> str | None:
         """A vector that is known before it is laid off; None for one without length."""
+        step = self.steps[number]
         start, *others = step.args
         kind, drawing = construction(step), self.drawing(number)
         value = self.values[number] - self.values[start]
@@ -514,7 +461,7 @@ class MoveFinder:
                 self.bar(p, q)
         for tail, tip in self.arrows:
             self.arrow(tail, tip)
-        slots = (slot for move in self.moves.values() for slot in PALETTE[move.action])
+        slots = (slot for move in self.moves.values() for slot in PALETTE[move.action].slots)
         if any("rate" in kinds for _, kinds in slots):
             for (quantity, _), number in targets.items():
                 if quantity == OMEGA and number in self.values:

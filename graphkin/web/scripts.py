@@ -6,7 +6,7 @@ import json
 import re
 from functools import lru_cache
 
-from graphkin.construction.registry import ON_PALETTE
+from graphkin.construction.registry import PALETTE
 from graphkin.drawing.style import DRAWN
 from graphkin.web.offline_page import part
 
@@ -51,10 +51,13 @@ FORM = ("form.js",)
 """The script of a form for answers."""
 WRITTEN_IN = {
     "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
-    "$COMPONENT_ACTIONS": json.dumps([each.key for each in ON_PALETTE]),
-    "...$COMPONENT_FUNCTIONS,": "\n".join(f"{each.key}: {each.script}," for each in ON_PALETTE),
+    "$ACTIONS": json.dumps(
+        {key: [each.shape, each.plane, each.lies_with] for key, each in PALETTE.items()},
+        separators=(",", ":"),
+    ),
+    "...$DRAW,": "\n".join(f"{key}: {each.script}," for key, each in PALETTE.items()),
 }
-"""What files leave to the kinds of lines and of components."""
+"""What files leave to the kinds of lines and to the actions of the palette."""
 REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
 """A remark at the end of a line, in which no text can stand."""
 REMARKS = ("//", "/**")

@@ -7,16 +7,14 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.registry import ON_PALETTE, SAID_FIRST
+from graphkin.construction.registry import PALETTE, SAID_FIRST
 from graphkin.drawing.field import Field
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 from graphkin.text import Words
-from graphkin.web.palette_moves import PALETTE, PLANES, PaletteMove, Pick, YourTurn
+from graphkin.web.palette_moves import PLANES, PaletteMove, Pick, YourTurn
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.writers.html_markup import marked_up
 
-NAMED_BY_INPUTS = ("perpendicular", "parallel", "compass", "join", "transfer")
-"""Actions whose results are called by what they are drawn from."""
 SAID = (
     "turn.say.saved",
     "turn.say.arc",
@@ -60,8 +58,8 @@ def palette(turn: YourTurn, words: Words) -> list[tuple[str, list[str]]]:
     if turn.alike:
         used.add("similar")
     return [
-        (action, [words(f"turn.slot.{slot}") for slot, _ in slots])
-        for action, slots in PALETTE.items()
+        (action, [words(f"turn.slot.{slot}") for slot, _ in each.slots])
+        for action, each in PALETTE.items()
         if action in used
     ]
 
@@ -76,7 +74,7 @@ def record(
     words = sheets[0].drawing.words
     used = [action for action, _ in palette(turn, words)]
     return {
-        "palette": {action: [kinds for _, kinds in PALETTE[action]] for action in used},
+        "palette": {action: [kinds for _, kinds in PALETTE[action].slots] for action in used},
         "moves": {move.step: written_move(turn, move) for move in turn.moves.values()},
         "picks": {key: written_pick(turn, key, pick) for key, pick in turn.picks.items()},
         "along": turn.along,
@@ -110,8 +108,8 @@ def beginning(sheets: Sequence[ScreenSheet]) -> dict[str, str]:
 
 def reasons(action: str, words: Words) -> Iterator[str]:
     """Why an input of an action is wrong, in sentences; inputs that are alike have one."""
-    own = next((each.said_as for each in ON_PALETTE if each.key == action), "") or action
-    keys = (f"turn.say.{own}_{place}" for place in range(len(PALETTE[action])))
+    own = PALETTE[action]
+    keys = (f"turn.say.{own.said_as or own.key}_{place}" for place in range(len(own.slots)))
     yield from (key for key in keys if words.has(key))
 
 
@@ -140,7 +138,7 @@ def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
         "plane": PLANES.index(turn.planes[move.step]),
         "value": written(turn.values[move.step]),
     }
-    if move.action not in NAMED_BY_INPUTS:
+    if not PALETTE[move.action].named:
         found["name"] = marked_up(move.name)
     if move.about != move.name and move.action != "lay_off":
         found["about"] = marked_up(move.about)

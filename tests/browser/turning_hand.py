@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from graphkin.construction.core.program import Plane
+from graphkin.construction.registry import PALETTE
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.web.palette_moves import PALETTE, PLANES, PaletteMove, YourTurn
+from graphkin.web.palette_moves import PLANES, PaletteMove, YourTurn
 from graphkin.web.screen_sheets import ScreenSheet
 
 UNSEEN = ("length", "rate", "vector")
@@ -76,7 +77,7 @@ class TurningHand:
             if self.turn.picks[key].kind in UNSEEN or not self.field(self.plane(key)):
                 self.page.locator("#inputs select").nth(place).select_option(value=key)
             else:
-                kinds = {kind for _, kinds in PALETTE[move.action][place:] for kind in kinds}
+                kinds = {kind for _, kinds in PALETTE[move.action].slots[place:] for kind in kinds}
                 self.tap(key, kinds)
         button = self.page.locator("#turn-draw")
         if button.is_visible():

@@ -15,6 +15,7 @@ import graphkin
 from graphkin.classroom.grading.feedback_rows import SLIPS
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.registry import PALETTE
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet import Moved, asked_words
 from graphkin.documents.sheet_documents import (
@@ -32,7 +33,6 @@ from graphkin.reading.desk_app import SAID
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import PageError
-from graphkin.web.palette_moves import PALETTE
 from graphkin.web.your_turn import reasons
 from tests.chosen import CHOSEN, SCENES
 from tests.documents.centre_scenes import ASKING
@@ -140,7 +140,7 @@ def literals() -> set[str]:
 
 def palette_keys() -> set[str]:
     """The keys of the actions of the palette, of what they start from, and of what is wrong."""
-    slots = {f"turn.slot.{name}" for own in PALETTE.values() for name, _ in own}
+    slots = {f"turn.slot.{name}" for own in PALETTE.values() for name, _ in own.slots}
     actions = {f"turn.action.{action}" for action in PALETTE}
     return slots | actions | {key for each in PALETTE for key in reasons(each, words("en"))}
 

@@ -9,10 +9,11 @@ from typing import Any
 import pytest
 
 from graphkin.construction.core.program import SPEEDS, Plane, Program
+from graphkin.construction.registry import PALETTE
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
-from graphkin.web.palette_moves import PALETTE, MoveFinder, YourTurn, your_turn
+from graphkin.web.palette_moves import MoveFinder, YourTurn, your_turn
 from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.scripts import joined
@@ -115,7 +116,7 @@ def test_what_a_move_is_drawn_from_can_be_picked(name):
     """Each input is of a kind that its place takes, there before the move, under its own name."""
     _, _, turn = turn_of(name)
     for move in turn.moves.values():
-        slots = PALETTE[move.action]
+        slots = PALETTE[move.action].slots
         assert len(slots) == len(move.inputs)
         for key, (_, kinds) in zip(move.inputs, slots, strict=True):
             pick = turn.picks[key]
@@ -160,7 +161,7 @@ def test_all_that_the_sheets_draw_comes_of_moves(name):
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_each_input_has_its_word_and_its_line(language):
     spoken = words(language)
-    for action, slots in PALETTE.items():
+    for action, slots in ((key, each.slots) for key, each in PALETTE.items()):
         assert spoken.has(f"turn.action.{action}")
         for slot, _ in slots:
             assert spoken.has(f"turn.slot.{slot}")

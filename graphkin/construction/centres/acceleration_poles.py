@@ -14,6 +14,7 @@ from graphkin.construction.centres.centre import (
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.palette import POLE, Move, bar_and_images
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
@@ -30,7 +31,7 @@ def pole_ray(corner: Point, other: Point, o: Point, image: Point, image_other: P
     return Line(corner, (other - corner) * ((o - image) / (image_other - image)))
 
 
-@action("acceleration-pole")
+@action("acceleration-pole", move=Move(POLE, bar_and_images, at_once=True))
 def acceleration_pole(o: Point, p: Point, q: Point, image_p: Point, image_q: Point) -> Ratio:
     """The point of a link without acceleration, J - p : q - p = o - p' : q' - p' (Mehmke)."""
     return Ratio(p, (o - image_p) * (q - p), image_q - image_p)

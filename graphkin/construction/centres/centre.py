@@ -12,6 +12,7 @@ from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.palette import PERPENDICULAR, Move, point_and_arrow
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, meet
@@ -27,7 +28,7 @@ Places = dict[str, complex]
 # --- the lines that lead to one ------------------------------------------------------------------
 
 
-@action("velocity-normal")
+@action("velocity-normal", move=Move(PERPENDICULAR, point_and_arrow))
 def velocity_normal(point: Point, o: Point, image: Point) -> Line:
     """Through a point of the mechanism the perpendicular to its velocity (Chasles)."""
     return Line(point, 1j * (image - o))

@@ -20,6 +20,7 @@ from graphkin.construction.centres.centre import (
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence, construction, together
+from graphkin.construction.core.palette import CUTS, JOIN, Move, two
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
@@ -51,7 +52,7 @@ def relative_centre(
     return Ratio(p, 1j * (image_p - there), omega_p - omega_q)
 
 
-@action("kennedy-line")
+@action("kennedy-line", move=Move(JOIN, two))
 def kennedy_line(a: Ratio, b: Ratio) -> Line:
     """The line of two centres of three links, on which the third lies (Kennedy, Aronhold).
 
@@ -64,7 +65,7 @@ def kennedy_line(a: Ratio, b: Ratio) -> Line:
     return Line(start + shift / size, along)
 
 
-@action("kennedy-meet", margin=crossing_sine)
+@action("kennedy-meet", margin=crossing_sine, move=CUTS)
 def kennedy_meet(m: Line, n: Line) -> Ratio:
     """The centre of two links, where two lines of centres meet."""
     return meet_anywhere(m, n)

@@ -13,6 +13,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Wording, construction, constructions
 from graphkin.construction.core.naming import drawn_between, plan_amount
+from graphkin.construction.core.palette import PaletteAction, Picks
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Effect, Part, Plane, Program
 from graphkin.construction.core.relation import Relation
@@ -51,36 +52,6 @@ class OwnSizes(Protocol):
 
     def length(self, p: int, q: int) -> float:
         """Distance of two points in metres."""
-
-
-class PaletteAction(Struct, frozen=True):
-    """An action of a page's palette that gives a component, and what it is drawn from.
-
-    ``slots`` are the word for each thing and the kinds of picks that it may be, ``script`` is the
-    function of the picks in the page's script; ``said_as`` is the action whose sentences tell what
-    is wrong, where that is another.
-    """
-
-    key: str
-    slots: tuple[tuple[str, tuple[str, ...]], ...]
-    script: str
-    said_as: str = ""
-
-
-class Picks(Protocol):
-    """What can be picked on a page, each by the steps that it lies on; None for what cannot."""
-
-    def point_or_line(self, number: int) -> str | None:
-        """A point, line or arc."""
-
-    def bar(self, p: int, q: int) -> str | None:
-        """The bar between two points of the mechanism."""
-
-    def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
-        """The vector between two points of a plan."""
-
-    def rate(self, number: int) -> str | None:
-        """The angular velocity of a link."""
 
 
 class Component(Construction, frozen=True, kw_only=True):

@@ -11,6 +11,15 @@ from typing import Any
 
 from msgspec import Struct
 
+from graphkin.construction.core.palette import (
+    CUTS,
+    LAYS_OFF,
+    PARALLEL,
+    SIMILAR,
+    Move,
+    images_and_place,
+    point_and_bar,
+)
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import (
     Line,
@@ -25,13 +34,14 @@ class Action(Struct, frozen=True):
     """One thing a hand can do: its sentence's key, its value, and the margin of a crossing.
 
     What may fail by what it is drawn of has ``reaches``, a smooth function of that, positive where
-    it succeeds.
+    it succeeds. ``move`` is how a student draws it on a page; None for what comes along by itself.
     """
 
     key: str
     value: Callable[..., Any]
     margin: Callable[..., Real] | None = None
     reaches: Callable[..., Real] | None = None
+    move: Move | None = None
 
     def __call__(self, *args: Any) -> Any:
         """The value of the action on given values."""
@@ -42,9 +52,10 @@ def action(
     key: str,
     margin: Callable[..., Real] | None = None,
     reaches: Callable[..., Real] | None = None,
+    move: Move | None = None,
 ) -> Callable[..., Action]:
     """Make an action of a function, under the key of its sentence."""
-    return lambda value: Action(key, value, margin, reaches)
+    return lambda value: Action(key, value, margin, reaches, move)
 
 
 # --- the mechanism, by compass and ruler ---------------------------------------------------------
@@ -89,7 +100,7 @@ def in_proportion(base: Point, end: Point, point: Point) -> Point:
     return (point - base) / (end - base)
 
 
-@action("similar-point")
+@action("similar-point", move=Move(SIMILAR, images_and_place, in_plan=True))
 def similar_point(base: Point, end: Point, ratio: Point) -> Point:
     """The third point of a figure similar to the link, on a base that is already there.
 
@@ -119,13 +130,13 @@ def pole() -> Point:
     return 0j
 
 
-@action("along-bar")
+@action("along-bar", move=Move(PARALLEL, point_and_bar, in_plan=True))
 def along_bar(start: Point, p: Point, q: Point) -> Line:
     """Through a point the parallel to a bar."""
     return Line(start, q - p)
 
 
-@action("meet", margin=crossing_sine)
+@action("meet", margin=crossing_sine, move=CUTS)
 def meet(m: Line, n: Line) -> Point:
     """Where two lines meet."""
     return line_meets_line(m, n)
@@ -155,13 +166,13 @@ def speed_at_rim(rate: Real, radius: Real) -> Real:
     return -rate * radius
 
 
-@action("lay-off")
+@action("lay-off", move=LAYS_OFF)
 def lay_off(start: Point, vector: Point) -> Point:
     """The end of a vector laid off from a point."""
     return start + vector
 
 
-@action("lay-back")
+@action("lay-back", move=LAYS_OFF)
 def lay_back(start: Point, vector: Point) -> Point:
     """The start of a vector whose end is a point: laid off from there against its sense."""
     return start - vector

@@ -9,6 +9,7 @@ from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import lies_along
 from graphkin.construction.core.naming import nearest_side
+from graphkin.construction.core.palette import CUTS
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action
@@ -28,6 +29,7 @@ def line_reached(line: Line, circle: Circle, *_: Any) -> Any:
     "arc-cuts-line",
     margin=lambda line, circle, way: line_circle_sine(line, circle),
     reaches=line_reached,
+    move=CUTS,
 )
 def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
     """Where an arc cuts a line, farther along it or nearer."""

@@ -9,6 +9,7 @@ from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import angle_symbol, drawn_amount, nearest_side, place
+from graphkin.construction.core.palette import MARK_OFF, Move, one_and_length
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive
 from graphkin.construction.core.vocabulary import action
@@ -18,7 +19,7 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.model import Slide
 
 
-@action("set-at")
+@action("set-at", move=Move(MARK_OFF, one_and_length))
 def set_at(line: Line, coordinate: Real) -> Point:
     """The point of a guide at a coordinate."""
     return line.point + line.along * (coordinate / abs(line.along))

@@ -11,6 +11,7 @@ from typing import ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.palette import DIVIDE, JOIN, Move, two
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.relation import FINE, Relation, figure, within
@@ -34,13 +35,13 @@ ROUNDING = 1e-12
 """A share of the way between two trials that is no more than this is zero but for rounding."""
 
 
-@action("between")
+@action("between", move=Move(DIVIDE, two))
 def between(first: Point, second: Point, part: Real) -> Point:
     """The point that divides the way from the first trial's point to the second's so."""
     return first + (second - first) * part
 
 
-@action("line-through")
+@action("line-through", move=Move(JOIN, two))
 def line_through(first: Point, second: Point) -> Line:
     """The line through two points."""
     return Line(first, second - first)

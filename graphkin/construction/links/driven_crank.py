@@ -12,6 +12,7 @@ from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import angle_symbol, axis_of
+from graphkin.construction.core.palette import MARK_OFF, Move, one_and_length
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import in_degrees
 from graphkin.construction.core.vocabulary import action, ray
@@ -23,7 +24,7 @@ from graphkin.numbers.plane import Line
 from graphkin.scene.model import FRAME
 
 
-@action("mark-off")
+@action("mark-off", move=Move(MARK_OFF, one_and_length))
 def mark_off(line: Line, length: Real, sense: int = 1) -> Point:
     """The point at a given distance along a line, or back (sense -1)."""
     length = length if sense > 0 else -length

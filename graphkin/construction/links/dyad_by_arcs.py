@@ -10,6 +10,7 @@ from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount
+from graphkin.construction.core.palette import COMPASS, CUTS, Move, one_and_length
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import action
@@ -21,7 +22,7 @@ from graphkin.scene.model import Side, Triangle
 from graphkin.text.errors import Problem, Sought
 
 
-@action("compass")
+@action("compass", move=Move(COMPASS, one_and_length))
 def compass(centre: Point, radius: Real) -> Circle:
     """The circle about a point with a given opening of the compass."""
     return Circle(centre, radius)
@@ -86,7 +87,12 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> Any:
     return (most**2 - distance**2) * (distance**2 - least**2)
 
 
-@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n), reaches=arcs_reach)
+@action(
+    "arcs-meet",
+    margin=lambda m, n, side: circles_sine(m, n),
+    reaches=arcs_reach,
+    move=CUTS,
+)
 def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
     """Where two arcs meet, on one side of the way from the first centre to the second."""
     return circle_meets_circle(m, n, side)

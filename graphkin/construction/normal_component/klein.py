@@ -16,10 +16,11 @@ from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import Measured, PaletteAction
+from graphkin.construction.core.component import Measured
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Wording
 from graphkin.construction.core.naming import rate_symbol
+from graphkin.construction.core.palette import NUMBERS, PaletteAction
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import OMEGA
@@ -118,7 +119,9 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     }
     laid_off: ClassVar[frozenset[str]] = frozenset()
     lettered: ClassVar[tuple[str, ...]] = ("corner", "foot", "whole")
-    palette: ClassVar[PaletteAction] = PaletteAction("klein", PICKED, SCRIPT, "triangle")
+    palette: ClassVar[PaletteAction] = PaletteAction(
+        "klein", PICKED, SCRIPT, plane=NUMBERS, said_as="triangle"
+    )
     titled: ClassVar[str] = "Klein's construction for {q} about {p}"
 
     o: str

@@ -16,14 +16,13 @@ from graphkin.construction.core.component import (
     LaidOff,
     Measured,
     OwnSizes,
-    PaletteAction,
-    Picks,
     Size,
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence, Wording, in_one, together
 from graphkin.construction.core.naming import plan_amount
+from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
 from graphkin.construction.core.pen import Pen, about, against, letter
 from graphkin.construction.core.program import Effect, Part, Plane
 from graphkin.construction.core.relation import (
@@ -112,7 +111,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
     lettered: ClassVar[tuple[str, ...]] = ("tip", "cut", "end")
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
-    palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT)
+    palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT, plane=NUMBERS)
     titled: ClassVar[str] = "the right triangle of {q} about {p}"
 
     p: str

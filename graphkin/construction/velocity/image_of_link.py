@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.palette import COINCIDE, Move, place_and_image
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.construction.core.vocabulary import action, meet, similar_point
@@ -17,7 +18,7 @@ from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, pick
 
 
-@action("alike")
+@action("alike", move=Move(COINCIDE, place_and_image))
 def alike(image: Point) -> Point:
     """The image of a point that moves as another does: a block does not turn."""
     return image

@@ -12,6 +12,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import end_before, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.palette import PARALLEL, PERPENDICULAR, Move, point_and_bar, two
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation
@@ -24,7 +25,7 @@ from graphkin.numbers.plane import Line
 from graphkin.structure.pairs import is_in_scene
 
 
-@action("square-to")
+@action("square-to", move=Move(PERPENDICULAR, point_and_bar))
 def square_to(start: Point, p: Point, q: Point) -> Line:
     """Through a point the perpendicular to a bar."""
     return Line(start, 1j * (q - p))
@@ -86,7 +87,7 @@ def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
     return line
 
 
-@action("parallel-to")
+@action("parallel-to", move=Move(PARALLEL, two, in_plan=True))
 def parallel_to(start: Point, line: Line) -> Line:
     """Through a point the parallel to a line, such as a guide."""
     return Line(start, line.along)

@@ -17,6 +17,7 @@ from graphkin.construction.core.naming import (
     turning_with,
     vector_of,
 )
+from graphkin.construction.core.palette import LAYS_OFF, Move
 from graphkin.construction.core.pen import Pen, against, letter
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
@@ -28,7 +29,12 @@ from graphkin.numbers.arithmetic import Point, Real
 
 
 class LaidOffByRate(Construction, frozen=True):
-    """A vector that a rate gives, or two that follow from both rates of one link."""
+    """A vector that a rate gives, or two that follow from both rates of one link.
+
+    ``move`` is how a student draws each of its ends.
+    """
+
+    move: ClassVar[Move] = LAYS_OFF
 
     @abstractmethod
     def tried_rate(self, role: str) -> int | None:

@@ -32,7 +32,7 @@ function palette_of(record, all_done) {
   followed(record);
   const { moves, picks, places, shares, seconds } = record;
   const SAME = 1e-7; // parts of a drawing within which two values are one
-  const LINES = ["perpendicular", "parallel", "join"], ALONE = 3; // planes: mechanism, velocities, accelerations, and numbers
+  const ACTIONS = $ACTIONS; // the shape of what each gives and its plane: mechanism, velocities, accelerations, numbers
   const steps = Object.keys(moves).map(Number);
 
   const plus = (a, b) => [a[0] + b[0], a[1] + b[1]], minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
@@ -101,36 +101,12 @@ function palette_of(record, all_done) {
 
   /** What each action gives, of which all but one may be meant. */
   const DRAW = {
-    perpendicular: (p, to) => [[value_of(p), quarter(way(to))]],
-    parallel: (p, to) => [[value_of(p), way(to)]],
-    cut: (m, n) => m === n ? [] : cuts(value_of(m), value_of(n)),
-    compass: (p, opening) => [{ c: value_of(p), r: value_of(opening) }],
-    mark_off: (line, length) => {
-      const [point, along] = value_of(line);
-      return [plus(point, scaled(along, value_of(length) / long(along)))];
-    },
-    lay_off: (p, vector) => [plus(value_of(p), value_of(vector)), minus(value_of(p), value_of(vector))],
-    similar: (i, j, point) => places_of(i).flatMap(p => places_of(j).filter(q => long(minus(q, p))).map(q =>
-      plus(value_of(i), times(minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p)))))),
-    coincide: (point, image) => [value_of(image)],
-    ...$COMPONENT_FUNCTIONS,
-    join: (p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]],
-    divide: (p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
-      .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share))),
-    pole: (bar, i, j) => [picks[bar].on, [...picks[bar].on].reverse()].map(ends => {
-      const [p, q] = ends.map(value_of), image = value_of(i);
-      return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));
-    }),
-    transfer: (arrow, point) => {
-      const shrunk = seconds ** picks[arrow].plane; // once for velocities, twice for accelerations
-      return [[value_of(point), plus(value_of(point), scaled(value_of(arrow), shrunk))]];
-    },
+    ...$DRAW,
   };
   /** In which drawing the result of an action lies. */
   function plane_of(action, inputs) {
-    if ($COMPONENT_ACTIONS.includes(action)) return ALONE;
-    if (["transfer", "pole"].includes(action)) return 0;
-    return picks[inputs[action === "coincide" ? 1 : 0]].plane;
+    const [, plane, lies_with] = ACTIONS[action];
+    return plane ?? picks[inputs[lies_with]].plane;
   }
 
   /** The results of an action, each also from points that are picked for others too near to them to be drawn. */
@@ -142,14 +118,17 @@ function palette_of(record, all_done) {
 
   const flat = value => value.r === undefined ? value.flat() : [...value.c, value.r];
 
+  /** What kind of thing an action gives: a line, a circle, a vector set on the mechanism, or a point. */
+  const shape_of = action => ACTIONS[action][0];
+
   /** How large each drawing is. */
   const sizes = [0, 1, 2, 3].map(plane => Math.max(1e-12, ...steps.filter(step => moves[step].plane === plane)
-    .flatMap(step => LINES.includes(moves[step].action) ? long(moves[step].value[0]) : flat(moves[step].value).map(Math.abs))));
+    .flatMap(step => shape_of(moves[step].action) === "line" ? long(moves[step].value[0]) : flat(moves[step].value).map(Math.abs))));
 
   /** Whether two values of an action's kind are the same in a drawing. */
   function same(action, a, b, plane) {
     const near = SAME * sizes[plane];
-    if (LINES.includes(action)) {
+    if (shape_of(action) === "line") {
       const turned = cross(a[1], b[1]) / long(a[1]) / long(b[1]);
       return Math.abs(turned) < SAME && on_line(b[0], a) < Math.max(near, SAME * long(a[0]), SAME * long(b[0]));
     }
@@ -163,8 +142,5 @@ function palette_of(record, all_done) {
     return Math.abs(cross(minus(point, curve[0]), curve[1])) / long(curve[1]);
   }
 
-  /** What kind of thing an action gives: a line, a circle, a vector set on the mechanism, or a point. */
-  const shape = action => LINES.includes(action) ? "line" : { compass: "circle", transfer: "vector" }[action] ?? "point";
-
-  return { plus, minus, scaled, dot, cross, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of: shape, size_of: plane => sizes[plane], SAME };
+  return { plus, minus, scaled, dot, cross, length_of: long, value_of, plane_of, results_of: results, same_value: same, on_line, shape_of, size_of: plane => sizes[plane], SAME };
 }

@@ -1,0 +1,218 @@
+"""The palette of a page: what a student draws with, and from what each recorded step is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal, Protocol
+
+from msgspec import Struct
+
+Slots = tuple[tuple[str, tuple[str, ...]], ...]
+"""What an action is drawn from: the word for each thing and the kinds of picks that it may be."""
+Shape = Literal["point", "line", "circle", "vector"]
+"""What an action gives; a component of an acceleration is like a point that lies in no drawing."""
+MECHANISM, NUMBERS = 0, 3
+"""The drawings of a page that an action may name; 1 and 2 are the plans."""
+CURVE = ("locus", "guide", "circle")
+FOUND = ("image", "centre")
+
+
+class PaletteAction(Struct, frozen=True):
+    """One action of the palette, with its function in the script of the page.
+
+    ``script`` takes the keys of the picks and returns a list of results, of which one is meant.
+    The result has the given ``shape``. It lies in the drawing number ``plane``; where that is
+    None, in the drawing of the input number ``lies_with``. ``named`` says that the script makes the name of the result from the names of the inputs.
+    ``said_as`` is the action whose sentences say what is wrong, where these are shared.
+    """
+
+    key: str
+    slots: Slots
+    script: str
+    shape: Shape = "point"
+    plane: int | None = None
+    lies_with: int = 0
+    named: bool = False
+    said_as: str = ""
+
+
+class Picks(Protocol):
+    """What can be picked on a page, each by the steps that it lies on; None for what cannot."""
+
+    def point_or_line(self, number: int) -> str | None:
+        """A point, line or arc."""
+
+    def bar(self, p: int, q: int) -> str | None:
+        """The bar between two points of the mechanism."""
+
+    def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
+        """The vector between two points of a plan."""
+
+    def rate(self, number: int) -> str | None:
+        """The angular velocity of a link."""
+
+    def length(self, number: int, length: int) -> str | None:
+        """The length of a step that is laid off at another."""
+
+    def vector(self, number: int) -> str | None:
+        """The vector that a step lays off; None for one without length."""
+
+    def shown_vector(self, number: int) -> str | None:
+        """The vector of a plan that a step sets on the mechanism."""
+
+    def place_of(self, image: int) -> str | None:
+        """The point of the mechanism whose image a step is."""
+
+
+Picked = tuple[str | None, ...]
+
+
+class Move(Struct, frozen=True):
+    """How a student draws what a step records: the action, and its inputs among the picks.
+
+    ``inputs`` takes the picks, the number of the step and what it is drawn from. Where the move
+    is ``in_plan``, it is one only in a plan of velocities or accelerations. A move ``at_once``
+    draws its step together with the lines by which a hand finds it.
+    """
+
+    action: PaletteAction
+    inputs: Callable[[Picks, int, tuple[int, ...]], Picked]
+    in_plan: bool = False
+    at_once: bool = False
+
+
+PERPENDICULAR = PaletteAction(
+    "perpendicular",
+    (("through", ("point", "image")), ("square", ("bar", "arrow"))),
+    "(p, to) => [[value_of(p), quarter(way(to))]]",
+    "line",
+    named=True,
+)
+PARALLEL = PaletteAction(
+    "parallel",
+    (("through", ("image",)), ("along", ("guide", "bar"))),
+    "(p, to) => [[value_of(p), way(to)]]",
+    "line",
+    named=True,
+)
+CUT = PaletteAction(
+    "cut",
+    (("line", CURVE), ("and", CURVE)),
+    "(m, n) => m === n ? [] : cuts(value_of(m), value_of(n))",
+)
+LAY_OFF = PaletteAction(
+    "lay_off",
+    (("from", ("image",)), ("vector", ("vector",))),
+    "(p, v) => [plus(value_of(p), value_of(v)), minus(value_of(p), value_of(v))]",
+)
+COMPASS = PaletteAction(
+    "compass",
+    (("about", ("point",)), ("opening", ("length",))),
+    "(p, opening) => [{ c: value_of(p), r: value_of(opening) }]",
+    "circle",
+    named=True,
+)
+MARK_OFF = PaletteAction(
+    "mark_off",
+    (("on", ("guide",)), ("length", ("length",))),
+    """(line, length) => {
+      const [point, along] = value_of(line);
+      return [plus(point, scaled(along, value_of(length) / long(along)))];
+    }""",
+)
+SIMILAR = PaletteAction(
+    "similar",
+    (("image", ("image",)), ("and", ("image",)), ("point", ("point",))),
+    """(i, j, point) => places_of(i).flatMap(p =>
+      places_of(j).filter(q => long(minus(q, p))).map(q => plus(value_of(i), times(
+        minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p))))))""",
+)
+COINCIDE = PaletteAction(
+    "coincide",
+    (("point", ("point",)), ("image", ("image",))),
+    "(point, image) => [value_of(image)]",
+    lies_with=1,
+)
+JOIN = PaletteAction(
+    "join",
+    (("point", FOUND), ("and", FOUND)),
+    "(p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]]",
+    "line",
+    named=True,
+)
+DIVIDE = PaletteAction(
+    "divide",
+    (("image", ("image",)), ("and", ("image",))),
+    """(p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
+      .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share)))""",
+)
+POLE = PaletteAction(
+    "pole",
+    (("on", ("bar",)), ("image", ("image",)), ("and", ("image",))),
+    """(bar, i, j) => [picks[bar].on, [...picks[bar].on].reverse()].map(ends => {
+      const [p, q] = ends.map(value_of), image = value_of(i);
+      return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));
+    })""",
+    plane=MECHANISM,
+)
+TRANSFER = PaletteAction(
+    "transfer",
+    (("vector", ("arrow",)), ("at", ("point",))),
+    """(arrow, point) => {
+      const shrunk = seconds ** picks[arrow].plane;
+      return [[value_of(point), plus(value_of(point), scaled(value_of(arrow), shrunk))]];
+    }""",
+    "vector",
+    plane=MECHANISM,
+    named=True,
+)
+
+
+def two(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """The first two things that a step is drawn from."""
+    return picks.point_or_line(args[0]), picks.point_or_line(args[1])
+
+
+def point_and_bar(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """A point, and the bar between two others."""
+    return picks.point_or_line(args[0]), picks.bar(args[1], args[2])
+
+
+def point_and_arrow(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """A point, and the vector between two images."""
+    return picks.point_or_line(args[0]), picks.arrow(args[1], args[2])
+
+
+def one_and_length(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """A point or line, and a length that is laid off."""
+    return picks.point_or_line(args[0]), picks.length(number, args[1])
+
+
+def start_and_vector(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """The point from which a vector is laid off, and the vector."""
+    return picks.point_or_line(args[0]), picks.vector(number)
+
+
+def images_and_place(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """Two images, and the point of the mechanism whose image is found."""
+    return *two(picks, number, args), picks.place_of(number)
+
+
+def place_and_image(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """A point of the mechanism, and the image on which its own falls."""
+    return picks.place_of(number), picks.point_or_line(args[0])
+
+
+def bar_and_images(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """The bar of two points, and their images."""
+    _, p, q, *images = args
+    return picks.bar(p, q), *map(picks.point_or_line, images)
+
+
+def vector_at_point(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+    """A vector of a plan, and the point of the mechanism at which it is set."""
+    return picks.shown_vector(number), picks.point_or_line(args[0])
+
+
+CUTS = Move(CUT, two)
+LAYS_OFF = Move(LAY_OFF, start_and_vector, in_plan=True)
