@@ -410,9 +410,9 @@ class MoveFinder:
 
     def shown_vector(self, number: int) -> str | None:
         """The vector of a plan that a step sets on the mechanism."""
-        step = self.steps[number]
-        vector = plan_vector(step)
-        return self.arrow(*step.args[1:3], symbol(vector.symbol) if vector else "")
+        vector = plan_vector(self.steps[number])
+        _, tail, tip, *_ = self.steps[number].args
+        return self.arrow(tail, tip, symbol(vector.symbol) if vector else "")
 
     def vector(self, number: int) -> str | None:
         """A vector that is known before it is laid off; None for one without length."""

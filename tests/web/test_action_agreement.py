@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import pytest
-
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.closure_solver import closer_of
@@ -14,7 +12,7 @@ from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.mechanism import load
-from tests.chosen import FOLDER, SCENES
+from tests.chosen import SCENES
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")

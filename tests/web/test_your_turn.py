@@ -10,6 +10,7 @@ import pytest
 
 from graphkin.construction.core.program import SPEEDS, Plane, Program
 from graphkin.construction.registry import PALETTE
+from graphkin.construction.velocity.turned_velocity import LaidOffByRate
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
@@ -25,6 +26,17 @@ LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 ALL = tuple(dict.fromkeys((*LABS, *CHOSEN, "plank-two-sizes")))
 PLANS = (Plane.VELOCITIES, Plane.ACCELERATIONS)
 NEAR = 1e-9
+COMING_ALONG = {
+    *("arm", "bar-line", "beside", "cam-centre", "cam-lever", "chord-cuts-guide", "close"),
+    *("circle-on-diameter", "circle-through", "common-chord", "contact-of-wheels"),
+    *("contact-on-track", "coriolis-base", "coriolis-ray", "from-corner", "inflection-circle"),
+    *("inflection-meet", "inflection-point", "inflection-square", "instant-centre"),
+    *("lacks", "ladder-axis", "ladder-foot", "ladder-ray", "ladder-speeds", "ladder-tip"),
+    *("normals-meet", "perpendicular-at", "pin-centre", "pole", "pole-ray", "rack-at", "ray"),
+    *("relative-centre", "set-way", "square-to-guide", "step-along", "to-corner", "turn-over"),
+}
+"""Actions that no move draws: given lines and points, parts of a figure that one move draws, and
+special points that a student reads off."""
 RESULTS = """([source, record]) => {
   const { results_of } = new Function(source + ';return palette_of')()(record, () => true);
   return Object.fromEntries(Object.entries(record.moves).map(([step, { action, inputs }]) =>
@@ -98,6 +110,24 @@ def test_every_step_of_a_plan_is_a_move(name):
         points = [value for value in values if isinstance(value, complex)]
         points += [value.point for value in values if isinstance(value, Line)]
         assert min(abs(turn.values[number] - point) for point in points) < NEAR, (number, step)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_every_other_action_is_a_move(name):
+    """An action that a sentence draws is somewhere a move, or one of those that come along."""
+    sheets, told, turn = turn_of(name)
+    finder = MoveFinder(sheets, told)
+    finder.found()
+    for number in told.at:
+        step = finder.steps[number]
+        if step.action is None or step.arrow:
+            continue
+        by_hand = finder.steps[step.by_hand] if step.by_hand in finder.values else step
+        drawn = by_hand.action or step.action
+        moved = number in turn.moves or finder.same.get(number) in turn.moves
+        assert moved <= (drawn.key not in COMING_ALONG), drawn.key
+        has = drawn.move or step.action.move or isinstance(step.of, LaidOffByRate)
+        assert has or drawn.key in COMING_ALONG, drawn.key
 
 
 @pytest.mark.parametrize("name", ALL)

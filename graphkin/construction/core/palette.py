@@ -22,7 +22,8 @@ class PaletteAction(Struct, frozen=True):
 
     ``script`` takes the keys of the picks and returns a list of results, of which one is meant.
     The result has the given ``shape``. It lies in the drawing number ``plane``; where that is
-    None, in the drawing of the input number ``lies_with``. ``named`` says that the script makes the name of the result from the names of the inputs.
+    None, in the drawing of the input number ``lies_with``. ``named`` says that the script makes
+    the name of the result from the names of the inputs.
     ``said_as`` is the action whose sentences say what is wrong, where these are shared.
     """
 
