@@ -12,6 +12,7 @@ EXAMPLES = ROOT / "examples"
 SCENES_PAGE = EXAMPLES / "SCENES.md"
 CLASSES_PAGE = EXAMPLES / "CLASSES.md"
 README = ROOT / "README.md"
+CONTRIBUTING = ROOT / "CONTRIBUTING.md"
 VERSION = "graphkin ="
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ROW = re.compile(r"^\| (\d+) \| (.+) \| `(.+)` \|$", re.MULTILINE)

@@ -17,6 +17,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from tests.examples.document import (
     CLASSES_PAGE,
+    CONTRIBUTING,
     EXAMPLES,
     README,
     ROOT,
@@ -200,7 +201,7 @@ def test_every_scene_is_named_on_the_page_once() -> None:
     assert sorted(named) == sorted(path.stem for path in (EXAMPLES / "scenes").glob("*.toml"))
 
 
-@pytest.mark.parametrize("page", [README, SCENES_PAGE, CLASSES_PAGE], ids=named)
+@pytest.mark.parametrize("page", [README, CONTRIBUTING, SCENES_PAGE, CLASSES_PAGE], ids=named)
 def test_every_link_leads_to_a_file_and_a_heading(page: Path) -> None:
     led = list(links(page))
     assert led
