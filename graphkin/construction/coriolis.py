@@ -20,7 +20,7 @@ from graphkin.construction.core.component import (
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import Wording, construction
+from graphkin.construction.core.kind import ByHand, Wording, construction
 from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
 from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
 from graphkin.construction.core.pen import PRIME, Pen, letter
@@ -118,7 +118,13 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
         "top": "why.triangles",
     }
     lines: ClassVar[Mapping[str, str]] = {"lean": "the leaning line", "edge": "⊥ at {foot}"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"velocity", "foot"})
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
+        (
+            "velocity",
+            "foot",
+        ),
+        ByHand.LAID_OFF,
+    )
     slips: ClassVar[Mapping[str, complex]] = {"coriolis_missing": 0, "coriolis_reversed": -1}
     palette: ClassVar[PaletteAction] = PaletteAction(
         "coriolis",

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.component import laid_off
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction, constructions
+from graphkin.construction.core.kind import GivesRate, construction, constructions
 from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import rate_symbol, sense, turning_with, vector_of
 from graphkin.construction.core.relation import FINE, Relation, answer, figure
@@ -71,7 +71,7 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
             yield Relation(name, other, "", *tail, takes=other)
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)
-        elif kind and (found := kind.rate_relation(drawing, link, tail)):
+        elif isinstance(kind, GivesRate) and (found := kind.rate_relation(drawing, link, tail)):
             yield found
 
 

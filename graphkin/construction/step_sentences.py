@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import SaidInParts, construction
 from graphkin.construction.core.program import Plane, Step
 from graphkin.text.markup import AND
 
@@ -27,7 +27,7 @@ def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
     step = drawing.trace.program.steps[number]
     kind = construction(step)
     assert kind is not None
-    if parts := [*kind.sentence_parts(drawing, step.role)]:
+    if isinstance(kind, SaidInParts) and (parts := [*kind.sentence_parts(drawing, step.role)]):
         yield from parts
         return
     apart = kind.point_apart(drawing, step.role)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import GivenVector, construction
 from graphkin.construction.core.plan_vector import sign_of
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.relation import Relation, VectorEquation
@@ -23,7 +23,9 @@ def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
             continue
         kind = construction(step)
         for relation in kind.equations(drawing, step.role) if kind else ():
-            taken = kind.rate_taken(drawing, step.role) if kind and relation.symbols else ""
+            taken = ""
+            if isinstance(kind, GivenVector) and relation.symbols:
+                taken = kind.rate_taken(drawing, step.role)
             said = relation.equation or relation.left + relation.symbols
             found.setdefault(said, (taken, relation))
     return joined(list(found.values()))

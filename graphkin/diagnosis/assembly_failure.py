@@ -8,7 +8,7 @@ from typing import Any
 from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import LOCI, Determined
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import PlacesLink, construction
 from graphkin.construction.core.program import Part, Program, Step
 from graphkin.construction.core.run import StepFailed, Trace, Values, evaluate
 from graphkin.construction.higher_class.closure_solver import (
@@ -115,7 +115,8 @@ def not_found(
     words, names = sought(step)
     what = " of ".join(filter(None, (step.part.value, words)))
     kind = construction(step)
-    turned = f"how link {kind.found_link} stands" if kind and kind.found_link else ""
+    link = kind.found_link if isinstance(kind, PlacesLink) else ""
+    turned = f"how link {link} stands" if link else ""
     found = f"{step.name or turned or 'a value'} cannot be found: {reason}"
     return Problem(what, found, expected, hint, about=(Sought(names),))
 
@@ -127,7 +128,7 @@ def sought(step: Step) -> tuple[str, tuple[str, ...]]:
     kind = construction(step)
     if step.name or kind is None:
         return step.name, (step.name,) if step.name else ()
-    if kind.found_link:
+    if isinstance(kind, PlacesLink) and kind.found_link:
         return f"link {kind.found_link}", (kind.found_link,)
     points = tuple(filter(None, kind.points))
     return "-".join(points), points

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from graphkin.construction.core.crossings import Determined
-from graphkin.construction.core.kind import construction, lies_along
+from graphkin.construction.core.kind import ClosesGroup, construction
 from graphkin.construction.core.program import Program, Step
 from graphkin.diagnosis.ranges import MOST
 from graphkin.scene.model import Driver, Scene
@@ -32,7 +32,7 @@ def in_line(scene: Scene, program: Program, number: int, nearly: str = "") -> st
 def closed_by(step: Step) -> tuple[str, ...]:
     """The links of the group of higher class that a step helps to close."""
     kind = construction(step)
-    return kind.closes if kind is not None else ()
+    return kind.closes if isinstance(kind, ClosesGroup) else ()
 
 
 def arms(scene: Scene, links: Sequence[str]) -> list[str]:
@@ -67,11 +67,8 @@ def parallel(program: Program, step: Step, nearly: str = "") -> str:
 def line_words(line: Step) -> tuple[str, bool]:
     """The bar or guide that a line of a plan hangs on, and whether it is drawn square to it."""
     kind = construction(line)
-    if kind is not None and kind.perpendicular_to:
-        return kind.perpendicular_to, True
-    if along := lies_along(line):
-        return along, False
-    return "", False
+    runs = kind.runs if kind is not None else None
+    return (runs.what, runs.square) if runs is not None else ("", False)
 
 
 def beside_dead_point(scene: Scene, program: Program, number: int) -> str:

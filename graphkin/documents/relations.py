@@ -16,7 +16,7 @@ from graphkin.construction.cams.cam_relations import of_cams
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import GivenVector, construction
 from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of
 from graphkin.construction.core.plan_vector import plan_vector, sign_of
@@ -255,7 +255,8 @@ def is_by_rate(drawing: Drawing, step: Step) -> bool:
 def is_by_driver(drawing: Drawing, step: Step) -> bool:
     """True for the whole velocity or acceleration of a point that a driver gives."""
     kind = construction(drawing.trace.program.steps[step.args[1]])
-    return is_by_rate(drawing, step) and bool(kind and kind.known_by(drawing))
+    known = isinstance(kind, GivenVector) and kind.known_by(drawing)
+    return is_by_rate(drawing, step) and bool(known)
 
 
 def of_components(drawing: Drawing) -> list[Section]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec import Struct, field
 
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import PlacesLink, construction
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import Solution, gathered, row_of, rows_of
@@ -297,7 +297,7 @@ def columns_at(
         for n, margin in trace.margins.items():
             step = piece.course.program.steps[n]
             kind = construction(step)
-            name = step.name or (kind.found_link if kind else "")
+            name = step.name or (kind.found_link if isinstance(kind, PlacesLink) else "")
             if n in piece.course.crossings and name:
                 margins.setdefault(name, np.full(len(at), np.nan))[rows] = margin
     return Columns(which, columns, margins)

@@ -10,6 +10,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
+from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout
@@ -175,7 +176,8 @@ class StepStrokes(Struct, frozen=True):
             if number in known:
                 kind, value = construction(canvas.step), known[number]
                 plan = auxiliary_plan(canvas.drawing, number)
-                if kind is not None and kind.is_whole(known):
+                lacks = isinstance(kind, TriangleComponent) and not kind.is_whole(known)
+                if kind is not None and not lacks:
                     kind.marks(canvas, canvas.step.role)
                 if plan is not None:
                     plan.marks(canvas, number)

@@ -394,10 +394,10 @@ class MoveFinder:
         """A length that is laid off at a step."""
         kind, key = construction(self.steps[number]), f"l{length}"
         role = self.steps[number].role
-        ends = kind.laid_length(role) if kind is not None else None
+        laid = kind.laid_length(role) if kind is not None else None
         drawing = self.drawing(number)
-        if kind is not None and ends:
-            name = "".join(map(symbol, ends)) + ("/2" if kind.lays_half else "")
+        if laid is not None:
+            name = symbol(laid.first) + symbol(laid.last) + "/2" * laid.half
         else:
             name = drawing.words("turn.length", name=self.letter(number))
         needs = self.needs([length])

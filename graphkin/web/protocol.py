@@ -16,6 +16,7 @@ from graphkin.construction.core.plan_vector import is_set_on, plan_vector
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.segments import segment_of
 from graphkin.construction.rate_relations import of_turning
+from graphkin.construction.rolling.contact_points import PointOfContact
 from graphkin.documents.detail import scale_words
 from graphkin.documents.flattest import crossings_on
 from graphkin.documents.indices import with_indices
@@ -377,7 +378,7 @@ def marked_beside(sheet: ScreenSheet) -> Iterator[tuple[Mark, int]]:
     steps, field = sheet.drawing.trace.program.steps, sheet.layout.mechanism
     for number, at in sheet.drawing.trace.values.items():
         kind = construction(steps[number])
-        if kind is None or not kind.marked_as:
+        if not isinstance(kind, PointOfContact):
             continue
         place = complex(*field(at))
         for mark in sheet.left:

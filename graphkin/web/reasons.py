@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import component_of, is_hidden
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Sentence, construction
+from graphkin.construction.core.kind import GivesRate, Sentence, construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.links.idle_links import IDLE
+from graphkin.construction.normal_component.normal_component import NormalComponent
 from graphkin.construction.velocity.lines_through import PerpendicularThrough
 from graphkin.documents.flattest import OWN
 from graphkin.documents.sentences import SET_ON, TURNING
@@ -75,7 +76,8 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
         kind = construction(steps[sentence.step])
-        yield words(kind.rate_reason(drawing) if kind else "why.rate"), NO_STEP
+        key = kind.rate_reason(drawing) if isinstance(kind, GivesRate) else "why.rate"
+        yield words(key), NO_STEP
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
     elif plan and (key := plan.reason(sentence.name)):
@@ -103,5 +105,7 @@ def fields(drawing: Drawing, step: Step) -> dict[str, str]:
     known = dict.fromkeys(("p", "q", "r", "g", "k", "i", "bar"), "")
     kind = construction(step)
     if kind is not None:
-        known |= kind.symbols_on(drawing)
+        known |= kind.symbols()
+        if isinstance(kind, NormalComponent):
+            known |= kind.corner_symbols(drawing, *kind.lettered)
     return known | {"name": symbol(step.name) if step.name else ""}

@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import ByHand, construction
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.numbers.arithmetic import Point, Real, turn_by
@@ -37,7 +37,8 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
     if step.plane is Plane.NUMBERS or isinstance(value, Vector):
         return None
     kind = construction(step)
-    if kind is not None and step.role in kind.unmarked:
+    by_hand = kind.pencil.get(step.role) if kind is not None else None
+    if by_hand is ByHand.KNOWN:
         return None
     if isinstance(value, Line):
         return PencilMark.LINE
@@ -47,10 +48,9 @@ def mark_of(step: Step, value: Any) -> PencilMark | None:
         return PencilMark.POINT
     if not isinstance(value, complex):
         return None
-    if kind is not None and step.role in kind.directions:
+    if by_hand is ByHand.TURNED:
         return PencilMark.WAY
-    is_laid = kind is not None and step.role in kind.laid_off
-    return PencilMark.ARROW if is_laid else PencilMark.POINT
+    return PencilMark.POINT if by_hand is None else PencilMark.ARROW
 
 
 class Paper(Struct, frozen=True):

@@ -8,6 +8,7 @@ from typing import Any
 from graphkin.accuracy.pencil.original import Original
 from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.accuracy.pencil.pencil_marks import PencilMark, marked
+from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.kind import construction
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
@@ -46,7 +47,7 @@ def step_drawn(
         return value
     start, kind = value, construction(step)
     if mark is PencilMark.ARROW and kind is not None:
-        start = found[kind.laid_from(step)]
+        start = found[kind.pivot if isinstance(kind, CurvatureCentre) else step.args[0]]
     return marked(mark, value, start, errors, pencil, mm)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import ClosesGroup, construction
 from graphkin.construction.core.pen import image, letter, second_image
 from graphkin.construction.core.program import Part, Program
 from graphkin.scene.link_points import ends_of
@@ -25,7 +25,7 @@ def place_words(program: Program, number: int) -> str:
     kind = construction(step)
     if kind is not None and (title := kind.title(step.role)):
         return title
-    if kind is not None and kind.closes:
+    if isinstance(kind, ClosesGroup) and kind.closes:
         return f"links {listed(kind.closes)} together"
     return point_words(program, drawn_name(program, number))
 

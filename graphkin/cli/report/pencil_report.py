@@ -9,6 +9,7 @@ from typing import Any
 from graphkin.accuracy.pencil import Forecast
 from graphkin.accuracy.pencil.forecast import Expected
 from graphkin.cli.report.solution_record import real
+from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.crossings import (
     Crossing,
     crossings,
@@ -144,7 +145,7 @@ def crossings_table(found: Forecast, crossed: tuple[Crossing, ...]) -> list[str]
 def drawing_of(found: Forecast, crossing: Crossing) -> str:
     """Where a crossing is drawn."""
     kind = construction(found.original.program.steps[crossing.number])
-    return (kind.drawn_in if kind else "") or DRAWN_IN[crossing.part]
+    return kind.drawn_in if isinstance(kind, TriangleComponent) else DRAWN_IN[crossing.part]
 
 
 def rough(values: Sequence[float | None], endless: str = NONE) -> list[str]:

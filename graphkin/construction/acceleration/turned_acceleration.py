@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import ByHand, EndsComponent, GivenVector
 from graphkin.construction.core.naming import has_no_length, rate_symbol
 from graphkin.construction.core.pen import Pen, about, letter
 from graphkin.construction.core.program import Plane
@@ -39,7 +40,7 @@ def driven_tangential(start: Point, pivot: Point, pin: Point, epsilon: Real) -> 
     return start + 1j * (pin - pivot) * epsilon
 
 
-class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
+class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=True, kw_only=True):
     """ω²·l and ε·l laid off in the acceleration plan from the second image ``start`` of a pivot.
 
     The centripetal component ends in ``end``, the tangential one from there in the pin's ``image``;
@@ -48,7 +49,13 @@ class TurnedAcceleration(LaidOffAboutPivot, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("end", "image")
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"end", "image"})
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
+        (
+            "end",
+            "image",
+        ),
+        ByHand.LAID_OFF,
+    )
     imaged: ClassVar[frozenset[str]] = frozenset({"end", "image"})
 
     start: int

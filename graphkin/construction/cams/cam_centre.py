@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import drawn_amount, nearest_side
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
@@ -240,7 +240,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"tip": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("pin", "name")
     laid_at: ClassVar[str] = "tip"
 
@@ -265,7 +265,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.cam_centre"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
     has_angle: ClassVar[bool] = False
     between: ClassVar[tuple[str, ...]] = ("start", "name")
 
@@ -278,10 +278,6 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     rate: int
     bend: int
     point: int
-
-    def laid_from(self, step: Step) -> int:
-        """The cam's pivot."""
-        return self.pivot
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """A pitch curve without curvature."""

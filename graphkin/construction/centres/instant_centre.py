@@ -19,7 +19,7 @@ from graphkin.construction.centres.relative_centre import RelativeCentre, relati
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import SaidInParts, construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import is_set_on
 from graphkin.construction.core.program import Part, Plane
@@ -44,7 +44,7 @@ def instant_centre(o: Point, p: Point, q: Point, image_p: Point, image_q: Point)
 # --- what it is ----------------------------------------------------------------------------------
 
 
-class InstantCentre(TwoPointCentre, frozen=True, kw_only=True):
+class InstantCentre(TwoPointCentre, SaidInParts, frozen=True, kw_only=True):
     """The centre of a link where the normals to the velocities of two points cross (Chasles)."""
 
     key: ClassVar[str] = "instant-centre"

@@ -11,7 +11,14 @@ from msgspec import Struct
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, Wording, construction, constructions
+from graphkin.construction.core.kind import (
+    ByHand,
+    Construction,
+    EndsComponent,
+    Wording,
+    construction,
+    constructions,
+)
 from graphkin.construction.core.naming import drawn_between, plan_amount
 from graphkin.construction.core.palette import PaletteAction, Picks
 from graphkin.construction.core.plan_vector import sign_of
@@ -60,6 +67,7 @@ class Component(Construction, frozen=True, kw_only=True):
     ``vector`` is the stable value; ``read`` reads the same off a triangle on the mechanism, None
     where no triangle is drawn. ``palette`` is the action of a page that draws it, if one does;
     ``limited`` is what its figure is called where its proportions decide whether it can be drawn.
+    ``slips`` are the factors by which a student's mistakes multiply it.
     """
 
     limited: ClassVar[str] = ""
@@ -71,6 +79,8 @@ class Component(Construction, frozen=True, kw_only=True):
     effect: ClassVar[Effect | None] = None
     follows: ClassVar[bool] = False
     gives_way: ClassVar[bool] = False
+
+    slips: ClassVar[Mapping[str, complex]] = {}
 
     index: str
     vector: int | None = None
@@ -250,11 +260,11 @@ class Measured(Struct, frozen=True):
         return abs(way) * (1000 / self.drawing.scales.kL)
 
 
-class LaidOff(Construction, frozen=True, kw_only=True):
+class LaidOff(EndsComponent, frozen=True, kw_only=True):
     """A component laid off in the plan from a known point, or back from the tip that it ends in."""
 
     gives: ClassVar[tuple[str, ...]] = ("corner",)
-    laid_off: ClassVar[frozenset[str]] = frozenset({"corner"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"corner": ByHand.LAID_OFF}
 
     component: Component
     start: int
@@ -340,7 +350,7 @@ def end_before(drawing: Drawing, number: int) -> int:
 def index_before(program: Program, number: int) -> str:
     """The index of the component that ends in a point of a plan; nothing where none does."""
     kind = construction(program.steps[number])
-    return kind.index_at(program.steps[number].role) if kind else ""
+    return kind.index_at(program.steps[number].role) if isinstance(kind, EndsComponent) else ""
 
 
 def components(program: Program) -> Iterator[Component]:
@@ -357,7 +367,7 @@ def component_of(program: Program, number: int) -> Component | None:
 def is_hidden(drawing: Drawing, number: int) -> bool:
     """Whether a step is part of a triangle on the mechanism that is too small to be drawn."""
     kind = construction(drawing.trace.program.steps[number])
-    return isinstance(kind, Component) and kind.is_hidden(drawing)
+    return isinstance(kind, TriangleComponent) and kind.is_hidden(drawing)
 
 
 def components_on(drawing: Drawing) -> Iterator[Component]:

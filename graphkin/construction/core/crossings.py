@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import ClosesGroup, Construction, construction
 from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import Trace
 from graphkin.text.errors import Problem
@@ -105,7 +105,7 @@ def is_drawn(step: Step, sine: float) -> bool:
 def is_found_by_closing(step: Step) -> bool:
     """Whether a step holds a value at which a group of higher class was found to close."""
     kind = construction(step)
-    return kind is not None and bool(kind.closes) and step.role != "closing"
+    return isinstance(kind, ClosesGroup) and bool(kind.closes) and step.role != "closing"
 
 
 def flattest(found: tuple[Crossing, ...]) -> Crossing | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, constructions
+from graphkin.construction.core.kind import ClosesGroup, constructions
 from graphkin.construction.core.naming import axis_of, nearest_side, straight
 from graphkin.construction.core.parameter_words import after_parameter
 from graphkin.construction.core.pen import letter
@@ -233,7 +233,7 @@ def positive_track(drawing: Drawing, link: Link, rolling: Rolling) -> str:
 
 def closures(drawing: Drawing) -> Iterator[str]:
     """Which of the ways in which a group of higher class closes is meant."""
-    groups = [kind for kind in constructions(drawing.trace.program, Construction) if kind.closes]
+    groups = [*constructions(drawing.trace.program, ClosesGroup)]
     for name, branch in drawing.scene.branches.items():
         if isinstance(branch, Closure):
             yield next(kind for kind in groups if name in kind.closes).branch_words(drawing)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
+from enum import Enum
 from typing import ClassVar, TypeVar
 
 from msgspec import Struct
@@ -16,38 +18,42 @@ from graphkin.construction.core.relation import Relation
 K = TypeVar("K", bound=Roles)
 
 
+class Run(Struct, frozen=True):
+    """What a line lies along, or is ``square`` to, as a report calls it."""
+
+    what: str
+    square: bool = False
+
+
+class ByHand(Enum):
+    """How a hand makes a mark that is neither a point marked by itself nor a line."""
+
+    LAID_OFF = "laid off from a point, along a line"
+    TURNED = "a direction"
+    KNOWN = "not made: the point is there already"
+
+
 class Construction(Roles, frozen=True):
-    """One construction: its roles are fields, and beside them stands all that is known of it.
+    """One construction: its roles are fields, and beside them is all that is known of it.
 
-    ``reasons`` has the key of the reason behind a role's step, ``lines`` what its line is called,
-    ``laid_off`` the roles of points that are laid off from another (``laid_from``),
-    ``unmarked`` those of points that a pencil need not mark, ``directions`` those of unit vectors,
-    ``slips`` by what a student's slip multiplies its result, ``drawn_in`` what a report calls the
-    drawing of its crossings where that is not the plan's. ``joins`` are the roles of lines drawn as
-    far as the points through which they lead. ``marked_as`` is the class of the circle by which the
-    mechanism shows its point, where no mark of its own step does.
+    For reports: ``titled`` is what is found, ``lines`` what a role's line is called, ``guided`` the
+    role of the block or wheel along whose guide its line lies.
 
-    ``told_after`` are the roles of the lines that are told before its step, ``between`` those of
-    the names of the points that it joins: ``laid_at`` is the role of the step that lays off the
-    distance of the first and the last, or half of it, as of two points that stand already, where
-    it ``lays_half``. ``guided`` is the role of the block or wheel along whose
-    guide its line lies, ``imaged`` are those of points marked in a plan with their letters,
-    ``titled`` is what a report calls what it finds.
+    For sheets: ``reasons`` has the key of the reason behind a role's step, ``told_after`` the roles
+    of the lines that a sentence names before its step, ``between`` those of the names of the points
+    that it joins, ``imaged`` those of points marked in a plan with their letters. ``laid_at`` is
+    the role of the step that lays off the distance of the first and the last of these points.
+
+    For pencils: ``pencil`` says how a hand makes the mark of a role, where it does not mark a
+    point or draw a line.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {}
     lines: ClassVar[Mapping[str, str]] = {}
-    laid_off: ClassVar[frozenset[str]] = frozenset()
-    unmarked: ClassVar[frozenset[str]] = frozenset()
-    directions: ClassVar[frozenset[str]] = frozenset()
-    slips: ClassVar[Mapping[str, complex]] = {}
-    drawn_in: ClassVar[str] = ""
-    joins: ClassVar[frozenset[str]] = frozenset()
-    marked_as: ClassVar[str] = ""
+    pencil: ClassVar[Mapping[str, ByHand]] = {}
     told_after: ClassVar[tuple[str, ...]] = ()
     between: ClassVar[tuple[str, ...]] = ()
     laid_at: ClassVar[str] = ""
-    lays_half: ClassVar[bool] = False
     guided: ClassVar[str] = ""
     imaged: ClassVar[frozenset[str]] = frozenset()
     titled: ClassVar[str] = ""
@@ -64,75 +70,28 @@ class Construction(Roles, frozen=True):
         """The letters that reasons and names of lines speak of."""
         return {}
 
-    def symbols_on(self, drawing: Drawing) -> Mapping[str, str]:
-        """The same as a sheet writes them."""
-        return self.symbols()
-
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """What a role's line is called in a report; nothing for other roles."""
         letters = {each: steps[number].name for each, number in self.given()}
         return self.lines.get(role, "").format_map({**asdict(self), **letters})
 
     @property
-    def lies_along(self) -> str:
-        """The bar, guide or track along which its line lies, in a report; nothing for others."""
-        return f"the guide of {getattr(self, self.guided)}" if self.guided else ""
-
-    @property
-    def perpendicular_to(self) -> str:
-        """The bar to which its line is perpendicular, in a report; nothing for others."""
-        return ""
-
-    @property
-    def closes(self) -> tuple[str, ...]:
-        """The links that it closes together; none for others."""
-        return ()
-
-    @property
-    def found_link(self) -> str:
-        """The link whose place it finds; nothing where it finds a point."""
-        return ""
-
-    def branch_words(self, drawing: Drawing) -> str:
-        """Which of the ways in which its links close is meant, among what is given."""
-        return ""
-
-    @property
-    def sought(self) -> str:
-        """The point whose image it finds by crossing lines; nothing for others."""
-        return ""
-
-    @property
-    def falls_on(self) -> int | None:
-        """The step of the image on which its own falls whatever the motion; None for others."""
-        return None
+    def runs(self) -> Run | None:
+        """How its line lies, in a report: along the guide of a block; None for others."""
+        return Run(f"the guide of {getattr(self, self.guided)}") if self.guided else None
 
     @property
     def points(self) -> tuple[str, ...]:
         """The points of the mechanism that it joins."""
         return tuple(point for role in self.between if (point := getattr(self, role)))
 
-    def laid_from(self, step: Step) -> int:
-        """The point from which a step lays off: the first value that it takes."""
-        return step.args[0]
-
-    def laid_length(self, role: str) -> tuple[str, str] | None:
-        """The points whose distance is laid off at a role's step; None for other roles."""
-        return (self.points[0], self.points[-1]) if role == self.laid_at else None
+    def laid_length(self, role: str) -> LaidLength | None:
+        """The length that is laid off at a role's step; None for other roles."""
+        return LaidLength(self.points[0], self.points[-1]) if role == self.laid_at else None
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """What is said of a role's step that finds no point; nothing for other roles."""
         return ""
-
-    def rate_relation(
-        self, drawing: Drawing, link: str, tail: tuple[str, str, str]
-    ) -> Relation | None:
-        """How the rate of a link that it gives is found: with result, unit and sense at the end."""
-        return None
-
-    def rate_reason(self, drawing: Drawing) -> str:
-        """The key of why a rate that it gives is found as it is."""
-        return "why.rate"
 
     def said_before(self, drawing: Drawing, role: str) -> tuple[int, ...]:
         """The steps of the lines that are told before the step of a role."""
@@ -156,51 +115,124 @@ class Construction(Roles, frozen=True):
         """
         return ""
 
-    def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
-        """What is said of a role's step part by part, each with the step that it ends with; nothing
-        where it is said at once, or by its lines and ``point_apart``.
-        """
-        yield from ()
-
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The vector equations of a plan that the step of a role follows, if they are its own."""
         yield from ()
-
-    def known_by(self, drawing: Drawing) -> str:
-        """Direction and size of the vector that it finds, where these are known before."""
-        return ""
-
-    def rate_taken(self, drawing: Drawing, role: str) -> str:
-        """The symbol of the rate of a sheet by which the vector of a role is computed."""
-        return ""
-
-    def source_of_rate(self, drawing: Drawing) -> str:
-        """From what the rate is found that it gives, as is said where that is used first."""
-        return ""
-
-    def index_at(self, role: str) -> str:
-        """The index of the relative acceleration that ends in a role's point; nothing for none."""
-        return ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the step of a role."""
         if role in self.imaged:
             canvas.image()
 
-    def is_whole(self, known: Container[int]) -> bool:
-        """Whether its marks can be drawn from the steps that are known."""
-        return True
 
-    def is_hidden(self, drawing: Drawing) -> bool:
-        """Whether it is too small on a sheet to be drawn."""
-        return False
+# --- faces that some kinds have -------------------------------------------------------------------
+
+
+class LaidLength(Struct, frozen=True):
+    """A length that a compass takes off: the distance of two points, or half of it."""
+
+    first: str
+    last: str
+    half: bool = False
+
+
+class ClosesGroup(Construction, frozen=True):
+    """What closes a group of higher class: the links that it ``closes`` together."""
+
+    @property
+    def closes(self) -> tuple[str, ...]:
+        """The links of the group."""
+        return ()
+
+    def branch_words(self, drawing: Drawing) -> str:
+        """Which of the ways in which they close is meant, among what is given."""
+        return ""
+
+
+class PlacesLink(Construction, frozen=True):
+    """What finds how a link lies, where it finds no point."""
+
+    @property
+    @abstractmethod
+    def found_link(self) -> str:
+        """The link; nothing where a point of it is found."""
+
+
+class FindsImage(Construction, frozen=True):
+    """What finds the image of a point by crossing lines."""
+
+    @property
+    @abstractmethod
+    def sought(self) -> str:
+        """The point; nothing where its place says nothing of it."""
+
+
+class FallsOnImage(Construction, frozen=True):
+    """The image of a point that has the motion of another: of a link that only shifts."""
+
+    @property
+    @abstractmethod
+    def falls_on(self) -> int:
+        """The step of the image on which its own falls whatever the motion."""
+
+
+class GivesRate(Construction, frozen=True):
+    """What finds how a link turns."""
+
+    def rate_relation(
+        self, drawing: Drawing, link: str, tail: tuple[str, str, str]
+    ) -> Relation | None:
+        """How the rate is found: with result, unit and sense at the end."""
+        return None
+
+    def rate_reason(self, drawing: Drawing) -> str:
+        """The key of why the rate is found as it is."""
+        return "why.rate"
+
+    def source_of_rate(self, drawing: Drawing) -> str:
+        """From what the rate is found, as the sentence says that uses it first."""
+        return ""
+
+
+class GivenVector(Construction, frozen=True):
+    """A vector whose direction and size are known before the plan."""
+
+    @abstractmethod
+    def known_by(self, drawing: Drawing) -> str:
+        """Direction and size; nothing where these are not known before."""
+
+    @abstractmethod
+    def rate_taken(self, drawing: Drawing, role: str) -> str:
+        """The symbol of the rate of a sheet by which the vector of a role is computed."""
+
+
+class EndsComponent(Construction, frozen=True):
+    """What lays off a component of a relative acceleration."""
+
+    @abstractmethod
+    def index_at(self, role: str) -> str:
+        """The index of the component that ends in a role's point; nothing for other roles."""
+
+
+class SaidInParts(Construction, frozen=True):
+    """What is said of a step part by part."""
+
+    @abstractmethod
+    def sentence_parts(self, drawing: Drawing, role: str) -> Iterator[tuple[int, str]]:
+        """The parts, each with the step that it ends with; none where it is said at once."""
+
+
+class JoinsPoints(Construction, frozen=True):
+    """What draws lines as far as the points through which they lead: ``joins`` are their roles."""
+
+    joins: ClassVar[frozenset[str]]
 
 
 class PlanPole(Construction, frozen=True, kw_only=True):
     """The ``pole`` of a plan, chosen freely: the image of everything that stands still."""
 
     gives: ClassVar[tuple[str, ...]] = ("pole",)
-    unmarked: ClassVar[frozenset[str]] = frozenset({"pole"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"pole": ByHand.KNOWN}
 
     pole: int
 
@@ -217,7 +249,8 @@ def construction(step: Step) -> Construction | None:
 def lies_along(step: Step) -> str:
     """The guide, track or bar along which a line lies, in a report; nothing for other steps."""
     kind = construction(step)
-    return kind.lies_along if kind is not None else ""
+    runs = kind.runs if kind is not None else None
+    return runs.what if runs is not None and not runs.square else ""
 
 
 def constructions(program: Program, kind: type[K]) -> Iterator[K]:

@@ -16,7 +16,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import JoinsPoints, construction
 from graphkin.construction.core.program import Part, Plane
 from graphkin.drawing.areas import ABOVE, AREA, HEIGHT, LEAST_FIELD, MARGIN, WIDTH, Rect
 from graphkin.drawing.field import Field
@@ -199,7 +199,7 @@ def joined_points(drawing: Drawing, number: int) -> list[int]:
     if not isinstance(values[number], Line):
         return []
     kind = construction(step)
-    joins = kind is not None and step.role in kind.joins
+    joins = isinstance(kind, JoinsPoints) and step.role in kind.joins
     return [arg for arg in step.args if joins or isinstance(values[arg], Ratio)]
 
 

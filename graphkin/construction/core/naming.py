@@ -7,7 +7,7 @@ from math import degrees
 from typing import Any
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import FallsOnImage, construction
 from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.construction.core.quantities import OnPaper, in_mm, number_of, quantity_text
@@ -57,8 +57,7 @@ def arrow_of(drawing: Drawing, tail: int, tip: int) -> Step | None:
 def fallen(drawing: Drawing, number: int) -> int:
     """The image on which that of a point of a link that only shifts falls, or the image itself."""
     kind = construction(drawing.trace.program.steps[number])
-    under = kind.falls_on if kind else None
-    return number if under is None else under
+    return kind.falls_on if isinstance(kind, FallsOnImage) else number
 
 
 def vector_of(drawing: Drawing, tail: int, tip: int, default: str = "") -> str:

@@ -11,6 +11,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.curve_marks import clipped_path, ring
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
@@ -54,7 +55,7 @@ BEYOND_TIPS = 4.0
 
 def draw_part(canvas: PaperCanvas, kind: Construction) -> None:
     """Draw the step of a construction, unless the construction is too small for it."""
-    if not kind.is_hidden(canvas.drawing):
+    if not (isinstance(kind, TriangleComponent) and kind.is_hidden(canvas.drawing)):
         kind.marks(canvas, canvas.step.role)
 
 

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from graphkin.construction.core.component import end_before
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import ByHand
 from graphkin.construction.core.naming import (
     driver_index,
     driver_of_rate,
@@ -46,7 +47,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.driven"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
     told_after: ClassVar[tuple[str, ...]] = ("start",)
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 

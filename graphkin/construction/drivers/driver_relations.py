@@ -218,10 +218,9 @@ def laid_bars(drawing: Drawing) -> Iterator[tuple[str, str]]:
     """The ends of the bars that are laid off on the mechanism, in the order of drawing."""
     for _, step, _ in drawing.steps(Plane.MECHANISM, Plane.NUMBERS):
         kind = construction(step)
-        if kind is None or kind.lays_half:
-            continue
-        if laid := kind.laid_length(step.role):
-            yield laid
+        laid = kind.laid_length(step.role) if kind is not None else None
+        if laid is not None and not laid.half:
+            yield laid.first, laid.last
 
 
 def by_cosines(drawing: Drawing) -> Iterator[Relation]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import driver_index, rate_symbol, sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import FINE, Relation, figure, within
@@ -14,7 +14,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.model import Driver
 
 
-class SummedRate(Construction, frozen=True, kw_only=True):
+class SummedRate(GivesRate, frozen=True, kw_only=True):
     """The ``rate`` of a ``link`` from that of the one against which a driver turns it.
 
     Of the link against which another is turned the given rate ``own`` is taken away.

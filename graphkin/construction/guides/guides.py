@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import ClassVar
 
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import across
@@ -34,7 +35,7 @@ class CarriedDirection(Construction, frozen=True, kw_only=True):
     """A direction of a ``link``'s own axes, in the plane."""
 
     gives: ClassVar[tuple[str, ...]] = ("turn",)
-    directions: ClassVar[frozenset[str]] = frozenset({"turn"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
 
     link: str
     turn: int
@@ -44,7 +45,7 @@ class CarriedPlace(Construction, frozen=True, kw_only=True):
     """A place of a ``link``'s own axes that is none of its points, in the plane."""
 
     gives: ClassVar[tuple[str, ...]] = ("place",)
-    laid_off: ClassVar[frozenset[str]] = frozenset({"place"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"place": ByHand.LAID_OFF}
 
     link: str
     place: int

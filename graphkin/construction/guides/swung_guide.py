@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
+from msgspec.structs import replace
+
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import ByHand, LaidLength, PlacesLink
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
@@ -96,14 +99,14 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
 # --- what they are -------------------------------------------------------------------------------
 
 
-class SwungGuide(Determined, frozen=True, kw_only=True):
+class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
     """A guide of a ``link`` that turns about its ``pivot`` and leads the ``pin`` of a ``block``.
 
     It gives its direction ``turn`` and its ``line``.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("turn", "line")
-    directions: ClassVar[frozenset[str]] = frozenset({"turn"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
     between: ClassVar[tuple[str, ...]] = ("pivot", "pin")
     guided: ClassVar[str] = "block"
@@ -171,20 +174,30 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("small", "large", "foot", "tangent", "turn", "line")
-    directions: ClassVar[frozenset[str]] = frozenset({"tangent", "turn"})
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
+        (
+            "tangent",
+            "turn",
+        ),
+        ByHand.TURNED,
+    )
     corners: ClassVar[frozenset[str]] = frozenset({"foot"})
     lines: ClassVar[Mapping[str, str]] = {
         **SwungGuide.lines,
         **dict.fromkeys(("small", "large"), "the arc {pivot}{pin} about {pivot}"),
     }
     laid_at: ClassVar[str] = "large"
-    lays_half: ClassVar[bool] = True
 
     height: int
     small: int | None = None
     large: int | None = None
     foot: int | None = None
     tangent: int | None = None
+
+    def laid_length(self, role: str) -> LaidLength | None:
+        """Half the distance of the pins, the radius of the circle of Thales."""
+        whole = super().laid_length(role)
+        return replace(whole, half=True) if whole is not None else None
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """As much of both circles as finds the foot."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import ClosesGroup, LaidLength, PlacesLink
 from graphkin.construction.core.naming import angle_symbol, axis_of, way_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver
@@ -14,7 +14,7 @@ from graphkin.structure.groups import Higher, Tie
 from graphkin.structure.pairs import Pin, Sliding
 
 
-class ClosedGroup(Construction, frozen=True):
+class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
     """A group in one closure: the step that closes it, the tried link's place, its dyads' sides.
 
     Its closures are numbered by the angle of the link ``counted``. ``traced`` are the points whose
@@ -78,9 +78,12 @@ class ClosedGroup(Construction, frozen=True):
         """The points of which its sentence speaks."""
         return self.pins
 
-    def laid_length(self, role: str) -> tuple[str, str] | None:
+    def laid_length(self, role: str) -> LaidLength | None:
         """The bar that is cut off: the compass is opened as far, or the loci are so far apart."""
-        return (self.pins[0], self.pins[1]) if role == "closing" and len(self.pins) > 1 else None
+        if role != "closing" or len(self.pins) < 2:
+            return None
+        first, second = self.pins
+        return LaidLength(first, second)
 
     @property
     def locus(self) -> str:

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Construction, FindsImage, GivesRate, JoinsPoints
 from graphkin.construction.core.palette import DIVIDE, JOIN, Move, two
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Target
@@ -58,7 +58,7 @@ class Divided(Construction, frozen=True, kw_only=True):
     value: int
 
 
-class DividedRate(Divided, frozen=True, kw_only=True):
+class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
     """The rate of the tried link itself."""
 
     def rate_reason(self, drawing: Drawing) -> str:
@@ -82,7 +82,7 @@ class DividedRate(Divided, frozen=True, kw_only=True):
         return Relation(name, whole, figures, result, unit, turning, takes=SHARE)
 
 
-class CrossedLine(Construction, frozen=True):
+class CrossedLine(JoinsPoints, frozen=True):
     """The line through two trials of a point, and where a line known before them cuts it."""
 
     gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
@@ -112,7 +112,7 @@ class CrossedLine(Construction, frozen=True):
         self.marks(canvas, role)
 
 
-class DividedPoint(Divided, frozen=True, kw_only=True):
+class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
     """The image of a ``point``: where its line is crossed, or divided as another one's is."""
 
     reasons: ClassVar[Mapping[str, str]] = {"value": "why.trials"}

@@ -13,7 +13,8 @@ from msgspec.structs import replace
 from graphkin.construction.core.bases import bases, ending
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import (
-    Construction,
+    ClosesGroup,
+    SaidInParts,
     Sentence,
     construction,
     constructions,
@@ -85,7 +86,7 @@ def share_on_line(first: Point, second: Point, found: Point) -> Real:
     return dot(way, found - first) / dot(way, way)
 
 
-class TwoTrials(Construction, frozen=True):
+class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
     """The share of the way from the first trial plan to the second at which nothing is missed.
 
     ``gaps`` are what the ``plans`` miss. Where a crossing finds a point, the share is ``measured``

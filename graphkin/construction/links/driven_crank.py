@@ -10,7 +10,7 @@ from typing import ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import is_found_by_closing
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import angle_symbol, axis_of
 from graphkin.construction.core.palette import MARK_OFF, Move, one_and_length
 from graphkin.construction.core.pen import Pen
@@ -98,7 +98,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"tip": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("pivot", "name")
     laid_at: ClassVar[str] = "tip"
 

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import (
+    ByHand,
     Construction,
     Sentence,
     construction,
@@ -42,7 +43,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.placed"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("start", "name")
     laid_at: ClassVar[str] = "point"
 
@@ -141,7 +142,7 @@ class PlatePoint(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("corner", "point")
-    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("start", "end", "name")
 
     start: str

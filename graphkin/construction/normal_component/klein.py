@@ -117,7 +117,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         "across": "⊥ to the guide at {o}",
         "chord": "the common chord",
     }
-    laid_off: ClassVar[frozenset[str]] = frozenset()
     lettered: ClassVar[tuple[str, ...]] = ("corner", "foot", "whole")
     palette: ClassVar[PaletteAction] = PaletteAction(
         "klein", PICKED, SCRIPT, plane=NUMBERS, said_as="triangle"

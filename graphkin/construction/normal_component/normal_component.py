@@ -20,7 +20,7 @@ from graphkin.construction.core.component import (
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Sentence, Wording, in_one, together
+from graphkin.construction.core.kind import ByHand, Sentence, Wording, in_one, together
 from graphkin.construction.core.naming import plan_amount
 from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
 from graphkin.construction.core.pen import Pen, about, against, letter
@@ -108,7 +108,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     laid_off_reason: ClassVar[str] = "why.normal"
     reasons: ClassVar[Mapping[str, str]] = {"cut": "why.height", "end": "why.over"}
     lines: ClassVar[Mapping[str, str]] = {"line": "{p}{q}", "edge": "⊥ at {tip}"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"tip"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"tip": ByHand.LAID_OFF}
     lettered: ClassVar[tuple[str, ...]] = ("tip", "cut", "end")
     slips: ClassVar[Mapping[str, complex]] = {"normal_missing": 0, "normal_reversed": -1}
     palette: ClassVar[PaletteAction] = PaletteAction("triangle", PICKED, SCRIPT, plane=NUMBERS)
@@ -139,10 +139,6 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
             "q": symbol(self.q),
             "bar": bar(self.p, self.q),
         }
-
-    def symbols_on(self, drawing: Drawing) -> Mapping[str, str]:
-        """The same, and the corners of the triangle."""
-        return {**self.symbols(), **self.corner_symbols(drawing, *self.lettered)}
 
     @classmethod
     def cause(cls, scene: Scene) -> str:

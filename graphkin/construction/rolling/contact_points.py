@@ -9,7 +9,13 @@ from typing import Any, ClassVar, Concatenate, ParamSpec, TypeVar
 from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
+from graphkin.construction.core.kind import (
+    ByHand,
+    Construction,
+    PlanPole,
+    construction,
+    constructions,
+)
 from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import plan_vector
@@ -295,7 +301,7 @@ class RackPoint(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("point",)
-    laid_off: ClassVar[frozenset[str]] = frozenset({"point"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
 
     rack: str
     wheel: str

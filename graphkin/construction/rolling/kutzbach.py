@@ -16,7 +16,15 @@ from typing import ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, Sentence, construction, together
+from graphkin.construction.core.kind import (
+    ByHand,
+    Construction,
+    GivesRate,
+    JoinsPoints,
+    Sentence,
+    construction,
+    together,
+)
 from graphkin.construction.core.naming import plan_amount, scale_of
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.relation import Relation, answer, figure
@@ -99,7 +107,7 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("axis", "start")
     reasons: ClassVar[Mapping[str, str]] = {"start": "why.ladder_axis"}
     lines: ClassVar[Mapping[str, str]] = {"axis": "the axis"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"start"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"start": ByHand.LAID_OFF}
 
     p: str
     q: str
@@ -128,7 +136,13 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.ladder_tip"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"foot", "tip"})
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
+        (
+            "foot",
+            "tip",
+        ),
+        ByHand.LAID_OFF,
+    )
 
     point: str
     before: int
@@ -159,7 +173,7 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
         return drawing.words("step.ladder-tip", v=symbol(f"v_{self.point}"), drawn=drawn)
 
 
-class LadderRay(Construction, frozen=True, kw_only=True):
+class LadderRay(JoinsPoints, frozen=True, kw_only=True):
     """The ``ray`` of a ``link`` through the tips ``first`` and ``last`` of two of its points."""
 
     gives: ClassVar[tuple[str, ...]] = ("ray",)
@@ -193,7 +207,13 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("pole", "start", "line")
     reasons: ClassVar[Mapping[str, str]] = {"start": "why.ladder_scale"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of speeds"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"pole", "start"})
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
+        (
+            "pole",
+            "start",
+        ),
+        ByHand.LAID_OFF,
+    )
 
     p: str
     q: str
@@ -233,7 +253,7 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
         return abs(standing.spot(self.q) - standing.spot(self.p))
 
 
-class SpeedRead(Construction, frozen=True, kw_only=True):
+class SpeedRead(GivesRate, frozen=True, kw_only=True):
     """The speed of a ``link``: the ``cut`` of the ``parallel`` to its ray with the line of speeds.
 
     ``rate`` is its angular velocity, ``read`` the same by the drawing; of a driven link neither.

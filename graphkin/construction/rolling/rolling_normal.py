@@ -13,7 +13,7 @@ from graphkin.construction.core.component import (
     components_on,
 )
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, Wording
+from graphkin.construction.core.kind import ByHand, Construction, Run, Wording
 from graphkin.construction.core.naming import drawn_between, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
 from graphkin.construction.core.plan_vector import PlanVector
@@ -60,7 +60,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     sign: ClassVar[str] = "ν"
     look: ClassVar[str] = "normal"
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.normal"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
@@ -253,9 +253,9 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
     line: int
 
     @property
-    def lies_along(self) -> str:
-        """The radius."""
-        return self.p + self.q
+    def runs(self) -> Run:
+        """Along the radius."""
+        return Run(self.p + self.q)
 
     def symbols(self) -> Mapping[str, str]:
         """The ends of the radius."""

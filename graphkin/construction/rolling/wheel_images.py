@@ -12,7 +12,7 @@ from graphkin.construction.acceleration.tangential_direction import known_and_fr
 from graphkin.construction.core.arrows import component_arrow, relative_arrow
 from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
@@ -49,7 +49,7 @@ def rate_by_radii(rate: Real, track: Real, wheel: Real) -> Real:
     return -rate * (track / wheel)
 
 
-class RateByRadii(Construction, frozen=True, kw_only=True):
+class RateByRadii(GivesRate, frozen=True, kw_only=True):
     """The ``rate`` of a wheel, the ``link``, from that of ``other`` which turns it.
 
     ``radii`` are the steps of the other's and of its own, negative for a ring or by an open belt,

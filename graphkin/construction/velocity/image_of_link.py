@@ -8,7 +8,13 @@ from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import (
+    ByHand,
+    Construction,
+    FallsOnImage,
+    FindsImage,
+    construction,
+)
 from graphkin.construction.core.palette import COINCIDE, Move, place_and_image
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
@@ -24,12 +30,12 @@ def alike(image: Point) -> Point:
     return image
 
 
-class TranslatedImage(Construction, frozen=True, kw_only=True):
+class TranslatedImage(FallsOnImage, frozen=True, kw_only=True):
     """The ``image`` of a point ``q``, on the image ``start`` of ``p``, for it moves as that."""
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
-    unmarked: ClassVar[frozenset[str]] = frozenset({"image"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.KNOWN}
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 
     p: str
@@ -60,7 +66,7 @@ def translated_image(pen: Pen, start: int, ends: tuple[str, str], name: str) -> 
     return image
 
 
-class CrossedImage(Construction, frozen=True, kw_only=True):
+class CrossedImage(FindsImage, frozen=True, kw_only=True):
     """The ``image`` of a ``point`` where its lines ``first`` and ``second`` meet.
 
     Without a ``point`` it only shows by hand what similarity finds.
@@ -113,7 +119,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
-    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
 
     p: str
     q: str

@@ -11,7 +11,7 @@ from typing import ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import end_before, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import FindsImage, Run, construction
 from graphkin.construction.core.palette import PARALLEL, PERPENDICULAR, Move, point_and_bar, two
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Plane
@@ -47,9 +47,9 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     touch: str = ""
 
     @property
-    def perpendicular_to(self) -> str:
-        """The bar."""
-        return self.p + self.q
+    def runs(self) -> Run:
+        """Square to the bar."""
+        return Run(self.p + self.q, square=True)
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """That the bar keeps its length; of a pivot at rest, that its image is the pole."""
@@ -67,7 +67,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """The line, with the bar to which it is perpendicular."""
-        canvas.locus(f"⊥{self.perpendicular_to}", f"⊥ {self.bar}")
+        canvas.locus(f"⊥{self.runs.what}", f"⊥ {self.bar}")
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """Euler's theorem."""
@@ -140,7 +140,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         for child in drawing.children.get(self.line, ()):
             user = steps[drawing.results.get(child, child)]
             kind = construction(user)
-            if found := kind.sought if kind else "":
+            if found := kind.sought if isinstance(kind, FindsImage) else "":
                 return found
         return ""
 

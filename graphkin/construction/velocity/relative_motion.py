@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 from graphkin.construction.core.component import index_before, laid_off
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import Construction, GivenVector, construction
 from graphkin.construction.core.naming import vector_of, way_of
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.drawing.symbol_markup import bar, symbol
@@ -21,7 +21,7 @@ def known_term(drawing: Drawing, point: str) -> Term:
     program = drawing.trace.program
     number = program.targets.get((drawing.kind, point))
     kind = construction(program.steps[number]) if number is not None else None
-    note = kind.known_by(drawing) if kind is not None else ""
+    note = kind.known_by(drawing) if isinstance(kind, GivenVector) else ""
     return Term(symbol(f"{drawing.vector.letter}_{point}"), 2, note)
 
 

@@ -7,7 +7,13 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, construction
+from graphkin.construction.core.kind import (
+    ByHand,
+    Construction,
+    GivenVector,
+    GivesRate,
+    construction,
+)
 from graphkin.construction.core.naming import (
     drawn_between,
     driver_of_rate,
@@ -131,7 +137,7 @@ def source_of_rate(drawing: Drawing, number: int, rate: int) -> str:
     steps = drawing.trace.program.steps
     kind, action = construction(steps[rate]), steps[number].action
     first = next(user for user in drawing.children[rate] if steps[user].action is action)
-    return kind.source_of_rate(drawing) if kind and first == number else ""
+    return kind.source_of_rate(drawing) if isinstance(kind, GivesRate) and first == number else ""
 
 
 @action("turned-velocity")
@@ -140,7 +146,7 @@ def turned_velocity(start: Point, pivot: Point, pin: Point, omega: Real) -> Poin
     return start + 1j * (pin - pivot) * omega
 
 
-class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
+class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
     """ω·l laid off in the velocity plan from the image ``start`` of a pivot to that of a pin.
 
     ``omega`` is how fast the ``link`` of both turns.
@@ -148,7 +154,7 @@ class TurnedVelocity(LaidOffAboutPivot, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.turned"}
-    laid_off: ClassVar[frozenset[str]] = frozenset({"image"})
+    pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
     told_after: ClassVar[tuple[str, ...]] = ("start",)
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
 

@@ -7,7 +7,7 @@ from operator import truediv
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import turning_with
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.plan_vector import plan_vector
@@ -37,7 +37,7 @@ ACTIONS = {OMEGA: omega, EPSILON: epsilon}
 """How each rate follows from the bar and its image."""
 
 
-class TurningOfLink(Construction, frozen=True, kw_only=True):
+class TurningOfLink(GivesRate, frozen=True, kw_only=True):
     """The ``rate`` of a link from the relative motion of ``q`` about ``p``, read off a plan.
 
     ``quantity`` is omega or epsilon, ``places`` and ``images`` are the steps of both points.
