@@ -205,7 +205,8 @@ def asked_of_thousands(standard: Standard, answers: Mapping[str, Answer]) -> dic
         key = standard.key.get(field)
         if answer.grouped is None or not key or isnan(key):
             continue
-        is_near = 1 / NEAR < answer.grouped / key < NEAR
+        size = standard.by_field[field].item.size
+        is_near = 1 / NEAR < size(answer.grouped) / size(key) < NEAR
         if is_near and not is_right(standard, field, answers):
             found[field] = Answer(answer.text, problem=THOUSANDS)
     return found
