@@ -344,14 +344,15 @@ class AnswerReading(Struct, dict=True):
         return None
 
     def refuse(self, file: HandedIn, *problems: Problem, who: str | None = None) -> None:
-        """Note what is not marked, and whose it is: that of the sender, where a platform names one;
-        else that of the owner of the file and of ``who`` signs it.
+        """Note what is not marked, and whose it may be: that of who bears the name of the sender,
+        where a platform names one; else that of the owner of the file and of ``who`` signs it.
         """
         owners = self.owners(file)
         whose = tuple(dict.fromkeys(filter(None, (*owners, who))))
         if file.sender is not None:
-            whose = owners if len(owners) == 1 else ()
-            self.answers.senders |= dict.fromkeys(whose, file.sender)
+            whose = owners
+            if len(owners) == 1:
+                self.answers.senders[owners[0]] = file.sender
         self.answers.refused += [Refused(each, whose) for each in problems]
 
     def claim(

@@ -37,7 +37,7 @@ NUMBERS = range(1, 6)
 IDS = {n: f"000{n}" for n in NUMBERS}
 NAMES = {
     "0001": "Ana Pop",
-    "0002": "Dan Ion",
+    "0002": "Dan Mos",
     "0003": "Eva Rus",
     "0004": "Ion Dan",
     "0005": "Mia Stan",
@@ -357,6 +357,18 @@ def test_who_is_not_in_the_class_list_signs_for_nobody_else(tmp_path):
     files = {"Ion Marian Dan_9_assignsubmission_file_/a.csv": form(VICTIM)}
     found = read_answers(packed(tmp_path / "a.zip", files), book_of(LAB).form, SIGNS)
     assert list(found.of) == list(found.unlisted) == [VICTIM]
+
+
+def test_a_file_that_two_of_a_name_may_have_handed_in_lets_wait_who_has_no_other(tmp_path):
+    """Which name comes first nobody knows: Dan Ion may be Ion Dan."""
+    twins = signs(IDS.values(), names=NAMES | {"0002": "Dan Ion"})
+    files = {
+        "Dan Ion_2_assignsubmission_file_/a.csv": b"",
+        "Ion Dan_4_assignsubmission_file_/a.csv": form(VICTIM),
+    }
+    found = read_answers(packed(tmp_path / "a.zip", files), book_of(LAB).form, twins)
+    assert found.withheld == ["0002"]
+    assert list(found.senders) == [VICTIM]
 
 
 def test_a_cell_of_several_lines_hides_nobody(tmp_path):
