@@ -44,6 +44,8 @@ FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "va
 """The heads of a file that holds one student's answers line by line."""
 MOST_FIELDS = 1000
 """Rows of a file that holds one student's answers line by line."""
+MOST_NEAR = 100
+"""Unknown ids for which the nearest known one is looked for."""
 LEAST, SHOWN = 1 / 3, 12
 """The share of the form below which a table may be another lab's; columns that are named then."""
 HEADS = {"id": NAMES["id"], "email": EMAIL}
@@ -327,8 +329,8 @@ class AnswerReading(Struct, dict=True):
             found, expected = "is missing", "the student's id"
         elif who is None:
             found = f'"{visible(sign)}" is no student of this class'
-            hint = nearest(sign, sorted(self.signs.ids)) if len(sign) <= LONGEST_ID else ""
-            hint = hint or ABSENT
+            few = len(sign) <= LONGEST_ID and len(self.answers.refused) < MOST_NEAR
+            hint = (nearest(sign, sorted(self.signs.ids)) if few else "") or ABSENT
         elif owners and who not in owners:
             where = (
                 f"the file is in the folder of {visible(by.name)}" if by else "its file is named"
