@@ -16,6 +16,7 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.answer_numbers import (
     BLANKS,
+    LARGEST_ANSWER,
     LONGEST,
     MISTYPED,
     NUMBER,
@@ -120,6 +121,7 @@ def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[st
         "mistyped": MISTYPED.pattern,
         "blanks": BLANKS,
         "longest": LONGEST,
+        "largest": LARGEST_ANSWER,
         "units": {unit: UNITS.get(unit, {unit: 1}) for unit in sorted({i.unit for i in items})},
         "sense": words("table.sense"),
         "words": {key.partition(".")[2]: words.sentences[key] for key in SAID},

@@ -17,6 +17,7 @@ from click.exceptions import Exit
 from msgspec.structs import replace
 
 from graphkin.text.errors import (
+    PLAIN_TRACEBACK,
     ClosureError,
     FileError,
     GraphkinError,
@@ -25,6 +26,7 @@ from graphkin.text.errors import (
     SceneError,
     StructureError,
     WitnessError,
+    fault,
 )
 
 FAILED = 1
@@ -33,9 +35,6 @@ REFUSED = 2
 """Status for bad input, a page that does not fit, a file that cannot be read or written."""
 STOPPED = 130
 BROKEN_PIPE = 141
-PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
-"""Set in the environment, a fault in graphkin itself shows where it happened."""
-
 OBEYED = "[\x00-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
 """Characters that control a terminal or hide what is written; tabs and ends of lines do not."""
 READING = "graphkin.scene"
@@ -176,8 +175,7 @@ def guarded(work: Callable[[], Any]) -> int:
     except Exception as error:
         if os.environ.get(PLAIN_TRACEBACK):
             raise
-        what = f"{type(error).__name__}: {error}".splitlines()[0]
-        complain(f"a fault in graphkin itself ({what}); {PLAIN_TRACEBACK}=1 shows where")
+        complain(fault(error))
         return REFUSED
     return status_of(status)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from graphkin.classroom.printing.edition import Edition
     from graphkin.classroom.roster.student_signs import Match
     from graphkin.text import Words
+    from graphkin.text.errors import Refusals
 
 KINDS = ("html", "pdf")
 MANY = 100
@@ -119,7 +120,8 @@ def grade(  # noqa: PLR0915
     Romanian or Italian (în sens orar, anticlockwise); one that the sign of its own value
     contradicts earns nothing. An empty cell is not answered, an empty row not handed in. A cell
     that cannot be read is told: its points wait, and no gradebook gets the marks of that student
-    until it is mended and marked again.
+    until it is mended and marked again. The same holds for a file or row that cannot be read, or
+    that is signed with the id of another student: the others are marked.
 
     A value may be off by what a careful pencil makes of that student's own drawing (tolerances.csv
     says how much). What is wrong by the key is held against what follows from the student's own
@@ -149,7 +151,7 @@ def grade(  # noqa: PLR0915
       graphkin grade class answers.csv -o report --force --hold 0057
 
     \b
-    Exit status: 0; 1 when some cells cannot be read; 2 when nothing was marked.
+    Exit status: 0; 1 when some cells, rows or files cannot be read; 2 when nothing was marked.
     """
     from graphkin.classroom.grading.answers import read_answers
     from graphkin.classroom.grading.class_marking import graded_class
@@ -168,6 +170,7 @@ def grade(  # noqa: PLR0915
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in
+    from graphkin.text.errors import Refusals
     from graphkin.writers.files import write_all
 
     kinds = kinds_of(formats, context)
@@ -187,18 +190,21 @@ def grade(  # noqa: PLR0915
     if both := ", ".join(who for who in held if who in settled(decisions)):
         said = f"--hold: {both} is decided in {DECISIONS}; take the row out of it"
         raise click.UsageError(said, context)
-    drawings, answers = answers, drawn_table(opened, answers)
+    refusals = Refusals()
+    drawings, answers = answers, drawn_table(opened, answers, refusals)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
     if drawings != answers:
-        note_followed(opened, drawings, given)
-    turns = read_turns(answers, ids)
+        note_followed(opened, drawings, given, refusals)
+    turns = read_turns(answers, ids, refusals)
     words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(opened.book, opened.takers, given.of, processes, free.ids, decisions)
     given.unread = open_cells(found, given.unread)
-    files = all_files(opened, found, given, words, kinds, out) | free.files()
+    for who, problems in found.refused.items():
+        refusals.add(who, problems)
+    files = all_files(opened, found, given, words, kinds, out, refusals) | free.files()
     if drawings != answers:
-        files |= marked_drawings(opened, drawings, words, kinds)
+        files |= marked_drawings(opened, drawings, words, kinds, refusals)
     files |= {} if (out / DECISIONS).exists() else {DECISIONS: EMPTY}
     files |= {TURNS: turns_table(turns)} if turns else {}
     spoken = words_in(TERMINAL)
@@ -217,11 +223,11 @@ def grade(  # noqa: PLR0915
     if turns:
         say(spoken("class.turns", count=len(turns), file=TURNS))
     changes(files, spoken)
-    notes(opened, given, spoken)
+    notes(opened, given, refusals, spoken)
     say("")
     for path in told_paths(written):
         say(path)
-    if given.unread:
+    if given.unread or given.refused or refusals.found:
         context.exit(FAILED)
 
 
@@ -232,36 +238,36 @@ def is_read(answers: Path) -> bool:
     return answers.is_dir() and any(answers.glob(f"*{READING}"))
 
 
-def drawn_table(opened: Edition, folder: Path) -> Path:
+def drawn_table(opened: Edition, folder: Path, refusals: Refusals) -> Path:
     """Of a folder of readings the table of what was read and decided by now; else what it is."""
     if not is_read(folder):
         return folder
     from graphkin.reading.drawn_answers import ANSWERS
     from graphkin.reading.read_run import write_answers
 
-    write_answers(opened, folder)
+    write_answers(opened, folder, refusals)
     return folder / ANSWERS
 
 
-def note_followed(opened: Edition, folder: Path, given: Answers) -> None:
+def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refusals) -> None:
     """Let the answers know what was found on the drawings to follow from own earlier points."""
     from msgspec.structs import replace
 
     from graphkin.reading.drawn_answers import drawn_rows
 
-    for row in drawn_rows(opened, folder):
+    for row in drawn_rows(opened, folder, refusals):
         own = given.of.get(row.who, {})
         own |= {field: replace(own[field], followed=True) for field in row.followed if field in own}
 
 
 def marked_drawings(
-    opened: Edition, folder: Path, words: Words, kinds: tuple[str, ...]
+    opened: Edition, folder: Path, words: Words, kinds: tuple[str, ...], refusals: Refusals
 ) -> dict[str, bytes]:
     """The drawings of all who were read, with green and red over them."""
     from graphkin.classroom.grading.grading_files import FEEDBACK
     from graphkin.reading.marked_drawing import drawings_of_class
 
-    found = drawings_of_class(opened, folder, words, kinds)
+    found = drawings_of_class(opened, folder, words, kinds, refusals)
     return {f"{FEEDBACK}/{name}": data for name, data in found.items()}
 
 
@@ -298,6 +304,7 @@ def all_files(
     words: Words,
     kinds: tuple[str, ...],
     report: Path,
+    refusals: Refusals,
 ) -> dict[str, bytes]:
     """The files of the report; with what changed since the marks that are there."""
     from graphkin.classroom.grading.grading_files import (
@@ -311,7 +318,8 @@ def all_files(
     title = scene.titles.get(words.language, scene.title)
     before = report / MARKS
     earlier = before.read_bytes() if before.is_file() else b""
-    told = ReportSettings(title, words, given.unread, scene.titles, scene)
+    refused = list(refused_lines(opened, given, refusals, words))
+    told = ReportSettings(title, words, given.unread, scene.titles, scene, refused, refusals)
     files = report_files(found, opened.lab, told, kinds, earlier)
     return files | returned(files, found.graded, given.senders, kinds)
 
@@ -382,9 +390,23 @@ def told_paths(written: list[Path]) -> list[str]:
     return [*lines, f"{pages[0].parent}: {len(pages)} pages"] if pages else lines
 
 
-def notes(opened: Edition, given: Answers, words: Words) -> None:
-    """What is told of the answers: columns that are no fields, languages that are none of the
-    pages', cells that cannot be read.
+def refused_lines(
+    opened: Edition, given: Answers, refusals: Refusals, words: Words
+) -> Iterator[str]:
+    """What is not marked, and whose points wait for that."""
+    from graphkin.classroom.grading.answers import merged
+
+    yield from map(str, merged("", given.refused))
+    yield from refusals.lines()
+    if given.withheld:
+        names = {taker.student.id: taker.student.called for taker in opened.takers}
+        who = words("list_mark").join(names[each] for each in given.withheld)
+        yield words("class.refused_who", who=who)
+
+
+def notes(opened: Edition, given: Answers, refusals: Refusals, words: Words) -> None:
+    """What is told of the answers: columns that are no fields, files that are no tables, languages
+    that are none of the pages', cells that cannot be read, what is not marked.
     """
     from graphkin.classroom.grading.class_report import language_lines, stranger_lines, unread_lines
 
@@ -395,6 +417,13 @@ def notes(opened: Edition, given: Answers, words: Words) -> None:
     tell_some(list(unread_lines(names, given.unread, words)), words)
     if given.unread:
         complain(words("class.mend"))
+    named = {taker.student.id: taker.student.called for taker in opened.takers}
+    unlisted = given.unlisted.items()
+    tell_some([words("class.by_id", name=by.name, who=named[who]) for who, by in unlisted], words)
+    tell_some([words("class.not_read", file=name) for name in given.others], words)
+    tell_some(list(refused_lines(opened, given, refusals, words)), words)
+    if given.refused:
+        complain(words("class.mend_files"))
 
 
 def earning(opened: Edition) -> set[str]:

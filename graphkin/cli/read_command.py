@@ -95,10 +95,11 @@ def read(
         outcome = read_class(opened, pictures, out, order, jobs or cores(), shown)
     if as_json:
         places = {each.name: each.path.parent / each.shown_name for each in pictures}
-        told = {r.name: points_file(r) for r in outcome.records}
+        told = {r.name: points_file(r) for r in outcome.records if r.key}
         put_in_place({Path(f"{places[name]}{POINTS}"): data for name, data in told.items()})
     tell(said(opened, outcome))
-    if any(record.refused is not None for record in outcome.records):
+    refused = any(record.refused is not None for record in outcome.records)
+    if refused or outcome.refusals.found:
         context.exit(FAILED)
 
 

@@ -17,11 +17,12 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.csv_text import csv_text
+from graphkin.classroom.roster.taker import Taker
 from graphkin.reading.kept_readings import records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.read_sheet import SheetRecord, sheets_of, task_pages
 from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
-from graphkin.text.errors import GraphkinError
+from graphkin.text.errors import GraphkinError, Refusals
 
 ANSWERS = "answers.csv"
 Places = Mapping[int, complex | None]
@@ -36,42 +37,58 @@ class DrawnRow(Struct, frozen=True):
     followed: tuple[str, ...]
 
 
-def answers_table(opened: Edition, out: Path) -> bytes:
+def answers_table(opened: Edition, out: Path, refusals: Refusals) -> bytes:
     """The answers of all whose sheets were read, in the order of the roster."""
     head = ["id", *(item.field for item in drawn_items(opened))]
-    rows: list[list[object]] = [[row.who, *row.cells] for row in drawn_rows(opened, out)]
+    rows: list[list[object]] = [[row.who, *row.cells] for row in drawn_rows(opened, out, refusals)]
     return csv_text([head, *rows]).encode("utf-8")
 
 
-def drawn_rows(opened: Edition, out: Path) -> Iterator[DrawnRow]:
-    """What was read and decided by now, of each student whose sheets were read."""
+def drawn_rows(opened: Edition, out: Path, refusals: Refusals) -> Iterator[DrawnRow]:
+    """What was read and decided by now, of each student whose sheets were read.
+
+    All is open of a student for whom that cannot be worked out, and why is noted.
+    """
     standing = SettledPoints(out).standing
     try:
         records = latest_of(records_in(out), standing)
     except GraphkinError:
         records = {}
     form = drawn_items(opened)
-    language = opened.words().language
-    order = PrintOrder(opened.lab, opened.scene, language, "colour")
     for taker in opened.takers:
         own = {kind: record for (code, kind), record in records.items() if code == taker.code}
-        if not own:
-            continue
-        sheets = sheets_of(order, taker, language)
-        places: dict[int, tuple[str, complex | None]] = {}
-        verdicts: dict[int, str] = {}
-        for kind, page in task_pages(sheets):
-            if kind in own:
-                drawing = next(each for each in sheets.drawings if each.kind == kind)
-                sheet = LetteredSheet(drawing, page)
-                found = places_of(sheet, own[kind], standing)
-                places |= {n: (kind, at) for n, at in found.items() if n not in places}
-                settled = settled_points(own[kind], standing)
-                verdicts = {point.step: point.verdict for point in settled} | verdicts
-        told = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
-        cells = tuple(cell(told[item.field], places) for item in form)
-        followed = [item.field for item in form if is_followed(told[item.field], verdicts)]
-        yield DrawnRow(taker.student.id, cells, tuple(followed))
+        if own:
+            row = DrawnRow(taker.student.id, (OPEN,) * len(form), ())
+            with refusals.alone(taker.student.called):
+                row = drawn_row(opened, taker, own, standing, form)
+            yield row
+
+
+def drawn_row(
+    opened: Edition,
+    taker: Taker,
+    own: Mapping[str, SheetRecord],
+    standing: Standing,
+    form: tuple[Item, ...],
+) -> DrawnRow:
+    """What was read and decided by now of a student's own sheets, by their kinds."""
+    language = opened.words().language
+    order = PrintOrder(opened.lab, opened.scene, language, "colour")
+    sheets = sheets_of(order, taker, language)
+    places: dict[int, tuple[str, complex | None]] = {}
+    verdicts: dict[int, str] = {}
+    for kind, page in task_pages(sheets):
+        if kind in own:
+            drawing = next(each for each in sheets.drawings if each.kind == kind)
+            sheet = LetteredSheet(drawing, page)
+            found = places_of(sheet, own[kind], standing)
+            places |= {n: (kind, at) for n, at in found.items() if n not in places}
+            settled = settled_points(own[kind], standing)
+            verdicts = {point.step: point.verdict for point in settled} | verdicts
+    told = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
+    cells = tuple(cell(told[item.field], places) for item in form)
+    followed = [item.field for item in form if is_followed(told[item.field], verdicts)]
+    return DrawnRow(taker.student.id, cells, tuple(followed))
 
 
 def is_followed(probe: Probe, verdicts: Mapping[int, str]) -> bool:

@@ -17,13 +17,16 @@ from msgspec import Struct
 
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.file_names import stems
+from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.quantities import MOTION
 from graphkin.drawing.glyphs import font_file
 from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
-from graphkin.reading.settled_points import SettledPoints, latest_of, settled_points
+from graphkin.reading.read_sheet import SheetRecord
+from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
 from graphkin.text import Words
 from graphkin.text import words as words_in
+from graphkin.text.errors import Refusals
 from graphkin.writers.templates import from_template
 
 GREEN, RED, YELLOW = "#087a2c", "#c21807", "#c77800"
@@ -47,7 +50,7 @@ class MarkedSheet(Struct, frozen=True):
 
 
 def drawings_of_class(
-    opened: Edition, folder: Path, words: Words, kinds: Sequence[str]
+    opened: Edition, folder: Path, words: Words, kinds: Sequence[str], refusals: Refusals
 ) -> dict[str, bytes]:
     """The marked drawings of all whose sheets were read, by the names of their files."""
     standing = SettledPoints(folder).standing
@@ -56,26 +59,27 @@ def drawings_of_class(
     found: dict[str, bytes] = {}
     for taker, name in zip(opened.takers, names, strict=True):
         spoken = words_in(taker.spoken) if taker.spoken else words
-        sheets = []
-        for kind in MOTION:
-            record = records.get((taker.code, kind))
-            if record is None:
-                continue
-            points = settled_points(record, standing)
-            here = [each for each in standing.values() if each.sheet == record.name]
-            notes = {each.step: each.note for each in here}
-            head = spoken(
-                "marked.head",
-                sheet=spoken(f"sheet.{kind}"),
-                who=taker.student.name or taker.student.id,
-            )
-            picture = (folder / f"{record.name}{PICTURE}").read_bytes()
-            sheets.append(MarkedSheet(head, picture, points, tuple(said_of(points, notes, spoken))))
-        if sheets and "html" in kinds:
-            found[f"{name}-drawing.html"] = as_page(sheets, spoken)
-        if sheets and "pdf" in kinds:
-            found[f"{name}-drawing.pdf"] = as_pdf(sheets, spoken)
+        with refusals.alone(taker.student.called):
+            own = [records[key] for kind in MOTION if (key := (taker.code, kind)) in records]
+            sheets = [marked_sheet(folder, each, taker, standing, spoken) for each in own]
+            if sheets and "html" in kinds:
+                found[f"{name}-drawing.html"] = as_page(sheets, spoken)
+            if sheets and "pdf" in kinds:
+                found[f"{name}-drawing.pdf"] = as_pdf(sheets, spoken)
     return found
+
+
+def marked_sheet(
+    folder: Path, record: SheetRecord, taker: Taker, standing: Standing, words: Words
+) -> MarkedSheet:
+    """One drawing of a student with what is said of it."""
+    points = settled_points(record, standing)
+    here = [each for each in standing.values() if each.sheet == record.name]
+    notes = {each.step: each.note for each in here}
+    who = taker.student.name or taker.student.id
+    head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
+    picture = (folder / f"{record.name}{PICTURE}").read_bytes()
+    return MarkedSheet(head, picture, points, tuple(said_of(points, notes, words)))
 
 
 def said_of(

@@ -7,12 +7,17 @@ from __future__ import annotations
 
 import io
 import warnings
+import zlib
+from collections import Counter
 from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.numbers.arrays import np
 from graphkin.scene.file_limits import file_bytes
@@ -23,26 +28,37 @@ KINDS = (".jpg", ".jpeg", ".png", ".heic", ".heif", ".pdf")
 """The files that are read."""
 FORMATS = ("JPEG", "PNG", "HEIF")
 """What they hold; of several pictures in one file the first."""
+OTHERS = (
+    *(".tif", ".tiff", ".gif", ".bmp", ".webp", ".avif", ".jp2", ".jxl", ".dng", ".raw", ".svg"),
+    *(".zip", ".docx", ".odt"),
+)
+"""Files of a folder that may hold a drawing and are not read: each is refused by its name."""
 MOST_BYTES = 200 << 20
-MOST_PIXELS, LEAST_SIDE = 120_000_000, 900
-"""Pixels of a picture at most, and those of its shorter side at least."""
+MOST_PIXELS, MOST_SIDE, LEAST_SIDE = 120_000_000, 20_000, 900
+"""Pixels of a picture and of its longer side at most, and those of its shorter side at least."""
+MOST_UNPACKED = 4 * MOST_PIXELS
+"""Bytes that any part of a PDF file may have, unpacked."""
+GROWTH = {"/LZWDecode": 1400, "/LZW": 1400, "/RunLengthDecode": 64, "/RL": 64}
+"""How many times as large what other ways to pack hold may be, unpacked."""
 HALVES = "-left", "-right"
 """How the names of the pictures of a sheet's halves end."""
-MOST_PAGES = 400
-"""Pages of a PDF file."""
+MOST_PAGES = 2000
+"""Pages of a PDF file; one with more is refused."""
 EXPECTED = "a JPEG, PNG, HEIC or PDF file"
 
 
 class Photograph(Struct, frozen=True):
     """A picture by the name that its reading has: its file, and which page of a PDF it is.
 
-    ``left`` is the picture of the left half of a sheet of which this one is the right half.
+    ``left`` is the picture of the left half of a sheet of which this one is the right half;
+    ``refused`` says why it is not looked at.
     """
 
     name: str
     path: Path
     page: int | None = None
     left: Photograph | None = None
+    refused: str = ""
 
     @property
     def shown_name(self) -> str:
@@ -56,16 +72,16 @@ class Unreadable(Exception):
 
 
 def photographs(paths: list[Path]) -> list[Photograph]:
-    """The pictures in some files and folders, by name.
+    """The pictures in some files and folders, by name; of those of one name each is refused.
 
-    Raises FileError, all at once, for what is not there and for two of one name.
+    Raises FileError, all at once, for what is not there.
     """
     found: list[Photograph] = []
     problems: list[Problem] = []
     for path in paths:
         if path.is_dir():
-            inside = sorted(p for p in path.iterdir() if p.suffix.lower() in KINDS)
-            if not inside:
+            inside = list(pictures_in(path))
+            if not any(each.suffix.lower() in KINDS for each in inside):
                 problems.append(Problem(str(path), "holds no picture", EXPECTED))
             for file in inside:
                 found += pages_of(file)
@@ -73,17 +89,31 @@ def photographs(paths: list[Path]) -> list[Photograph]:
             found += pages_of(path)
         else:
             problems.append(Problem(str(path), "is not there", EXPECTED))
-    names: dict[str, Photograph] = {}
-    for each in found:
-        other = names.setdefault(each.name, each)
-        if other is not each:
-            hint = "rename one of them: readings are kept by name"
-            problems.append(
-                Problem(str(each.path), f"has the name of {other.path}", "one of each", hint)
-            )
     if problems:
         raise FileError(problems)
-    return with_halves(found)
+    found = list({(str(each.path), each.page): each for each in found}.values())
+    times = Counter(each.name for each in found)
+    return with_halves([each if times[each.name] == 1 else twin(each, found) for each in found])
+
+
+def pictures_in(folder: Path) -> Iterator[Path]:
+    """The files of a folder that are read, or might be meant to be; and folders of such in it."""
+    for path in sorted(folder.iterdir()):
+        if path.is_dir():
+            inside = [each.name.lower() for each in path.iterdir()]
+            is_ours = any(name.endswith(".reading.json") for name in inside)
+            if not is_ours and any(name.endswith(KINDS) for name in inside):
+                yield path
+        elif path.suffix.lower() in (*KINDS, *OTHERS) and not path.name.startswith("."):
+            yield path
+
+
+def twin(own: Photograph, every: list[Photograph]) -> Photograph:
+    """A picture whose name others have as well: it is refused, for readings are kept by name."""
+    others = [each for each in every if each.name == own.name and each is not own]
+    said = f"has the name of {others[0].path}: rename one of them, readings are kept by name"
+    page = f", page {own.page + 1}" if own.page is not None else ""
+    return replace(own, name=f"{own.path}{page}", refused=said)
 
 
 def with_halves(found: list[Photograph]) -> list[Photograph]:
@@ -106,29 +136,64 @@ def with_halves(found: list[Photograph]) -> list[Photograph]:
 
 def pages_of(path: Path) -> Iterator[Photograph]:
     """The pictures of a file: itself, or the pages of a PDF."""
-    stem = file_part(path.stem)
-    if path.suffix.lower() != ".pdf":
+    stem, kind = file_part(path.stem), path.suffix.lower()
+    if path.is_dir():
+        yield Photograph(str(path), path, refused="is a folder within a folder: name it as well")
+    elif kind in OTHERS:
+        yield Photograph(str(path), path, refused=f"is not read: {EXPECTED} is expected")
+    elif kind != ".pdf":
         yield Photograph(stem, path)
-        return
+    elif (count := count_of_pages(path)) > MOST_PAGES:
+        said = f"has {count} pages, {MOST_PAGES} at most: split it"
+        yield Photograph(str(path), path, refused=said)
+    else:
+        for page in range(count):
+            yield Photograph(stem if count == 1 else f"{stem}-{page + 1}", path, page)
+
+
+def count_of_pages(path: Path) -> int:
+    """The pages of a PDF file; one where it cannot be read, which is then told of that page."""
+    try:
+        with opened_pdf(file_bytes(path, MOST_BYTES)) as pdf:
+            return len(pdf.pages)
+    except Exception:  # whatever it is, it is told when the page is read
+        return 1
+
+
+@contextmanager
+def opened_pdf(data: bytes) -> Iterator[Any]:
+    """A PDF file whose parts unpack to no more than they may, where pikepdf can see to that."""
     import pikepdf
 
+    limit = getattr(pikepdf.settings, "set_qpdf_limits", None)
+    before = limit(flate_max_memory=MOST_UNPACKED) if limit is not None else {}
     try:
-        with pikepdf.open(io.BytesIO(file_bytes(path, MOST_BYTES))) as pdf:
-            count = min(len(pdf.pages), MOST_PAGES)
-    except (pikepdf.PdfError, OSError, ValueError):
-        count = 1
-    for page in range(count):
-        yield Photograph(stem if count == 1 else f"{stem}-{page + 1}", path, page)
+        with pikepdf.open(io.BytesIO(data)) as pdf:
+            yield pdf
+    finally:
+        if limit is not None:
+            limit(**before)
 
 
 def hash_of_picture(photograph: Photograph) -> str:
     """A hash of a picture's file and page."""
     try:
-        data = file_bytes(photograph.path, MOST_BYTES)
-    except (OSError, ValueError):
-        data = b""
+        changed = photograph.path.stat().st_mtime_ns
+    except OSError:
+        changed = 0
+    found = hash_of_file(photograph.path, changed).copy()
     other = hash_of_picture(photograph.left) if photograph.left else ""
-    return sha256(data + f"{photograph.page}{other}".encode()).hexdigest()
+    found.update(f"{photograph.page}{other}".encode())
+    return str(found.hexdigest())
+
+
+@lru_cache(maxsize=4)
+def hash_of_file(path: Path, changed: int) -> Any:
+    """The hash of a file's bytes, worked out once for all its pages."""
+    try:
+        return sha256(file_bytes(path, MOST_BYTES))
+    except (OSError, ValueError):
+        return sha256()
 
 
 def grey_of(photograph: Photograph) -> Any:
@@ -148,11 +213,13 @@ def grey_of(photograph: Photograph) -> Any:
             image = scanned(data, photograph.page) if photograph.page is not None else opened(data)
             refuse_size(*image.size)
             return np.ascontiguousarray(np.asarray(darkest(ImageOps.exif_transpose(image))))
+    except Unreadable:
+        raise
     except UnidentifiedImageError:
         raise Unreadable(f"is no picture: {EXPECTED} is expected") from None
     except Image.DecompressionBombError:
         raise Unreadable(f"has more than {MOST_PIXELS // 10**6} million pixels") from None
-    except (OSError, ValueError, SyntaxError, EOFError, MemoryError, RuntimeError):
+    except Exception:  # a decoder may raise anything for a damaged file
         raise Unreadable("is cut short or damaged") from None
 
 
@@ -160,12 +227,24 @@ def darkest(image: Any) -> Any:
     """The darkest of a picture's colours at each place, as greys: a coloured pencil is as dark
     there as a grey one.
     """
-    from PIL import ImageChops
+    from PIL import Image, ImageChops
 
     if image.mode in ("1", "L"):
         return image.convert("L")
+    if image.mode.startswith(("I", "F")):
+        return Image.fromarray(in_bytes(np.asarray(image)))
+    if image.has_transparency_data:
+        paper = Image.new("RGBA", image.size, "white")
+        image = Image.alpha_composite(paper, image.convert("RGBA"))
     red, green, blue = image.convert("RGB").split()
     return ImageChops.darker(ImageChops.darker(red, green), blue)
+
+
+def in_bytes(greys: Any) -> Any:
+    """Greys of more than eight bits as bytes, by the range that their largest shows they have."""
+    most = float(greys.max(initial=0))
+    top = next((top for top in (255.0, 4095.0, 65535.0) if most <= top), most)
+    return np.clip(greys * (255.0 / top), 0, 255).astype(np.uint8)
 
 
 def opened(data: bytes) -> Any:
@@ -184,6 +263,8 @@ def refuse_size(width: int, height: int) -> None:
     if width * height > MOST_PIXELS:
         found = f"has {width * height / 1e6:.0f} million pixels"
         raise Unreadable(f"{found}, {MOST_PIXELS // 10**6} at most")
+    if max(width, height) > MOST_SIDE:
+        raise Unreadable(f"is {width} × {height} pixels, {MOST_SIDE} at most on a side")
     if min(width, height) < LEAST_SIDE:
         raise Unreadable(f"is {width} × {height} pixels, too few for an A3 sheet")
 
@@ -193,14 +274,39 @@ def scanned(data: bytes, page: int) -> Any:
     import pikepdf
 
     try:
-        with pikepdf.open(io.BytesIO(data)) as pdf:
+        with opened_pdf(data) as pdf:
             images: list[Any] = list(pdf.pages[page].images.values())
             if not images:
                 raise Unreadable("holds no scanned picture on this page")
             largest = max(images, key=lambda each: int(each.Width) * int(each.Height))
             refuse_size(int(largest.Width), int(largest.Height))
+            refuse_bomb(largest)
             image = pikepdf.PdfImage(largest).as_pil_image()
             turn = int(pdf.pages[page].obj.get("/Rotate", 0))
             return image.rotate(-turn, expand=True) if turn else image
-    except (pikepdf.PdfError, pikepdf.UnsupportedImageTypeError, NotImplementedError, KeyError):
+    except Unreadable:
+        raise
+    except Exception:  # other colours, other ways to pack, damage: pikepdf raises many kinds
         raise Unreadable("is no PDF file whose scan can be read: save it as JPEG") from None
+
+
+def refuse_bomb(image: Any) -> None:
+    """Raise Unreadable where the bytes of a picture in a PDF file are far more than its pixels.
+
+    They are unpacked as far as what is expected, and never all held at once with what is more.
+    """
+    rows, bits = int(image.Height), int(image.get("/BitsPerComponent", 8))
+    expected = rows * (int(image.Width) * 4 * bits // 8 + 2) + 1024
+    filters = image.get("/Filter", [])
+    names = [str(filters)] if str(filters).startswith("/") else [str(each) for each in filters]
+    data = image.read_raw_bytes()
+    for place, name in enumerate(names):
+        is_last = place == len(names) - 1
+        most = expected if is_last else MOST_BYTES
+        if name in ("/FlateDecode", "/Fl"):
+            data = zlib.decompressobj().decompress(data, most + 1)
+        if name in GROWTH and len(data) * GROWTH[name] > MOST_UNPACKED:
+            raise Unreadable("is packed in a way that is not read: save it as JPEG")
+        if name in ("/FlateDecode", "/Fl") and len(data) > most:
+            found = f"holds more than {most / 1e6:.0f} MB"
+            raise Unreadable(f"{found}, and its picture has {rows * int(image.Width) / 1e6:.0f} MP")

@@ -12,7 +12,7 @@ from math import ceil
 from pathlib import Path
 
 import msgspec
-from msgspec import Struct
+from msgspec import Struct, field
 
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.journal import key_of
@@ -23,6 +23,7 @@ from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.kept_readings import PICTURE, READING, kept
 from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
+from graphkin.text.errors import Refusals
 from graphkin.text.markup import as_text
 from graphkin.writers.files import put_in_place
 from graphkin.writers.lock import locked
@@ -30,7 +31,7 @@ from graphkin.writers.lock import locked
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 9
+METHOD = 10
 """Raised when the same photograph would be read otherwise: readings of before are made anew."""
 FEWEST = 3
 """Photographs from which a worker process pays for itself."""
@@ -38,10 +39,13 @@ Tell = Callable[[int, int], None]
 
 
 class ReadOutcome(Struct):
-    """What came of a run: all records in the order of the photographs, how many stood already."""
+    """What came of a run: all records in the order of the photographs, how many stood already;
+    ``refusals`` are students whose answers cannot be worked out from them.
+    """
 
     records: list[SheetRecord]
     stood: int = 0
+    refusals: Refusals = field(default_factory=Refusals)
 
 
 def read_order(opened: Edition, grid: Grid, *, by_hand: bool = False) -> ReadOrder:
@@ -61,6 +65,12 @@ def read_class(
 ) -> ReadOutcome:
     """Read photographs of a class into a folder. What stands there of the same is kept."""
     out.mkdir(parents=True, exist_ok=True)
+    refused = {
+        each.name: SheetRecord(each.name, each.path.name, "", refused=each.refused)
+        for each in pictures
+        if each.refused
+    }
+    every, pictures = pictures, [each for each in pictures if not each.refused]
     with locked(out):
         keys = {each.name: reading_key(order, each) for each in pictures}
         known = {
@@ -81,8 +91,8 @@ def read_class(
                         known[one.record.name] = one.record
                     done += len(found)
                     tell(done, len(pictures))
-        outcome.records = [known[each.name] for each in pictures]
-        write_answers(opened, out)
+        outcome.records = [(known | refused)[each.name] for each in every]
+        write_answers(opened, out, outcome.refusals)
     return outcome
 
 
@@ -102,9 +112,9 @@ def put(out: Path, one: SheetRead) -> None:
     put_in_place({**files, out / f"{name}{READING}": data + b"\n"})
 
 
-def write_answers(opened: Edition, out: Path) -> None:
+def write_answers(opened: Edition, out: Path, refusals: Refusals) -> None:
     """Write the answers that follow from all that was read and decided."""
-    put_in_place({out / ANSWERS: answers_table(opened, out)})
+    put_in_place({out / ANSWERS: answers_table(opened, out, refusals)})
 
 
 def points_file(record: SheetRecord) -> bytes:
@@ -124,7 +134,6 @@ def points_file(record: SheetRecord) -> bytes:
         "code": record.code,
         "refused": record.refused,
         "map": [list(pixel) for pixel in record.map],
-        "seconds": record.seconds,
         "points": points,
     }
     return msgspec.json.encode(found, enc_hook=as_text) + b"\n"
@@ -133,6 +142,7 @@ def points_file(record: SheetRecord) -> bytes:
 def said(opened: Edition, outcome: ReadOutcome) -> Iterator[str]:
     """What the terminal says of a run: a line for each photograph, then the sums."""
     names = {each.code: each.student for each in opened.takers}
+    yield from outcome.refusals.lines()
     for record in outcome.records:
         if record.refused is not None:
             yield f"{record.name}: refused: {record.refused}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from time import perf_counter
 from typing import Any
 
 from msgspec import Struct
@@ -23,14 +22,12 @@ from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Photograph, Unreadable, grey_of
 from graphkin.reading.point_reading import PointReading
 from graphkin.text import LANGUAGES
-from graphkin.text.errors import GraphkinError
+from graphkin.text.errors import problems_of
 
 WHOLE = (0.0, 0.0, 420.0, 297.0)
 """An A3 sheet, in mm."""
 SHOWN, QUALITY = 6.0, 82
 """Pixels for each mm of the flattened picture that is kept, and its quality as JPEG."""
-FAULTS = (ArithmeticError, LookupError, ValueError)
-"""What a picture that nobody foresaw may lead to: it is refused, and the others are read."""
 SURE_OF_SHEET = 0.9
 """The share of a sheet's own lines from which no other language of its is tried."""
 
@@ -53,7 +50,6 @@ class SheetRecord(Struct, frozen=True):
     kind: str = ""
     refused: str | None = None
     map: tuple[tuple[float, float], ...] = ()
-    seconds: float = 0.0
     points: tuple[PointReading, ...] = ()
     corners: dict[int, tuple[float, float]] = {}
     key_lines: tuple[tuple[float, float, float, float], ...] = ()
@@ -96,10 +92,7 @@ def read_some(order: ReadOrder, wanted: Sequence[tuple[Photograph, str]]) -> lis
 
 
 def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
-    """What is read of one photograph."""
-    import cv2
-
-    start = perf_counter()
+    """What is read of one photograph; whatever is wrong with it is told of it alone."""
     record = SheetRecord(photograph.name, photograph.path.name, key)
     code = ""
     try:
@@ -113,27 +106,22 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         points, corners_at = (
             points_to_click(found, order) if order.by_hand else read_points(grey, found)
         )
-    except (Unreadable, GraphkinError, *FAULTS, cv2.error) as error:
-        spent = round(perf_counter() - start, 3)
-        told = isinstance(error, Unreadable | GraphkinError)
-        refused = str(error).splitlines()[0] if told else f"cannot be read: {type(error).__name__}"
+        read = replace(
+            record,
+            code=code,
+            who=student_label(order, code),
+            kind=found.sheet.kind,
+            map=mapped(found.map, order.grid),
+            points=points,
+            corners=corners_at,
+            key_lines=found.sheet.key_lines,
+            residual=round(found.residual, 3),
+        )
+        return SheetRead(read, flat_picture(grey, found.map))
+    except Exception as error:
+        refused = str(error) if isinstance(error, Unreadable) else problems_of(error)[0].found
         who = student_label(order, code)
-        return SheetRead(replace(record, code=code, who=who, refused=refused, seconds=spent))
-    pixels = mapped(found.map, order.grid)
-    spent = round(perf_counter() - start, 3)
-    read = replace(
-        record,
-        code=code,
-        who=student_label(order, code),
-        kind=found.sheet.kind,
-        map=pixels,
-        seconds=spent,
-        points=points,
-        corners=corners_at,
-        key_lines=found.sheet.key_lines,
-        residual=round(found.residual, 3),
-    )
-    return SheetRead(read, flat_picture(grey, found.map))
+        return SheetRead(replace(record, code=code, who=who, refused=refused.splitlines()[0]))
 
 
 def student_label(order: ReadOrder, code: str) -> str:

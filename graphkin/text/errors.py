@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from msgspec import Struct
 
@@ -182,3 +184,51 @@ class FileError(PageError):
 
 class RosterError(GraphkinError):
     """A class list or a table of answers cannot be read; every problem has its row and column."""
+
+
+PLAIN_TRACEBACK = "GRAPHKIN_TRACEBACK"
+"""Set in the environment, a fault in graphkin itself shows where it happened."""
+
+
+def fault(error: Exception) -> str:
+    """What is said of an error that nobody expected, in one line."""
+    what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
+    return f"a fault in graphkin itself ({what}); {PLAIN_TRACEBACK}=1 shows where"
+
+
+def problems_of(error: Exception) -> tuple[Problem, ...]:
+    """The problems of an error: its own, or that it is a fault in graphkin itself.
+
+    Raises a fault where its traceback is asked for.
+    """
+    if isinstance(error, GraphkinError):
+        return error.problems
+    if os.environ.get(PLAIN_TRACEBACK):
+        raise error
+    return (Problem("", fault(error)),)
+
+
+class Refusals:
+    """What was refused of many units (students, files, pictures), each of which fails alone."""
+
+    def __init__(self) -> None:
+        self.found: dict[str, tuple[Problem, ...]] = {}
+
+    @contextmanager
+    def alone(self, unit: str) -> Iterator[None]:
+        """Work on one unit: whatever is raised is noted with its name, and the others go on."""
+        try:
+            yield
+        except Exception as error:
+            self.add(unit, problems_of(error))
+
+    def add(self, unit: str, problems: Iterable[Problem]) -> None:
+        """Note what is wrong with a unit."""
+        self.found[unit] = (*self.found.get(unit, ()), *problems)
+
+    def lines(self) -> Iterator[str]:
+        """A line for each problem, with the name of its unit."""
+        for unit, problems in self.found.items():
+            for problem in problems:
+                named = problem.place.startswith(unit) or problem.file == unit
+                yield str(problem) if named else f"{unit}: {problem}"

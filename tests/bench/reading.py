@@ -20,6 +20,7 @@ from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import perf_counter
 from typing import Any
 
 import msgspec
@@ -162,8 +163,10 @@ def take(classes: dict[str, Path], where: Path, seed: int, i: int) -> None:
     truth.write_bytes(msgspec.json.encode(Taken(lab, drawing.points, grid)))
 
 
-Again = tuple[str, Taken, SheetRecord, dict[int, float]]
-"""A picture's name, what is true of it, what was read, and how far off the key is right, in mm."""
+Again = tuple[str, Taken, SheetRecord, dict[int, float], float]
+"""A picture's name, what is true of it, what was read, how far off the key is right, in mm, and how
+long reading took, in seconds.
+"""
 
 
 def read_again(classes: dict[str, Path], where: Path, i: int) -> Again | None:
@@ -176,8 +179,10 @@ def read_again(classes: dict[str, Path], where: Path, i: int) -> Again | None:
         return None
     taken = msgspec.json.decode(path.with_suffix(".truth.json").read_bytes(), type=Taken)
     order = read_order(read_edition(classes[taken.lab]), Grid(XS, YS))
+    start = perf_counter()
     record = read_one(order, Photograph(path.stem, path), "").record
-    return path.stem, taken, record, tolerances(order, record)
+    spent = perf_counter() - start
+    return path.stem, taken, record, tolerances(order, record), spent
 
 
 def tolerances(order: ReadOrder, record: SheetRecord) -> dict[int, float]:
@@ -207,12 +212,19 @@ class Tally:
         self.missed: list[str] = []
         self.untold: list[str] = []
 
-    def add(self, name: str, taken: Taken, record: SheetRecord, within: dict[int, float]) -> None:
+    def add(
+        self,
+        name: str,
+        taken: Taken,
+        record: SheetRecord,
+        within: dict[int, float],
+        spent: float,
+    ) -> None:
         """Hold what was read of a picture to what is true of it."""
         if record.refused is not None:
             self.refused.append(f"{name}: {record.refused}")
             return
-        self.spent.append(record.seconds)
+        self.spent.append(spent)
         true = np.array(taken.grid)
         scale = np.hypot(*(true[0] - true[len(XS) - 1])) / (XS[-1] - XS[0])
         self.maps.append(np.hypot(*(np.array(record.map) - true).T) / scale)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Collection
-from math import isfinite, pi
+from math import pi
 
 from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.lab.lab_model import Item
@@ -137,6 +137,10 @@ MISTYPED = re.compile(
 
 Of digits after letters only the powers 2 and 3 belong to units.
 """
+GROUPED = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{3}")
+"""Digits whose point or comma may part thousands."""
+LARGEST_ANSWER = 1e12
+"""No answer is that large in any unit of a field; a larger one is a mistake in typing."""
 LONGEST = 60
 """Characters of an answer; a longer one is no number."""
 UNITS: dict[str, dict[str, float]] = {
@@ -198,10 +202,13 @@ def read_number(text: str, stripped: str, unit: str) -> Answer:
         return Answer(text, problem="number" if MISTYPED.search(rest) else "unit")
     digits = found["digits"].replace(",", ".")
     value = float(f"{digits}e{found['power'] or 0}") * factor
-    if not isfinite(value):
+    if not value < LARGEST_ANSWER:
         return Answer(text, problem="large")
     sign = found["sign"]
-    return Answer(text, value if sign in ("", "+") else -value, signed=bool(sign))
+    value = value if sign in ("", "+") else -value
+    in_groups = GROUPED.fullmatch(found["digits"]) and not found["power"]
+    grouped = 1000 * value if in_groups else None
+    return Answer(text, value, signed=bool(sign), grouped=grouped)
 
 
 def beyond_number(text: str) -> str:

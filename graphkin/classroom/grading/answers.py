@@ -5,30 +5,36 @@ A cell that cannot be read is no error of the table: it is told, and does not co
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
-from graphkin.classroom.grading.graded import Answer
-from graphkin.classroom.grading.submissions import HandedIn, Sender, submissions
+from graphkin.classroom.grading.graded import THOUSANDS, WAITING, Answer
+from graphkin.classroom.grading.submissions import MOST_OWN, HandedIn, Sender, submissions
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
-from graphkin.classroom.roster.read_roster import NAMES
+from graphkin.classroom.roster.read_roster import LONGEST_ID, NAMES
 from graphkin.classroom.roster.sheet_rows import SheetRow
 from graphkin.classroom.roster.spreadsheets import (
+    LARGEST,
+    RowProblems,
     Spreadsheet,
     TableProblems,
     columns,
     folded,
+    place_of,
+    row_of,
     sheet_in,
 )
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
 from graphkin.scene.findings import nearest, visible
-from graphkin.text.errors import Problem, RosterError
+from graphkin.text.errors import Hint, InTable, Problem, RosterError, problems_of
 
 ABSENT = (
     "leave that row out; or put the student into the class list, run graphkin variants with"
@@ -36,6 +42,10 @@ ABSENT = (
 )
 FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
 """The heads of a file that holds one student's answers line by line."""
+MOST_FIELDS = 1000
+"""Rows of a file that holds one student's answers line by line."""
+MOST_NEAR = 100
+"""Unknown ids for which the nearest known one is looked for."""
 LEAST, SHOWN = 1 / 3, 12
 """The share of the form below which a table may be another lab's; columns that are named then."""
 HEADS = {"id": NAMES["id"], "email": EMAIL}
@@ -69,43 +79,97 @@ class Stranger(Struct, frozen=True):
     near: str = ""
 
 
+class Refused(Struct, frozen=True):
+    """Something that was handed in and is not marked: why, and the students whose it may be."""
+
+    problem: Problem
+    whose: tuple[str, ...] = ()
+
+
+class Claim(Struct, frozen=True):
+    """The answers of a student at one place of what was handed in; ``is_sure`` tells that a
+    learning platform says whose they are.
+    """
+
+    who: str
+    sign: str
+    place: InTable
+    cells: Mapping[str, Answer]
+    unread: Sequence[Unread] = ()
+    sender: Sender | None = None
+    is_sure: bool = False
+
+
 class Answers(Struct):
     """The answers of each student by id, the notes about cells, and columns that are no fields.
 
-    ``senders`` is what a learning platform calls each, ``empty`` those who sent no table.
+    ``unread`` are cells that cannot be read, or that marking has to tell from another reading;
+    ``refused`` is what is not marked, ``withheld`` the students who wait for that, each with an
+    answer to every field that cannot be read; ``senders`` is what a learning platform calls each,
+    ``empty`` those who sent no table, ``unlisted`` those taken by the ids in their files since the
+    class list has no such name, ``others`` files that are no tables.
     """
 
     of: dict[str, dict[str, Answer]] = field(default_factory=dict)
-    places: dict[str, str] = field(default_factory=dict)
     unread: list[Unread] = field(default_factory=list)
     strangers: list[Stranger] = field(default_factory=list)
     missing: list[str] = field(default_factory=list)
+    refused: list[Refused] = field(default_factory=list)
+    withheld: list[str] = field(default_factory=list)
     senders: dict[str, Sender] = field(default_factory=dict)
     empty: Sequence[Sender] = ()
+    unlisted: dict[str, Sender] = field(default_factory=dict)
+    others: Sequence[str] = ()
+
+    def withhold(self, who: str, fields: Iterable[str]) -> None:
+        """Let all answers of a student wait."""
+        self.withheld.append(who)
+        self.of[who] = dict.fromkeys(fields, WAITING)
 
 
 def read_answers(path: Path, items: Sequence[Item], signs: Signs, match: Match = "") -> Answers:
     """The answers in a table, or in each file of a folder or a ZIP file.
 
-    ``match`` is by what students are found in a table. Raises RosterError, all at once.
+    ``match`` is by what students are found in a table. A file or row that cannot be read keeps
+    nobody else back. Raises RosterError, all at once, where nobody's answers can be read.
     """
     known = {item.field: item for item in items}
-    heads = ["id", *HEADS["id"], *known, *FIELD, *VALUE]
     given = submissions(path)
-    reading = AnswerReading(known, signs, TableProblems(path.name), match)
-    for file in given.tables:
-        try:
-            told = reading.told if given.is_one else None
-            sheet = sheet_in(file.data, file.name, heads, told)
-        except RosterError as error:
-            reading.told.extend(error.problems)
-            continue
-        reading.form(sheet, file) if is_form(sheet) else reading.rows(sheet, file)
-    reading.told.stop()
-    reading.answers.empty = given.empty
+    reading = AnswerReading(known, signs, match, given.is_one)
+    for file in within_budget(given.tables, reading):
+        reading.file(file)
+    answers = reading.settled()
+    answers.empty, answers.others = given.empty, given.others
+    if answers.refused and len(answers.withheld) == len(answers.of):
+        raise RosterError(merged(path.name, answers.refused))
     refuse_other_lab(path.name, reading)
-    reading.answers.missing = [name for name in known if name not in reading.seen]
-    return reading.answers
+    answers.missing = [name for name in known if name not in reading.seen]
+    return answers
+
+
+def within_budget(tables: Sequence[HandedIn], reading: AnswerReading) -> Iterator[HandedIn]:
+    """The tables but those of senders who handed in too many, or too much; these are refused."""
+    own: dict[Sender, list[HandedIn]] = defaultdict(list)
+    for file in tables:
+        if file.sender is not None:
+            own[file.sender].append(file)
+    most = f"at most {MOST_OWN} tables, {LARGEST >> 20} MiB together"
+    for sender, files in own.items():
+        size = sum(file.size for file in files)
+        if len(files) > MOST_OWN or size > LARGEST:
+            found = f"hands in {len(files)} tables, {size / (1 << 20):.1f} MiB"
+            reading.refuse(files[0], Problem(sender.name, found, most))
+            own[sender] = []
+    for file in tables:
+        if file.sender is None or own[file.sender]:
+            yield file
+
+
+def merged(name: str, refused: Iterable[Refused]) -> list[Problem]:
+    """What is wrong with everything that is not marked, in a few lines where it is alike."""
+    told = RowProblems(name)
+    told.extend(each.problem for each in refused)
+    return told.merged
 
 
 def refuse_other_lab(name: str, reading: AnswerReading) -> None:
@@ -131,14 +195,16 @@ def is_form(sheet: Spreadsheet) -> bool:
 
 class AnswerReading(Struct, dict=True):
     """Tables being read: the fields that are ``known``, what students sign with, by which of it
-    they are to be found, what was found, and which fields were ``seen``.
+    they are to be found, whether there ``is_one`` table, what was found, and which fields were
+    ``seen``.
     """
 
     known: Mapping[str, Item]
     signs: Signs
-    told: TableProblems
     match: Match = ""
+    is_one: bool = False
     answers: Answers = field(default_factory=Answers)
+    claims: dict[str, list[Claim]] = field(default_factory=dict)
     seen: set[str] = field(default_factory=set)
 
     @cached_property
@@ -146,98 +212,232 @@ class AnswerReading(Struct, dict=True):
         """The fields by their names as they are compared."""
         return {folded(name): name for name in self.known}
 
-    def rows(self, sheet: Spreadsheet, file: HandedIn) -> None:
+    def file(self, file: HandedIn) -> None:
+        """Read one table; whatever is wrong with it is noted, and is nobody else's fault."""
+        heads = ["id", *HEADS["id"], *self.known, *FIELD, *VALUE]
+        told = RowProblems(file.name)
+        try:
+            sheet = sheet_in(file.read(), file.name, heads, told)
+            if is_form(sheet):
+                self.form(sheet, file, told)
+            else:
+                self.rows(sheet, file, told)
+        except Exception as error:
+            self.refuse(file, *(in_file(each, file.name) for each in problems_of(error)))
+
+    def rows(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
         """A table with a row for each student, or one row of the student whose file it is."""
         where = columns(sheet, HEADS | BESIDE)
         named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
         own = {i: name for i, name in named if name is not None}
         meant = [what for what in HEADS if what in where and self.match in ("", what)]
-        alone = self.by_file(file) if len(sheet.rows) == 1 else None
-        if not meant and alone is None:
+        alone = len(sheet.rows) + len(sheet.left_out) == 1
+        if not meant and not (alone and self.owners(file)):
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
             wanted = self.match or "id"
             found = f"no column {wanted}; the head is {head}"
-            self.told.add(sheet.name, found, f'a column named "{wanted}"')
-            return
+            raise RosterError(Problem(sheet.name, found, f'a column named "{wanted}"'))
         if not own:
             expected = f"columns such as {', '.join(list(self.known)[:4])}"
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:SHOWN])
             found = f"no column is a field of the form; the head is {head}"
-            self.told.add(sheet.name, found, expected, "are these the answers to another lab?")
-            return
-        self.seen |= set(own.values())
+            hint = "are these the answers to another lab?"
+            raise RosterError(Problem(sheet.name, found, expected, hint))
+        column = where[meant[0]] if meant else None
+        every = (*sheet.rows, *sheet.left_out)
+        used = {visible(sheet.head[i]) for i in (*own, column) if i is not None}
+        wrong = wrong_rows(told, used)
+        lines = {row.broken or row.line for row in every}
+        if whole := [each for line, some in wrong.items() if line not in lines for each in some]:
+            raise RosterError(whole)
         for i, cell in enumerate(sheet.head):
             if i not in own and cell and folded(cell) not in IDS | OTHERS:
                 self.stranger(sheet, cell)
-        for row in sheet.rows:
-            column = where[meant[0]] if meant else None
-            head, sign = ("", "") if column is None else (sheet.head[column], row.cells[column])
-            who = self.signed(sheet, row, head or "id", sign or alone or "")
+        for row in every:
+            head, sign = ("", "") if column is None else (sheet.head[column], cell_at(row, column))
+            if problems := wrong[row.broken or row.line]:
+                self.refuse(file, *problems, who=self.signs.who(sign))
+                continue
+            place = sheet.place(row, head or "id")
+            who = self.signed(place, sign, file, alone)
             if who is not None:
-                if alone is not None and file.sender is not None:
-                    self.answers.senders[who] = file.sender
-                cells = {name: self.cell(sheet, row, i, who, name) for i, name in own.items()}
-                self.answers.of[who] = cells
+                unread: list[Unread] = []
+                cells = {n: self.cell(sheet, row, i, who, n, unread) for i, n in own.items()}
+                self.claim(who, sign, place, cells, unread, file)
 
-    def form(self, sheet: Spreadsheet, file: HandedIn) -> None:
+    def form(self, sheet: Spreadsheet, file: HandedIn, told: TableProblems) -> None:
         """One student's answers, a field in each row; the id is in a row of its own, or the name
         of the file, or the student's name is that under which a learning platform has the file.
         """
         stated = [row for row in sheet.rows if folded(row.cells[0]) in IDS]
         stated = [row for row in stated if row.cells[1]] or stated
         sign = stated[0].cells[1] if stated else ""
-        sign = sign or self.by_file(file) or ("" if stated else file.stem)
-        who = self.signed(sheet, stated[0] if stated else SheetRow(1, ()), "id", sign)
-        if who is None:
-            return
-        if file.sender is not None:
-            self.answers.senders[who] = file.sender
-        self.answers.of[who] = {}
-        for row in sheet.rows:
+        known = self.signs.who(sign)
+        if len(sheet.rows) > MOST_FIELDS:
+            found = f"{len(sheet.rows)} rows"
+            told.add(sheet.name, found, f"at most {MOST_FIELDS}, one for each field")
+        cells: dict[str, Answer] = {}
+        unread: list[Unread] = []
+        strangers: list[str] = []
+        for row in sheet.rows[:MOST_FIELDS]:
             name = self.fields.get(folded(row.cells[0]))
             if name is None:
                 if folded(row.cells[0]) not in IDS | OTHERS:
-                    self.stranger(sheet, row.cells[0])
+                    strangers.append(row.cells[0])
                 continue
-            if name in self.answers.of[who]:
-                self.told.add(sheet.place(row), f"{name} is answered twice", "once")
-            self.seen.add(name)
-            self.answers.of[who][name] = self.cell(sheet, row, 1, who, name)
+            if name in cells:
+                told.add(sheet.place(row), f"{name} is answered twice", "once")
+            cells[name] = self.cell(sheet, row, 1, known or "", name, unread)
+        wrong = wrong_rows(told, set(map(visible, sheet.head[:2])))
+        if wrong:
+            self.refuse(file, *(each for some in wrong.values() for each in some), who=known)
+            return
+        place = sheet.place(stated[0] if stated else SheetRow(1, ()), "id")
+        who = self.signed(place, sign or ("" if stated else self.by_stem(file)), file, True)
+        if who is not None:
+            for cell in strangers:
+                self.stranger(sheet, cell)
+            unread = [replace(each, who=who) for each in unread]
+            self.claim(who, sign, place, cells, unread, file)
 
-    def by_file(self, file: HandedIn) -> str | None:
-        """Whose a file is that does not tell: by its name, or as a learning platform names it."""
-        if self.signs.who(file.stem) is not None:
-            return file.stem
-        return self.signs.named(file.sender.name) if file.sender is not None else None
+    def by_stem(self, file: HandedIn) -> str:
+        """What stands for the id of a file that tells none, nor is anybody's: its name."""
+        return "" if self.owners(file) else file.stem
 
-    def signed(self, sheet: Spreadsheet, row: SheetRow, head: str, sign: str) -> str | None:
-        """The student of the class who signs a row and has no answers yet; None, noted, if none."""
-        place = sheet.place(row, head)
-        who = self.signs.who(sign)
+    def owners(self, file: HandedIn) -> tuple[str, ...]:
+        """Whose a file may be by where it lies: those of the name under which a learning platform
+        has it, else the one whose id its own name is.
+        """
+        if file.sender is not None:
+            return self.signs.named(file.sender.name)
+        who = None if self.is_one else self.signs.who(file.stem)
+        return (who,) if who is not None else ()
+
+    def signed(self, place: InTable, sign: str, file: HandedIn, alone: bool) -> str | None:
+        """The student of the class who signs a row, or all of a file; None, noted, if none.
+
+        The platform that has the file says whose it is, and who signs it must be the same.
+        """
+        owners = self.owners(file) if alone or file.sender is not None else ()
+        if not sign and alone and len(owners) == 1:
+            return owners[0]
+        who, by = self.signs.who(sign), file.sender
+        whose = self.signs.called.get(who or "") or who
+        hint: Hint = ""
+        found, expected = "", ""
         if not sign:
-            self.told.add(place, "is missing", "the student's id")
+            found, expected = "is missing", "the student's id"
         elif who is None:
             found = f'"{visible(sign)}" is no student of this class'
-            near = nearest(sign, sorted(self.signs.ids))
-            self.told.add(place, found, "", near or ABSENT)
-        elif who in self.answers.of:
-            found = f'"{visible(sign)}" has answers already, in {self.answers.places[who]}'
-            self.told.add(place, found, "one")
+            few = len(sign) <= LONGEST_ID and len(self.answers.refused) < MOST_NEAR
+            hint = (nearest(sign, sorted(self.signs.ids)) if few else "") or ABSENT
+        elif owners and who not in owners:
+            where = (
+                f"the file is in the folder of {visible(by.name)}" if by else "its file is named"
+            )
+            found = f'"{visible(sign)}" is the id of {whose}, and {where}'
+            found, expected = (found, owners[0]) if by else (f"{found} {file.stem}", "one id")
+        elif by is not None and not owners and not self.signs.may_be(by.name, who):
+            found = f'"{visible(sign)}" is the id of {whose}, and {visible(by.name)} handed it in'
+            expected = "the id of who handed it in"
         else:
-            self.answers.places[who] = str(sheet.place(row))
             return who
+        self.refuse(file, Problem(str(place), found, expected, hint, about=(place,)), who=who)
         return None
 
+    def refuse(self, file: HandedIn, *problems: Problem, who: str | None = None) -> None:
+        """Note what is not marked, and whose it may be: that of who bears the name of the sender,
+        where a platform names one; else that of the owner of the file and of ``who`` signs it.
+        """
+        owners = self.owners(file)
+        whose = tuple(dict.fromkeys(filter(None, (*owners, who))))
+        if file.sender is not None:
+            whose = owners
+            if len(owners) == 1:
+                self.answers.senders[owners[0]] = file.sender
+        self.answers.refused += [Refused(each, whose) for each in problems]
+
+    def claim(
+        self,
+        who: str,
+        sign: str,
+        place: InTable,
+        cells: Mapping[str, Answer],
+        unread: Sequence[Unread],
+        file: HandedIn,
+    ) -> None:
+        """Note the answers of a student."""
+        is_sure = file.sender is not None and who in self.owners(file)
+        found = Claim(who, sign or who, place, cells, unread, file.sender, is_sure)
+        self.claims.setdefault(who, []).append(found)
+
+    def settled(self) -> Answers:
+        """The answers of each student; whoever has several, none of them surer, has to wait."""
+        answers = self.answers
+        for who, claims in self.claims.items():
+            first, *rivals = [each for each in claims if each.is_sure] or claims
+            for other in claims:
+                if other is not first:
+                    where = replace(first.place, column="")
+                    found = f'"{visible(other.sign)}" has answers already, in {where}'
+                    problem = Problem(str(other.place), found, "one", about=(other.place,))
+                    answers.refused.append(Refused(problem, (who,) if other in rivals else ()))
+            if first.is_sure and first.sender is not None:
+                answers.senders[who] = first.sender
+            if rivals:
+                continue
+            answers.of[who] = dict(first.cells)
+            answers.unread += first.unread
+            self.seen |= first.cells.keys()
+            if first.sender is not None and not first.is_sure:
+                answers.senders[who] = answers.unlisted[who] = first.sender
+        for each in answers.refused:
+            for who in each.whose:
+                if who not in answers.of:
+                    answers.withhold(who, self.known)
+        return answers
+
     def stranger(self, sheet: Spreadsheet, cell: str) -> None:
-        """Note what is no field, with the field that may be meant."""
-        near = get_close_matches(cell[:60], list(self.known), n=1)
+        """Note what is no field; of those that are shown, with the field that may be meant."""
+        few = len(self.answers.strangers) < SHOWN
+        near = get_close_matches(cell[:60], list(self.known), n=1) if few else []
         self.answers.strangers.append(Stranger(sheet.name, visible(cell), near[0] if near else ""))
 
-    def cell(self, sheet: Spreadsheet, row: SheetRow, column: int, who: str, name: str) -> Answer:
-        """One cell; one that cannot be read is noted."""
+    def cell(
+        self,
+        sheet: Spreadsheet,
+        row: SheetRow,
+        column: int,
+        who: str,
+        name: str,
+        unread: list[Unread],
+    ) -> Answer:
+        """One cell; one that cannot be read, or in two ways, is noted."""
         item = self.known[name]
         answer = read_answer(row.cells[column], item)
-        if answer.problem:
-            why = (answer.text, answer.problem, item.unit)
-            self.answers.unread.append(Unread(sheet.name, row.line, who, name, *why))
+        problem = answer.problem or (THOUSANDS if answer.grouped is not None else "")
+        if problem:
+            why = (answer.text, problem, item.unit)
+            unread.append(Unread(sheet.name, row.line, who, name, *why))
         return answer
+
+
+def wrong_rows(told: TableProblems, used: Collection[str]) -> dict[int, list[Problem]]:
+    """What is wrong, by its row; what is wrong in columns that are not used does not matter."""
+    found: dict[int, list[Problem]] = defaultdict(list)
+    for problem in told.every:
+        place = place_of(problem)
+        column = place.column if place is not None else ""
+        if not column or isinstance(column, int) or column in used:
+            found[row_of(problem)].append(problem)
+    return found
+
+
+def cell_at(row: SheetRow, column: int) -> str:
+    """A cell of a row that may be too short."""
+    return row.cells[column] if column < len(row.cells) else ""
+
+
+def in_file(problem: Problem, name: str) -> Problem:
+    """A problem that names its file, whatever its place is."""
+    return problem if name in problem.place else replace(problem, file=name)

@@ -12,7 +12,15 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.class_standards import standards
 from graphkin.classroom.grading.copied_answers import wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
-from graphkin.classroom.grading.graded import Answer, Decision, EarnedMark, Graded, Result, Status
+from graphkin.classroom.grading.graded import (
+    WAITING,
+    Answer,
+    Decision,
+    EarnedMark,
+    Graded,
+    Result,
+    Status,
+)
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.same_digits import copies
 from graphkin.classroom.grading.slips import Slip
@@ -23,6 +31,7 @@ from graphkin.classroom.printing.workers import chunks, engine
 from graphkin.classroom.roster.taker import Taker
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from graphkin.text.errors import GraphkinError, Problem, Refusals
 
 Variant = tuple[tuple[tuple[str, str], ...], tuple[str, ...]]
 Given = Mapping[str, Answer]
@@ -88,6 +97,29 @@ class Book(Struct, dict=True):
         return graded, marker.standard.expectation
 
 
+class Marked(Struct, frozen=True):
+    """The marks of one student and what was expected, and what hindered that: none where the own
+    variant cannot be constructed, all open where the answers cannot be marked.
+    """
+
+    graded: Graded | None = None
+    expected: Expectation | None = None
+    problems: tuple[Problem, ...] = ()
+
+
+def marked(book: Book, taker: Taker, answers: Given | None) -> Marked:
+    """The marks of one student, whatever may be wrong with the answers or the variant."""
+    who, refusals, found = taker.student.id, Refusals(), Marked()
+    waiting = dict.fromkeys((item.field for item in book.form), WAITING)
+    for given in (answers, waiting):
+        with refusals.alone(who):
+            graded, expected = book.mark(taker, given)
+            found = Marked(graded, expected)
+        if found.graded is not None:
+            break
+    return replace(found, problems=tuple(dict.fromkeys(refusals.found.get(who, ()))))
+
+
 def variant(settings: Mapping[str, str], computed: tuple[str, ...]) -> Variant:
     """What all students share who have the same data, and the same fields to be computed."""
     return tuple(sorted(settings.items())), computed
@@ -108,12 +140,21 @@ def graded_class(
     """
     every = [(taker, handed_in(answers.get(taker.student.id))) for taker in takers]
     order = sorted(range(len(every)), key=lambda i: (sorted(every[i][0].settings.items()), i))
-    marked = spread(book, [every[i] for i in order], jobs)
-    found = [each for _, each in sorted(zip(order, marked, strict=True), key=lambda pair: pair[0])]
+    done = spread(book, [every[i] for i in order], jobs)
+    told = [each for _, each in sorted(zip(order, done, strict=True), key=lambda pair: pair[0])]
+    refusals = Refusals()
+    for (taker, _), each in zip(every, told, strict=True):
+        if each.problems:
+            refusals.add(taker.student.id, each.problems)
+    found = [
+        (m.graded, m.expected) for m in told if m.graded is not None and m.expected is not None
+    ]
+    if refusals.found and not found:
+        raise GraphkinError(p for problems in refusals.found.values() for p in problems)
     graded = [each for each, _ in found]
     expected = shared(found)
-    others = wrong_variants(graded, expected, book.slips)
-    twice = copies(graded, expected, book.slips)
+    others = wrong_variants(graded, expected, book.slips, refusals.alone)
+    twice = copies(graded, expected, book.slips, refusals.alone)
     fits = {each.students[0]: each.fields for each in others}
     flagged = {*fits, *(who for each in twice for who in each.students)}
     free = settled(decisions).union(released)
@@ -127,7 +168,8 @@ def graded_class(
     ]
     own = by_student(decisions)
     graded = [with_decisions(each, own.get(each.taker.student.id, ())) for each in graded]
-    return Result(tuple(graded), others, twice, unsure(graded, expected), tuple(expected))
+    open_yet = unsure(graded, expected)
+    return Result(tuple(graded), others, twice, open_yet, tuple(expected), refusals.found)
 
 
 def unguessed(graded: Graded, fits: Sequence[str]) -> Graded:
@@ -159,14 +201,12 @@ def handed_in(answers: Given | None) -> Given | None:
     return answers
 
 
-def spread(
-    book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int
-) -> list[tuple[Graded, Expectation]]:
+def spread(book: Book, every: Sequence[tuple[Taker, Given | None]], jobs: int) -> list[Marked]:
     """The marks of students, those of one variant beside one another, by some processes."""
     if jobs == 1:
         return mark_all(book, every)
     work = partial(mark_all, replace(book, markers={}))
-    found: list[tuple[Graded, Expectation]] = []
+    found: list[Marked] = []
     with engine(jobs) as (pool, workers):
         parts = chunks(every, workers, KEPT)
         for part in pool.map(work, parts) if pool is not None else map(work, parts):
@@ -174,15 +214,17 @@ def spread(
     return found
 
 
-def mark_all(
-    book: Book, every: Sequence[tuple[Taker, Given | None]]
-) -> list[tuple[Graded, Expectation]]:
-    """The marks of some students, as many at a time as their variants are held together."""
-    found: list[tuple[Graded, Expectation]] = []
+def mark_all(book: Book, every: Sequence[tuple[Taker, Given | None]]) -> list[Marked]:
+    """The marks of some students, as many at a time as their variants are held together.
+
+    Where these cannot be prepared together, each is by itself, and only what hinders it is lost.
+    """
+    found: list[Marked] = []
     for start in range(0, len(every), KEPT):
         part = every[start : start + KEPT]
-        book.prepare(taker for taker, _ in part)
-        found += [book.mark(*each) for each in part]
+        with Refusals().alone("together"):
+            book.prepare(taker for taker, _ in part)
+        found += [marked(book, *each) for each in part]
     return found
 
 

@@ -22,8 +22,16 @@ NAMED = 5
 """Students that are named of many with the same data."""
 
 
-def class_report(result: Result, title: str, unread: Sequence[Unread], words: Words) -> str:
-    """The report as a page for a browser, its pictures within."""
+def class_report(
+    result: Result,
+    title: str,
+    unread: Sequence[Unread],
+    words: Words,
+    refused: Sequence[str] = (),
+) -> str:
+    """The report as a page for a browser, its pictures within; ``refused`` are lines about what is
+    not marked.
+    """
     own = own_work(result)
     pngs = pictures(result.graded, words, "png", own)
     names = names_of(result)
@@ -41,6 +49,7 @@ def class_report(result: Result, title: str, unread: Sequence[Unread], words: Wo
         decisions=list(decision_lines(result, words)),
         requests=list(request_lines(result, words)),
         unread=list(unread_lines(students, unread, words)),
+        refused=refused,
         absent=[each.taker.student.called for each in result.graded if not each.is_marked],
         unsure=list(unsure_lines(result, words)),
     )

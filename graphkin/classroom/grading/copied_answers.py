@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from math import log
 from typing import Any
 
@@ -37,13 +38,25 @@ Slips = Callable[[Graded], Sequence[Slip]]
 """The slips with a student's data."""
 
 
+Alone = Callable[[str], AbstractContextManager[None]]
+"""Lets work on one unit, by its name, fail alone."""
+
+
+def together(unit: str) -> AbstractContextManager[None]:
+    """What fails is raised."""
+    return nullcontext()
+
+
 def no_slips(graded: Graded) -> Sequence[Slip]:
     """None."""
     return ()
 
 
 def wrong_variants(
-    graded: Sequence[Graded], standards: Sequence[Expectation], slips: Slips = no_slips
+    graded: Sequence[Graded],
+    standards: Sequence[Expectation],
+    slips: Slips = no_slips,
+    alone: Alone = together,
 ) -> tuple[Suspicion, ...]:
     """Students whose answers fit another's data: (student, owners), the fields, the odds.
 
@@ -63,9 +76,11 @@ def wrong_variants(
         tells = each.present and len(own) > 1
         enough = choices + log(STRONG)
         place = mine[id(standard)]
-        best = best_other(each, keys, place, enough) if tells else None
-        if best is not None and (known := [slip for slip in slips(each) if slip.whole]):
-            best = best_other(each, keys, place, enough, known)
+        best = None
+        with alone(each.taker.student.id):
+            best = best_other(each, keys, place, enough) if tells else None
+            if best is not None and (known := [slip for slip in slips(each) if slip.whole]):
+                best = best_other(each, keys, place, enough, known)
         if best is not None:
             ids = (each.taker.student.id, *theirs[best.other])
             found.append(Suspicion(ids, best.fields, told_odds(best.odds - choices), best.of))

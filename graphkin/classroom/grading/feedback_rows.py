@@ -8,7 +8,14 @@ from math import isnan
 from msgspec import Struct
 
 from graphkin.classroom.grading.answer_numbers import beyond_number, shown_cell
-from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Status
+from graphkin.classroom.grading.graded import (
+    THOUSANDS,
+    WITHHELD,
+    Decision,
+    EarnedMark,
+    Graded,
+    Status,
+)
 from graphkin.classroom.lab.slip_names import NAMES
 from graphkin.construction.core.quantities import TURNING
 from graphkin.drawing.glyphs import advance
@@ -45,6 +52,8 @@ UNREAD = {
     "large": "unread.large",
     "turning": "unread.turning",
     "sliding": "unread.sliding",
+    THOUSANDS: "unread.thousands",
+    WITHHELD: "unread.withheld",
 }
 """The sentence for each reason why a cell cannot be read."""
 REVERSED = "sense_reversed"

@@ -11,9 +11,16 @@ from msgspec import Struct, field
 
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.taker import Taker
+from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:
     from graphkin.classroom.grading.standard import Expectation
+
+
+WITHHELD, THOUSANDS = "withheld", "thousands"
+"""Why a cell cannot be read: all that its student handed in is refused; its point or comma may part
+thousands.
+"""
 
 
 class Answer(Struct, frozen=True):
@@ -21,8 +28,9 @@ class Answer(Struct, frozen=True):
 
     A sense is +1 or -1, counter-clockwise or along the guide positive. ``signed`` tells that a
     sign was written; ``problem`` why a cell cannot be read (open, number, unit, large, turning,
-    sliding), which is not the same as wrong; ``followed`` that it was found on the drawing to
-    follow from the student's own earlier points.
+    sliding, thousands, withheld), which is not the same as wrong; ``followed`` that it was found
+    on the drawing to follow from the student's own earlier points; ``grouped`` is the number if its
+    point or comma parts thousands.
     """
 
     text: str
@@ -30,6 +38,7 @@ class Answer(Struct, frozen=True):
     signed: bool = False
     problem: str = ""
     followed: bool = False
+    grouped: float | None = None
 
     @property
     def is_blank(self) -> bool:
@@ -43,6 +52,8 @@ class Answer(Struct, frozen=True):
 
 
 BLANK = Answer("")
+WAITING = Answer("?", problem=WITHHELD)
+"""An answer of somebody whose answers cannot be read or marked."""
 
 
 class Status(Enum):
@@ -204,7 +215,8 @@ class Suspicion(Struct, frozen=True):
 
 class Result(Struct, frozen=True):
     """A whole class, marked; ``unsure`` are fields that no drawing of a student's variant tells,
-    ``expected`` is what each student's answers were held against.
+    ``expected`` is what each student's answers were held against; ``refused`` says of whom
+    something could not be worked out, and why.
     """
 
     graded: tuple[Graded, ...]
@@ -212,3 +224,4 @@ class Result(Struct, frozen=True):
     copies: tuple[Suspicion, ...] = ()
     unsure: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     expected: tuple[Expectation, ...] = ()
+    refused: Mapping[str, tuple[Problem, ...]] = field(default_factory=dict)

@@ -23,6 +23,7 @@ from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.printing.file_names import stems
 from graphkin.scene.model import Scene
 from graphkin.text import Words, words
+from graphkin.text.errors import Refusals
 from graphkin.writers.pdf import write_pdf
 
 MARKS, TOLERANCES, REPORT, CHANGES = (
@@ -40,7 +41,8 @@ FEEDBACK = "feedback"
 class ReportSettings(Struct, frozen=True):
     """What is told with the marks: the lab's title, the language of the report and of whoever has
     none of the own, cells that cannot be read; the title in other languages; the scene, which tells
-    what the parameters are of.
+    what the parameters are of; lines about what is not marked. ``refusals`` notes pages that cannot
+    be made.
     """
 
     title: str
@@ -48,6 +50,8 @@ class ReportSettings(Struct, frozen=True):
     unread: Sequence[Unread] = ()
     titles: Mapping[str, str] = field(default_factory=dict)
     scene: Scene | None = None
+    refused: Sequence[str] = ()
+    refusals: Refusals = field(default_factory=Refusals)
 
     def words_for(self, graded: Graded) -> Words:
         """The words of a student's own language."""
@@ -68,7 +72,7 @@ def report_files(
     files = {
         MARKS: marks,
         TOLERANCES: tolerances_table(graded, found.expected),
-        REPORT: class_report(found, told.title, told.unread, told.words).encode("utf-8"),
+        REPORT: class_report(found, told.title, told.unread, told.words, told.refused).encode(),
     }
     if before:
         files[CHANGES] = differences_table(differences(before, marks))
@@ -85,12 +89,13 @@ def feedback_files(
     for each, name in zip(graded, names, strict=True):
         spoken = told.words_for(each)
         title = told.title_in(spoken.language)
-        if "html" in formats:
-            text = feedback_html(each, title, lab.rubric, spoken, told.scene)
-            files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
-        if "pdf" in formats:
-            pages = feedback_pages(each, title, lab.rubric, spoken, told.scene)
-            files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
+        with told.refusals.alone(each.taker.student.called):
+            if "html" in formats:
+                text = feedback_html(each, title, lab.rubric, spoken, told.scene)
+                files[f"{FEEDBACK}/{name}.html"] = text.encode("utf-8")
+            if "pdf" in formats:
+                pages = feedback_pages(each, title, lab.rubric, spoken, told.scene)
+                files[f"{FEEDBACK}/{name}.pdf"] = write_pdf(pages, title=pages[0].title)
     return files
 
 
@@ -112,9 +117,8 @@ def returned(
         return {}
     students = [each.taker.student.id for each in graded]
     names = stems(students, [each.taker.code for each in graded])
-    pages = {
-        who: files[f"{FEEDBACK}/{name}.{kind}"] for who, name in zip(students, names, strict=True)
-    }
+    paths = {w: f"{FEEDBACK}/{name}.{kind}" for w, name in zip(students, names, strict=True)}
+    pages = {who: files[path] for who, path in paths.items() if path in files}
     return {RETURNED: packed_feedback(backs, pages, kind)}
 
 

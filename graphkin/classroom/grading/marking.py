@@ -12,7 +12,14 @@ from graphkin.classroom.grading.construction_slips import constructions
 from graphkin.classroom.grading.field_slips import of_fields
 from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
 from graphkin.classroom.grading.form_relations import Following
-from graphkin.classroom.grading.graded import BLANK, Answer, EarnedMark, Graded, Status
+from graphkin.classroom.grading.graded import (
+    BLANK,
+    THOUSANDS,
+    Answer,
+    EarnedMark,
+    Graded,
+    Status,
+)
 from graphkin.classroom.grading.one_drawing import of_one_drawing
 from graphkin.classroom.grading.slip_diagnosis import Found, diagnosed
 from graphkin.classroom.grading.slips import Slip
@@ -22,6 +29,8 @@ from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.taker import Taker
 
 NONE = Fraction()
+NEAR = 3.0
+"""So many times the key, or that part of it, an answer may be that is near it."""
 
 
 class Marker:
@@ -40,7 +49,7 @@ class Marker:
 
     def mark(self, taker: Taker, answers: Mapping[str, Answer], present: bool = True) -> Graded:
         """The mark of each field of a student's form."""
-        given = with_senses(self.standard, answers)
+        given = asked_of_thousands(self.standard, with_senses(self.standard, answers))
         torn = {field for field in self.standard.key if is_torn(self.standard, field, given)}
         read = [f for f in self.standard.key if given[f].is_read and f not in torn]
         by_key = tuple(field for field in read if is_right(self.standard, field, given))
@@ -187,6 +196,20 @@ def with_senses(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, 
             sign = 1.0 if value.value > 0 else -1.0
             given[item.field] = Answer("+" if sign > 0 else "-", sign, signed=True)
     return given
+
+
+def asked_of_thousands(standard: Standard, answers: Mapping[str, Answer]) -> dict[str, Answer]:
+    """The answers; one that is near the key only if its point parts thousands cannot be read."""
+    found = dict(answers)
+    for field, answer in answers.items():
+        key = standard.key.get(field)
+        if answer.grouped is None or not key or isnan(key):
+            continue
+        size = standard.by_field[field].item.size
+        is_near = 1 / NEAR < size(answer.grouped) / size(key) < NEAR
+        if is_near and not is_right(standard, field, answers):
+            found[field] = Answer(answer.text, problem=THOUSANDS)
+    return found
 
 
 def is_torn(standard: Standard, field: str, answers: Mapping[str, Answer]) -> bool:

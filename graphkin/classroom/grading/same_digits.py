@@ -22,7 +22,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.copied_answers import Slips, no_slips
+from graphkin.classroom.grading.copied_answers import Alone, Slips, no_slips, together
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
 from graphkin.classroom.grading.likelihood import PENCILS, Key, fit, told_odds
@@ -85,7 +85,10 @@ class AnswerSheet(Struct, frozen=True):
 
 
 def copies(
-    graded: Sequence[Graded], standards: Sequence[Expectation], slips: Slips = no_slips
+    graded: Sequence[Graded],
+    standards: Sequence[Expectation],
+    slips: Slips = no_slips,
+    alone: Alone = together,
 ) -> tuple[Suspicion, ...]:
     """Students who handed in the same digits: two, or more of whom any two did in all the fields
     that are named; the odds are those of the weakest two. ``slips`` are asked only for whoever
@@ -96,7 +99,12 @@ def copies(
         return ()
     own, mine = distinct(standards)
     keys = Keys.of(own)
-    sheets = {i: sheet(graded[i], keys, mine[id(standards[i])]) for i in present}
+    ids = [each.taker.student.id for each in graded]
+    sheets = dict[int, AnswerSheet]()
+    for i in present:
+        with alone(ids[i]):
+            sheets[i] = sheet(graded[i], keys, mine[id(standards[i])])
+    present = list(sheets)
     alike = sum(comb(count, 2) for count in Counter(s.variant for s in sheets.values()).values())
     pairs = {True: alike, False: comb(len(present), 2) - alike}
 
@@ -116,14 +124,16 @@ def copies(
     fields: dict[Pair, tuple[int, ...]] = {}
     asked: set[int] = set()
     for pair, chances in agreeing(sheets, keys).items():
-        if -sum(map(log, chances.values())) - needed(pair) >= log(STRONG):
-            fields[pair] = tuple(chances)
-            odds = odds_of(pair, fields[pair])
+        if -sum(map(log, chances.values())) - needed(pair) < log(STRONG):
+            continue
+        with alone(", ".join(ids[who] for who in pair)):
+            odds = odds_of(pair, tuple(chances))
             if odds >= log(STRONG) and not asked.issuperset(pair):
                 new = [who for who in pair if who not in asked]
                 sheets |= {who: with_slips(sheets[who], graded[who], keys, slips) for who in new}
                 asked.update(new)
-                odds = odds_of(pair, fields[pair])
+                odds = odds_of(pair, tuple(chances))
+            fields[pair] = tuple(chances)
             if odds >= log(STRONG):
                 strong[pair] = odds
     return tuple(

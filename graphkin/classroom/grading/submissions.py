@@ -11,7 +11,8 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from pathlib import Path, PurePosixPath
 
 from msgspec import Struct
@@ -24,7 +25,9 @@ KINDS = (".csv", ".txt", ".tsv", ".xlsx")
 """Files that are read."""
 PACKED = ".zip"
 MOST_BYTES, MOST_FILES = 512 << 20, 100_000
-"""Bytes of a ZIP file, packed and unpacked, and files in it."""
+"""Bytes of a ZIP file, and files in it."""
+MOST_OWN = 50
+"""Tables of one student; all of them together are no larger than one table may be."""
 MOODLE = re.compile(r"(?P<name>[^_]+)_(?P<number>\d+)_assignsubmission_[a-z]+(?:_(?P<file>.*))?")
 CANVAS = re.compile(r"(?P<name>[^_]+)_(?:LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)")
 DATE = (1980, 1, 1, 0, 0, 0)
@@ -43,10 +46,14 @@ class Sender(Struct, frozen=True):
 
 
 class HandedIn(Struct, frozen=True):
-    """A table that was handed in: its path within all that was, its bytes, and whose it is."""
+    """A table that was handed in: its path within all that was, its size, and whose it is.
+
+    ``read`` gives its bytes, and raises RosterError where there are none.
+    """
 
     name: str
-    data: bytes
+    size: int
+    read: Callable[[], bytes]
     sender: Sender | None = None
 
     @property
@@ -56,13 +63,15 @@ class HandedIn(Struct, frozen=True):
 
 
 class Submissions(Struct, frozen=True):
-    """Everything that was handed in; ``empty`` are senders without any table.
+    """Everything that was handed in; ``empty`` are senders without any table, ``others`` the names
+    of other files without a sender, which are not read.
 
     ``is_one`` tells that it is a single table.
     """
 
     tables: tuple[HandedIn, ...]
     empty: tuple[Sender, ...] = ()
+    others: tuple[str, ...] = ()
     is_one: bool = False
 
 
@@ -72,64 +81,97 @@ def submissions(path: Path) -> Submissions:
     Raises RosterError where there is no table.
     """
     if path.is_dir():
-        found = dict(in_folder(path))
+        found = list(in_folder(path))
     elif path.suffix.lower() == PACKED:
         found = in_zip(path)
     else:
-        return Submissions((HandedIn(path.name, bytes_of(path)),), is_one=True)
-    tables = tuple(
-        HandedIn(name, data, sender(name)) for name, data in found.items() if data is not None
-    )
+        data = bytes_of(path)
+        return Submissions((HandedIn(path.name, len(data), lambda: data),), is_one=True)
+    tables = tuple(each for each in found if is_table(PurePosixPath(each.name)))
     if not tables:
         what = "a folder" if path.is_dir() else "a ZIP file"
         raise RosterError(
             Problem(str(path), f"{what} without any table", f"files {', '.join(KINDS)}")
         )
     told = {each.sender.name for each in tables if each.sender is not None}
-    every = [each for each in map(sender, found) if each is not None]
+    every = [each.sender for each in found if each.sender is not None]
     empty = {each.name: each for each in every if each.name not in told}
-    return Submissions(tables, tuple(empty.values()))
+    others = [each for each in found if each.sender is None and each not in tables]
+    names = (PurePosixPath(each.name) for each in others)
+    left = tuple(str(name) for name in names if not is_beside(name))
+    return Submissions(tables, tuple(empty.values()), left)
+
+
+def is_hidden(path: PurePosixPath) -> bool:
+    """Whether a file is one that a system leaves beside others."""
+    return any(part.startswith((".", "~", "__MACOSX")) for part in path.parts)
 
 
 def is_table(path: PurePosixPath) -> bool:
-    """Whether a file is a table to be read, and none that a system leaves beside it."""
-    hidden = any(part.startswith((".", "~", "__MACOSX")) for part in path.parts)
-    return path.suffix.lower() in KINDS and not hidden
+    """Whether a file is a table to be read."""
+    return path.suffix.lower() in KINDS and not is_hidden(path)
 
 
-def in_folder(folder: Path) -> Iterator[tuple[str, bytes | None]]:
-    """The files below a folder by their paths in it; without bytes what is no table."""
-    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
+def is_beside(path: PurePosixPath) -> bool:
+    """Whether a file that is no table needs no word: a hidden one, or a score sheet."""
+    return is_hidden(path) or path.suffix.lower() == ".json"
+
+
+def in_folder(folder: Path) -> Iterator[HandedIn]:
+    """The files below a folder by their paths in it."""
+    for path in sorted(p for p in folder.rglob("*") if p.is_file() or p.is_symlink()):
         name = path.relative_to(folder).as_posix()
-        yield name, bytes_of(path) if is_table(PurePosixPath(name)) else None
+        size = path.lstat().st_size
+        yield HandedIn(name, size, partial(own_bytes, path, name), sender(name))
 
 
-def in_zip(path: Path) -> dict[str, bytes | None]:
+def own_bytes(path: Path, name: str) -> bytes:
+    """The bytes of a file that is no link to another place. Raises RosterError."""
+    if path.is_symlink():
+        found, hint = "is a link to another place", "put the file itself there"
+        raise RosterError(Problem(name, found, "a file of its own", hint))
+    return bytes_of(path)
+
+
+def in_zip(path: Path) -> list[HandedIn]:
     """The files of a ZIP file by their paths in it; nothing is unpacked onto the disk.
 
     Raises RosterError where it is none, or holds too much.
     """
-    expected = f"at most {MOST_FILES} files, {MOST_BYTES >> 20} MiB, {LARGEST >> 20} MiB each"
-    found: dict[str, bytes | None] = {}
+    expected = f"at most {MOST_FILES} files, {MOST_BYTES >> 20} MiB"
     try:
         data = file_bytes(path, MOST_BYTES + 1)
-        with zipfile.ZipFile(io.BytesIO(data)) as packed:
-            parts = [part for part in packed.infolist() if not part.is_dir()]
-            tables = [part for part in parts if is_table(PurePosixPath(part.filename))]
-            large = [part for part in tables if part.file_size > LARGEST]
-            size = sum(part.file_size for part in tables)
-            if max(len(data), size) > MOST_BYTES or len(parts) > MOST_FILES or large:
-                where = f"{path.name}, {large[0].filename}" if large else path.name
-                raise RosterError(Problem(where, "is too large", expected))
-            for part in parts:
-                found[part.filename] = packed.read(part) if part in tables else None
+        if len(data) > MOST_BYTES:
+            raise RosterError(Problem(path.name, "is too large", expected))
+        packed = zipfile.ZipFile(io.BytesIO(data))  # in memory: nothing is left open
+        parts = [part for part in packed.infolist() if not part.is_dir()]
     except OSError as error:
         reason = error.strerror or "cannot be opened"
         raise RosterError(Problem(str(path), f"cannot be read: {reason}")) from None
     except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, EOFError) as error:
         hint = "download it again, or unpack it and name the folder"
         raise RosterError(Problem(path.name, "cannot be read as a ZIP file", "", hint)) from error
-    return dict(sorted(found.items()))
+    if len(parts) > MOST_FILES:
+        raise RosterError(Problem(path.name, f"holds {len(parts)} files", expected))
+    found = [
+        HandedIn(
+            part.filename, part.file_size, partial(unpacked, packed, part), sender(part.filename)
+        )
+        for part in parts
+    ]
+    return sorted(found, key=lambda each: each.name)
+
+
+def unpacked(packed: zipfile.ZipFile, part: zipfile.ZipInfo) -> bytes:
+    """The bytes of a file in a ZIP file. Raises RosterError where they cannot be had."""
+    if part.file_size > LARGEST:
+        raise RosterError(Problem(part.filename, "is too large", f"at most {LARGEST >> 20} MiB"))
+    try:
+        return packed.read(part)
+    except Exception as error:
+        hint = "is it encrypted or damaged? unpack it, or ask for it again"
+        found = "cannot be unpacked from the ZIP file"
+        raise RosterError(Problem(part.filename, found, "", hint)) from error
 
 
 def sender(name: str) -> Sender | None:

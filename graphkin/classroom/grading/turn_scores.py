@@ -19,7 +19,7 @@ from msgspec import Meta, Struct
 
 from graphkin.classroom.grading.marks_tables import csv_bytes
 from graphkin.scene.findings import visible
-from graphkin.text.errors import Problem, RosterError
+from graphkin.text.errors import Problem, Refusals, RosterError
 
 TURNS = "turns.csv"
 """The table of a report that lists them."""
@@ -71,40 +71,47 @@ class TurnScore(Struct, frozen=True):
         )
 
 
-def read_turns(path: Path, codes: Mapping[str, str]) -> list[TurnScore]:
+def read_turns(path: Path, codes: Mapping[str, str], refusals: Refusals) -> list[TurnScore]:
     """The score sheets in a folder of answers; ``codes`` has the opaque code of each student by id.
 
-    Raises RosterError for files that are none, or no student's of the class, all at once.
+    Files that are none, or no student's of the class, are noted. Of several of one student that
+    counts whose seal is right; where that is none or not the only one, none does.
     """
     files = sorted(path.glob(f"*{ENDING}")) if path.is_dir() else []
-    found: dict[str, TurnScore] = {}
-    problems: list[Problem] = []
+    found: dict[str, list[TurnScore]] = {}
     for file in files:
-        read = turn_file(file)
-        who = "" if isinstance(read, Problem) else read.id or file.stem.removesuffix(SAVED_AS)
-        if isinstance(read, Problem):
-            problems.append(read)
-        elif who not in codes:
-            problems.append(Problem(file.name, f'"{visible(who)}" is no student of this class'))
-        elif who in found:
-            also = f'"{visible(who)}" has a score sheet already, in {found[who].file}'
-            problems.append(Problem(file.name, also, "one"))
-        else:
-            found[who] = TurnScore(who, file.name, read, state_of(codes[who], read))
-    if problems:
-        raise RosterError(problems)
-    return [found[who] for who in codes if who in found]
+        with refusals.alone(file.name):
+            read = turn_file(file)
+            who = read.id or file.stem.removesuffix(SAVED_AS)
+            if who not in codes:
+                said = f'"{visible(who)}" is no student of this class'
+                raise RosterError(Problem(file.name, said))
+            score = TurnScore(who, file.name, read, state_of(codes[who], read))
+            found.setdefault(who, []).append(score)
+    kept = [each for who in codes for each in only(found.get(who, ()))]
+    for who, every in found.items():
+        for each in every[1:] if len(every) > 1 else ():
+            also = f'"{visible(who)}" has a score sheet already, in {every[0].file}'
+            refusals.add(each.file, [Problem(each.file, also, "one")])
+    return kept
 
 
-def turn_file(file: Path) -> TurnFile | Problem:
-    """A score sheet, or why a file is none."""
+def only(every: Sequence[TurnScore]) -> Sequence[TurnScore]:
+    """The one of a student's score sheets that counts, if there is one."""
+    right = [each for each in every if each.seal == "right"]
+    counts = every if len(every) == 1 else right
+    return counts if len(counts) == 1 else ()
+
+
+def turn_file(file: Path) -> TurnFile:
+    """A score sheet. Raises RosterError for a file that is none."""
     expected = "a score sheet as a page saves it"
     hint = "take the file out of the folder, or save it anew from the page"
     try:
         with file.open("rb") as opened:
             return msgspec.json.decode(opened.read(MOST), type=TurnFile)
     except (OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as reason:
-        return Problem(file.name, visible(str(reason)), expected, hint)
+        raise RosterError(Problem(file.name, visible(str(reason)), expected, hint)) from None
 
 
 def seal_of(code: str, told: TurnFile) -> str:

@@ -35,7 +35,7 @@ from graphkin.drawing.symbol_markup import escape
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import Words
-from graphkin.text.errors import GraphkinError, Problem
+from graphkin.text.errors import Problem, problems_of
 
 VIEWS = ("task", "key", "overlay", "steps")
 """What can be printed of each student."""
@@ -84,8 +84,8 @@ def made(order: PrintOrder, wanted: StudentSheets) -> Made:
         files = {
             part: dict(files_of(sheets, wanted.stem, *part, order.ink)) for part in wanted.parts
         }
-    except GraphkinError as error:
-        return Made(wanted.taker.code, {}, error.problems)
+    except Exception as error:
+        return Made(wanted.taker.code, {}, problems_of(error))
     return Made(wanted.taker.code, files)
 
 

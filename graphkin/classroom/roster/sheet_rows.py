@@ -15,12 +15,14 @@ MOST_CELLS, LAST_ROW = 2_000_000, 1 << 20
 class SheetRow(Struct, frozen=True):
     """One row: its line in the file, or its row in the sheet, and its cells by column.
 
-    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them.
+    ``numbers`` are the columns of cells that are numbers in the file, without zeros before them;
+    ``broken`` is the line at which the fault begins where the cells may be in wrong columns, or 0.
     """
 
     line: int
     cells: tuple[str, ...]
     numbers: frozenset[int] = frozenset()
+    broken: int = 0
 
 
 def too_large(name: str, found: str) -> RosterError:

@@ -45,13 +45,14 @@ ZIP, OLD_EXCEL = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"
 class Spreadsheet(Struct, frozen=True):
     """A table: the name of its file, its head, its rows; cells are texts without blanks around.
 
-    ``separator`` is what stands between the cells; a tab for XLSX.
+    ``separator`` is what stands between the cells; a tab for XLSX. ``left_out`` are broken rows.
     """
 
     name: str
     head: tuple[str, ...]
     rows: tuple[SheetRow, ...]
     separator: str = ","
+    left_out: tuple[SheetRow, ...] = ()
 
     def place(self, row: SheetRow, column: str = "") -> InTable:
         """Where something is."""
@@ -89,11 +90,28 @@ class TableProblems(Findings):
             if len(self.causes) > MOST:
                 self.stop()
 
+    @property
+    def every(self) -> list[Problem]:
+        """Each problem by itself."""
+        return [each for alike in self.causes.values() for each in alike.values()]
+
+    @property
+    def merged(self) -> list[Problem]:
+        """The problems in the order of the rows, those of one cause together."""
+        told = [line for alike in self.causes.values() for line in together(alike.values())]
+        return sorted(told, key=row_of)
+
     def stop(self) -> None:
         """Raise RosterError when anything was found, in the order of the rows."""
         if self.problems:
-            told = [line for alike in self.causes.values() for line in together(alike.values())]
-            raise RosterError(sorted(told, key=row_of))
+            raise RosterError(self.merged)
+
+
+class RowProblems(TableProblems):
+    """Problems of a table whose rows are read each by itself, however many are broken."""
+
+    def stop(self) -> None:
+        """Go on."""
 
 
 def cause_of(problem: Problem) -> tuple[str | int, ...]:
@@ -199,7 +217,7 @@ def text_of(data: bytes, name: str) -> str:
         at = InTable(name, row)
         problem = Problem(str(at), found, "a text saved as UTF-8", hint, about=(at,))
         raise RosterError(problem) from None
-    if "\0" in text:
+    if text.count("\0") > len(text) // 4:  # the bytes of wider letters; a few are told by row
         row = text.count("\n", 0, text.index("\0")) + 1
         hint = "save the table again as CSV UTF-8"
         at = InTable(name, row)
@@ -229,32 +247,55 @@ def known_in(cells: Iterable[str], known: Collection[str]) -> int:
 
 
 def csv_rows(text: str, separator: str, told: TableProblems) -> Iterator[SheetRow]:
-    """The rows of a CSV text by the lines on which they begin; what is broken is noted."""
-    lines = io.StringIO(text, newline="")
-    reader = csv.reader(lines, delimiter=separator, strict=True)
-    begins = 1
-    while True:
-        try:
-            cells = next(reader, None)
-        except csv.Error as error:
-            told.add(InTable(told.name, begins), *broken(str(error)))
-            return
-        if cells is None:
-            return
-        if reader.line_num > LAST_ROW:
-            raise too_large(told.name, f"more than {LAST_ROW} lines")
-        if reader.line_num > begins and any("\n" in c or "\r" in c for c in cells):
-            found = f"a cell goes on to row {reader.line_num}"
-            hint = "is a closing quote missing?"
-            told.add(InTable(told.name, begins), found, "a cell on one row", hint)
-        yield SheetRow(begins, tuple(cells))
-        begins = reader.line_num + 1
+    """The rows of a CSV text by the lines on which they begin; what is broken is noted.
+
+    A record that is broken gives a broken row for each of its lines. A quote that is never closed
+    breaks its own line alone.
+    """
+    lines = list(io.StringIO(text, newline=""))
+    begins, unclosed = 1, 0
+    while begins <= len(lines) and unclosed <= MOST:
+        reader = csv.reader(islice(lines, begins - 1, None), delimiter=separator, strict=True)
+        before, cells = begins - 1, list[str]()
+        while begins <= len(lines):
+            found = ""
+            try:
+                cells = next(reader)
+            except csv.Error as error:
+                found = str(error)
+                told.add(InTable(told.name, begins), *broken(found))
+            ends = before + reader.line_num
+            if ends > LAST_ROW:
+                raise too_large(told.name, f"more than {LAST_ROW} lines")
+            is_open = "unexpected end" in found or "field larger" in found
+            ends = begins if is_open else ends
+            if not found and ends > begins and any("\n" in c or "\r" in c for c in cells):
+                found = f"a cell goes on to row {ends}"
+                hint = "is a closing quote missing?"
+                told.add(InTable(told.name, begins), found, "a cell on one row", hint)
+            if found:
+                for i in range(begins, ends + 1):
+                    yield SheetRow(i, tuple(loose_cells(lines[i - 1], separator)), broken=begins)
+            else:
+                yield SheetRow(begins, tuple(cells))
+            begins = ends + 1
+            if is_open:
+                unclosed += 1
+                break
+    if unclosed > MOST:
+        found, hint = f"more than {MOST} quotes that are never closed", "the rest is not read"
+        raise RosterError(Problem(told.name, found, 'a closing " in each cell', hint))
+
+
+def loose_cells(line: str, separator: str) -> list[str]:
+    """The cells of a line that is broken, quotes left out."""
+    return line.replace('"', "").rstrip("\r\n").split(separator)
 
 
 def broken(message: str) -> tuple[str, str, str]:
     """What the reader of CSV says, in words that help: found, expected, hint."""
     if "unexpected end" in message:
-        return "a quote that is opened and never closed", 'a closing "', "the rest is not read"
+        return "a quote that is opened and never closed", 'a closing "', ""
     if "expected after" in message:
         hint = 'a quote within quotes is written twice: "Ann ""Nan"" Lee"'
         return "a quote in the middle of a quoted cell", "the end of the cell after it", hint
@@ -271,7 +312,10 @@ def sheet_of(
     heads: Sequence[str] = (),
 ) -> Spreadsheet:
     """A table of rows, empty ones left out: its head, and what is below it."""
-    head, body = below_titles((row for row in map(tidied, rows) if row.cells), heads)
+    left_out: list[SheetRow] = []
+    head, body = below_titles(whole_rows(map(tidied, rows), left_out), heads)
+    if left_out and (head is None or left_out[0].line < head.line):
+        raise RosterError(told.problems)
     if head is None:
         told.stop()
         raise RosterError(
@@ -296,12 +340,22 @@ def sheet_of(
             words = f"{len(cells)} cells, and the head has {width}"
             hint = f"a cell that holds {SEPARATORS[separator]} is written in quotes"
             told.add(InTable(name, row.line), words, f"at most {width}", hint)
+            left_out.append(replace(row, broken=row.line))
             continue
         for i, cell in enumerate(cells):
             refuse_hidden(told, InTable(name, row.line, visible(head.cells[i])), cell)
         whole = cells + ("",) * (width - len(cells))
         rows_found.append(SheetRow(row.line, whole, row.numbers))
-    return Spreadsheet(name, head.cells, tuple(rows_found), separator)
+    return Spreadsheet(name, head.cells, tuple(rows_found), separator, tuple(left_out))
+
+
+def whole_rows(rows: Iterable[SheetRow], left_out: list[SheetRow]) -> Iterator[SheetRow]:
+    """The rows that hold something; broken ones are left out."""
+    for row in rows:
+        if row.broken:
+            left_out.append(row)
+        elif row.cells:
+            yield row
 
 
 def below_titles(
@@ -325,7 +379,7 @@ def tidied(row: SheetRow) -> SheetRow:
     cells = [tidy(cell) for cell in row.cells]
     while cells and not cells[-1]:
         cells.pop()
-    return SheetRow(row.line, tuple(cells), row.numbers)
+    return replace(row, cells=tuple(cells))
 
 
 def tidy(cell: str) -> str:

@@ -31,23 +31,30 @@ class Signs(Struct, frozen=True):
 
     ``exact`` are ids and codes of sheets; ``bare`` ids without the zeros at their beginning, which
     spreadsheets take away, where no two are the same so; ``emails`` and ``names`` are in small
-    letters, names without blanks and accents too.
+    letters, names without blanks and accents too, each with all students of it. ``called`` is the
+    name of each student as the class list has it.
     """
 
     ids: tuple[str, ...] = ()
     exact: Mapping[str, str] = field(default_factory=dict)
     bare: Mapping[str, str] = field(default_factory=dict)
     emails: Mapping[str, str] = field(default_factory=dict)
-    names: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    called: Mapping[str, str] = field(default_factory=dict)
 
     def who(self, sign: str) -> str | None:
         """The student whose id, code or address something is; None where it is nobody's."""
         known = self.exact.get(sign) or self.emails.get(sign.casefold())
         return known or (self.bare.get(sign.lstrip("0")) if sign.isdecimal() else None)
 
-    def named(self, name: str) -> str | None:
-        """The only student of a name, whichever part of it comes first; None for several."""
-        return self.names.get(folded(name))
+    def named(self, name: str) -> tuple[str, ...]:
+        """The students of a name, whichever part of it comes first."""
+        return self.names.get(folded(name), ())
+
+    def may_be(self, name: str, who: str) -> bool:
+        """Whether a name that is nobody's in the class list shares a word with a student's own."""
+        own = self.called.get(who, "").replace(",", " ").split()
+        return not own or any(folded(word) in folded(name) for word in own)
 
 
 def signs(
@@ -62,8 +69,13 @@ def signs(
     exact |= {who: who for who in every}
     bare = [(who.lstrip("0"), who) for who in every if who.isdecimal()]
     mails = [(mail.casefold(), who) for who, mail in (emails or {}).items() if mail]
-    turned = {(turn, who) for who, name in (names or {}).items() for turn in turns(name)}
-    return Signs(every, exact, single(bare), single(mails), single(turned))
+    called = dict(names or {})
+    turned: dict[str, dict[str, None]] = {}
+    for who, name in called.items():
+        for turn in turns(name):
+            turned.setdefault(turn, {})[who] = None
+    bearing = {turn: tuple(known) for turn, known in turned.items() if turn}
+    return Signs(every, exact, single(bare), single(mails), bearing, called)
 
 
 def single(pairs: Iterable[tuple[str, str]]) -> dict[str, str]:

@@ -22,7 +22,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.numbers.arrays import np
 from graphkin.scene.parameters import misfit, range_words
 from graphkin.scene.quantity import shortest
-from graphkin.text.errors import Problem, RosterError, SceneError
+from graphkin.text.errors import Problem, RosterError, problems_of
 
 VAIN = 300
 """Draws on end that find room for nobody, after which nobody is drawn again."""
@@ -154,8 +154,8 @@ def misfits(lab: Lab, student: Student) -> list[Problem]:
     """What is wrong with the data that a formula gives a student: none, or what no scene allows."""
     try:
         given = settings(lab, student)
-    except SceneError as error:
-        return list(error.problems)
+    except Exception as error:
+        return list(problems_of(error))
     parameters, gives = lab.mechanism.scene.parameters, f"number {student.number} gives"
     return [
         Problem("", f"{gives} {name} = {shortest(value)}, which is {wrong}", range_words(each))

@@ -37,7 +37,7 @@ function wrong(text, unit) {
   }
   const digits = found.groups.digits.replaceAll(",", ".");
   const value = Number(`${digits}e${found.groups.power || 0}`) * (written ? known[written] : 1);
-  return Number.isFinite(value) ? "" : say("too_large", { text: shown(stripped) });
+  return value < told.largest ? "" : say("too_large", { text: shown(stripped) });
 }
 
 function plainUnit(text) {

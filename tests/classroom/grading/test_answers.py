@@ -129,8 +129,9 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(read):
 def test_a_student_may_sign_with_the_code_on_the_sheets(read):
     text, coded = "id,v_D\nQWERTYUIOP,3.8\n002,1\n", signs(IDS, {"001": "QWERTYUIOP"})
     assert read(text, who=coded).of["001"]["v_D"].value == 3.8
-    with pytest.raises(RosterError, match="has answers already"):
-        read(f"{text}001,2\n", who=coded)
+    twice = read(f"{text}001,2\n", who=coded)
+    assert twice.withheld == ["001"]
+    assert "has answers already, in a.csv, row 2" in str(twice.refused[0].problem)
 
 
 def test_a_folder_with_a_file_for_each_student(read):

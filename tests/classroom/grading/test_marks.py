@@ -8,6 +8,7 @@ from math import pi
 import pytest
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.form_relations import Own, OwnLengths
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
@@ -246,3 +247,25 @@ def test_the_component_of_a_wheel_follows_from_an_own_rate(scene):
     marks = marked(Marker(found), **{rate: own, field: own**2 * length})
     assert (marks[field].status, marks[field].source) == (Status.FOLLOWS, rate)
     assert marks[field].earned == Fraction("0.8")
+
+
+@pytest.mark.parametrize(
+    ("cell", "status"),
+    [
+        ("3.827 mm/s", Status.UNREADABLE),
+        ("-3,827 mm/s", Status.UNREADABLE),
+        ("3.827", Status.RIGHT),
+        ("3827 mm/s", Status.RIGHT),
+        ("3.83 mm/s", Status.SLIP),
+        ("9.827 m/s", Status.WRONG),
+        ("9.827 mm/s", Status.UNREADABLE),
+        ("30.827 mm/s", Status.WRONG),
+    ],
+)
+def test_a_point_that_may_part_thousands_is_asked_where_only_that_is_near_the_key(cell, status):
+    marker = marker_of("pump", 7)
+    item = marker.standard.by_field["v_D"].item
+    answers = key_answers(marker.standard) | {"v_D": read_answer(cell, item)}
+    found = marker.mark(taker(7), answers).mark("v_D")
+    assert found.status is status
+    assert (found.answer.problem == "thousands") == (status is Status.UNREADABLE)

@@ -96,8 +96,9 @@ def test_an_empty_table_is_no_table_that_was_not_handed_in(tmp_path):
     files = MOODLE | {empty: ""}
     for path in (packed(tmp_path / "all.zip", files), unpacked(tmp_path / "all", files)):
         assert submissions(path).empty == ()
-        with pytest.raises(RosterError, match=f"{empty}: the table is empty"):
-            read_answers(path, book_of("pump").form, SIGNS)
+        found = read_answers(path, book_of("pump").form, SIGNS)
+        assert found.withheld == ["01005"]
+        assert f"{empty}: the table is empty" in str(found.refused[0].problem)
 
 
 @pytest.mark.parametrize("match", ["", "email"])
@@ -125,11 +126,14 @@ def test_a_row_without_an_id_is_that_of_the_folder_it_lies_in(tmp_path, match):
     [
         # all files in one folder by names run together, as Canvas has them
         ({"stefanescuana_901_11_a.csv": form(7), "popaion_LATE_903_12_a.csv": form(9)}, "35"),
-        # the file itself says whose it is before the platform does
-        ({"Ion Popa_777_assignsubmission_file_/a.csv": form(7, "ABCDEFGHIJ")}, "3"),
+        # the platform says whose a folder is, whatever the file in it says
+        (
+            {"Ion Popa_777_assignsubmission_file_/a.csv": form(7, "ABCDEFGHIJ")},
+            "is the id of Ștefănescu Ana, and the file is in the folder of Ion Popa",
+        ),
         ({"Eva Nimeni_12345_assignsubmission_file/answers.csv": "v_D\n3.8\n"}, "no column id"),
         ({"Ana Ștefănescu_1_assignsubmission_file/a.csv": "v_D\n3.8\n3.9\n"}, "no column id"),
-        ({"Ion Popa_777_assignsubmission_file_/a.csv": form(7)}, "no student of this class"),
+        ({"Ion Popa_777_assignsubmission_file_/a.csv": form(7)}, "is missing"),
     ],
     ids=["canvas", "signed", "nobody", "several", "twins"],
 )
@@ -141,7 +145,7 @@ def test_whose_a_file_is_or_why_it_is_nobody_s(tmp_path, names, who):
         return
     twins = signs(["1", "2"], names={"1": "Popa Ion", "2": "Ion Popa"})
     with pytest.raises(RosterError, match=who):
-        read_answers(path, fields, twins if "no student" in who else SIGNS)
+        read_answers(path, fields, twins if who == "is missing" else SIGNS)
 
 
 def test_what_is_no_zip_and_what_holds_too_much_is_refused(tmp_path, monkeypatch):
@@ -155,6 +159,9 @@ def test_what_is_no_zip_and_what_holds_too_much_is_refused(tmp_path, monkeypatch
     packed(path, {"a.csv": "x" * 200})
     monkeypatch.setattr("graphkin.classroom.grading.submissions.LARGEST", 100)
     with pytest.raises(RosterError, match=r"a.csv: is too large"):
+        submissions(path).tables[0].read()
+    monkeypatch.setattr("graphkin.classroom.grading.submissions.MOST_BYTES", 100)
+    with pytest.raises(RosterError, match=r"a.zip: is too large"):
         submissions(path)
 
 

@@ -13,10 +13,11 @@ from pathlib import Path
 import pytest
 
 from graphkin.classroom.printing import print_run as running
+from graphkin.classroom.printing import print_work
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.journal import JOURNAL
 from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
-from graphkin.text.errors import PageError
+from graphkin.text.errors import PLAIN_TRACEBACK, PageError
 from graphkin.writers import files
 from graphkin.writers.lock import LOCK, locked
 from tests.chosen import EVERY
@@ -61,6 +62,28 @@ def test_a_lost_journal_is_no_loss(whole, tmp_path):
     (folder / "print" / "class-key.pdf").unlink()
     printed(folder)
     assert tree(folder / "print") == whole
+
+
+def test_a_fault_in_one_student_s_sheets_is_told_of_that_one(tmp_path, monkeypatch):
+    """The others get the very files that they get without."""
+    folders = [write_class(tmp_path / name, IDS[:3]) for name in "ab"]
+    printed(folders[0])
+    of = print_work.owner
+
+    def owner(taker):
+        if taker.student.id == IDS[1]:
+            raise ZeroDivisionError("of a kind that nobody foresaw")
+        return of(taker)
+
+    monkeypatch.setattr(print_work, "owner", owner)
+    monkeypatch.delenv(PLAIN_TRACEBACK, raising=False)
+    ((taker, problems),) = printed(folders[1]).refused
+    assert taker.student.id == IDS[1]
+    assert "a fault in graphkin itself (ZeroDivisionError" in str(problems[0])
+    all_files, files_left = (tree(folder / "print") for folder in folders)
+    own = {name for name in files_left if "class-" not in name and name != JOURNAL}
+    assert own == {name for name in all_files if f"/{IDS[0]}-" in name or f"/{IDS[2]}-" in name}
+    assert all(files_left[name] == all_files[name] for name in own)
 
 
 class Killed(BaseException):
