@@ -200,7 +200,7 @@ def turns_of_wheels(loops: Equations, moving: Mask) -> float:
 def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:
     """Unknowns moved as little as the linear equations ask, by least squares."""
     scale = np.where(moving, loops.columns[0], 0.0)
-    step = np.linalg.pinv(loops.linear_rows()[0] * scale) @ loops.linear(unknowns).T
+    step = np.linalg.pinv(loops.linear_rows[0] * scale) @ loops.linear(unknowns).T
     return np.asarray(unknowns - step.T * scale)
 
 

@@ -94,6 +94,8 @@ class Drives(Struct, frozen=True, eq=False):
 
     def rows(self, unknowns: Reals) -> Reals:
         """Derivative of the residual: (N, D, K + m)."""
+        if not self.lifts and len(unknowns) == 1:
+            return self.selects[None]
         rows = np.broadcast_to(self.selects, (len(unknowns), *self.selects.shape))
         if not self.lifts:
             return rows
