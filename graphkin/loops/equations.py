@@ -304,12 +304,9 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
     @cached_property
     def whole_turns(self) -> Reals:
         """What rounding adds to the linear equations (N, R + D): angles count from a start, or from
-        a quarter."""
-        drives = np.where(self.drives.turns, UNIT, 0.0)
-        shape = (self.numbers.count, len(self.drives.turns))
-        slips = (shape[0], len(self.slips.links))
-        slips = np.broadcast_to(UNIT * np.abs(self.slips.constant), slips)
-        return np.concatenate([slips, np.broadcast_to(drives, shape)], axis=1)
+        a quarter, and a law of time rounds its value."""
+        drives = np.where(self.drives.turns, UNIT, 0.0) + self.drives.errors[0]
+        return np.concatenate([UNIT * np.abs(self.slips.constant), drives], axis=1)
 
     def closures(self, rows: Reals | Complexes) -> Reals:
         """Two real equations from each closed chain among the rows (the second axis)."""

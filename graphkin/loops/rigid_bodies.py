@@ -56,6 +56,10 @@ class Numbers(Struct, frozen=True):
         """A length, speed or angle in SI units."""
         return quantity.si(self.values, self.kind)
 
+    def error(self, quantity: Quantity) -> Real:
+        """Bound of the error by which sums and functions round a number, in SI units."""
+        return quantity.error(self.values, self.kind)
+
     def direction(self, quantity: Quantity) -> Point:
         """The unit vector of an angle."""
         return quantity.direction(self.values, self.kind)
@@ -73,9 +77,11 @@ class Numbers(Struct, frozen=True):
     def columns(self, values: Sequence[Any], dtype: type = complex) -> Complexes:
         """Many values side by side, each a number or an array of shape (N,): (N, values)."""
         if any(getattr(value, "shape", ()) for value in values):
-            rows = [np.broadcast_to(np.asarray(each, dtype), (self.count,)) for each in values]
-            return np.stack(rows, axis=1)
-        found = np.array([values], dtype)
+            shape = (self.count,)
+            return np.stack(
+                [np.broadcast_to(np.asarray(each, dtype), shape) for each in values], axis=1
+            )
+        found: Complexes = np.array([values], dtype)
         return found if self.count == 1 else np.broadcast_to(found, (self.count, len(values)))
 
     @property

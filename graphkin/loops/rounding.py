@@ -215,6 +215,7 @@ def rounding(
         velocity = moved.sum(speed)
         linear = straight(loops, rates) + touching(loops, speed, places)
         linear += lifted(loops, unknowns, found.off, (rates, None, None))
+        linear[:, len(loops.slips.links) :] += loops.drives.errors[1]
         less = led(loops, inverse, velocity, linear)
         slower, longer = loads(less), rows.plus(moved)
         velocity = velocity + longer.sum(slower)
@@ -224,6 +225,7 @@ def rounding(
             acceleration = moved.sum(carried) + longer.sum(rows.carried_more(speed, slower))
             linear = straight(loops, seconds) + touching(loops, carried, places)
             linear += lifted(loops, unknowns, found.off, (rates, seconds, less))
+            linear[:, len(loops.slips.links) :] += loops.drives.errors[2]
             later = loads(led(loops, inverse, acceleration, linear))
             acceleration = acceleration + longer.sum(later)
     which, turnings = loops.turning_of_link, rows.count

@@ -1,4 +1,4 @@
-"""Every quantity that can be asked has an independent route, which finds it out when it is wrong."""
+"""Each quantity that can be asked has an independent route, which finds a wrong value out."""
 
 from __future__ import annotations
 
