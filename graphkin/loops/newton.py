@@ -14,7 +14,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask
-from graphkin.loops.equations import Equations, Linear
+from graphkin.loops.equations import UNIT, Equations, Linear
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton_start import start_values
 from graphkin.loops.rigid_bodies import Reals
@@ -220,11 +220,13 @@ def open_at_most(loops: Equations, unknowns: Reals) -> Reals:
     """How far each equation of a closed mechanism may be open, in its own size: (N, e).
 
     Angles of many turns, and ways of many lengths, leave those of wheels and drivers open by their
-    own rounding.
+    own rounding, and closed chains by that of their angles.
     """
     linear = ROUNDED * (straight(loops, unknowns) + loops.whole_turns)
-    shape = (len(unknowns), 2 * len(loops.closing))
-    opened = np.concatenate([np.zeros(shape), linear], axis=1) / loops.rows
+    links, count = len(loops.links), loops.turned.count
+    turned = loops.magnitudes[:, links : links + len(loops.closing), 1:count]
+    chains = UNIT * (turned @ abs(unknowns[:, : count - 1, None]))[:, :, 0]
+    opened = np.concatenate([chains, chains, linear], axis=1) / loops.rows
     return np.maximum(CLOSED, opened)
 
 
