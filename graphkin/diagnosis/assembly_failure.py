@@ -79,8 +79,9 @@ def does_not_close(
 
 def to_balls_too(problem: Problem) -> Problem:
     """The problem where balls of many bits do not find the position either: nobody can tell it."""
-    hint = AT_DEAD if problem.hint == DEAD else problem.hint.removesuffix(BY_DIGITS)
-    return replace(problem, hint=hint)
+    if problem.hint == DEAD:
+        return replace(problem, hint=AT_DEAD)
+    return replace(problem, hint=str(problem.hint).removesuffix(BY_DIGITS))
 
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
@@ -141,7 +142,7 @@ def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
     """The problem of a step whose loci leave any place or direction open, as far as doubles tell;
     None for others."""
     found = step.of.undetermined(args) if isinstance(step.of, Determined) else None
-    return replace(found, hint=found.hint + BY_DIGITS) if found else None
+    return replace(found, hint=f"{found.hint}{BY_DIGITS}") if found else None
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:

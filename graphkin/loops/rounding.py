@@ -255,7 +255,8 @@ def vectors_of(loops: Equations, unknowns: Reals) -> Vectors:
 def places_of(motion: Motion) -> Reals:
     """The rounding of the coordinates of what each turning carries, which count from the origin."""
     far = abs(np.concatenate([motion.origin.place, motion.points.place], axis=1))
-    return UNIT * np.where(motion.loops.carries, far[:, None, :], 0.0).max(axis=2, initial=0.0)
+    carried = np.where(motion.loops.carries, far[:, None, :], 0.0)
+    return np.asarray(UNIT * carried.max(axis=2, initial=0.0))
 
 
 def straight(loops: Equations, values: Reals) -> Reals:
