@@ -81,7 +81,8 @@ def to_balls_too(problem: Problem) -> Problem:
     """The problem where balls of many bits do not find the position either: nobody can tell it."""
     if problem.hint == DEAD:
         return replace(problem, hint=AT_DEAD)
-    return replace(problem, hint=str(problem.hint).removesuffix(BY_DIGITS))
+    hint = problem.hint
+    return replace(problem, hint=hint.removesuffix(BY_DIGITS)) if isinstance(hint, str) else problem
 
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:

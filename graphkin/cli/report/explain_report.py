@@ -46,8 +46,8 @@ def explained(new: Callable[[], Mechanism]) -> Explanation:
         some, every = zip(steps, times, strict=True)
         return Explanation(scene, rows, some, every, waits_of(new))
     except ClosureError as error:
-        why, (some, every) = str(error.problems[0]), ((count, None) for count in steps)
-        return Explanation(scene, effects(mechanism), some, every, unmeasured=why)
+        why, (less, more) = str(error.problems[0]), steps
+        return Explanation(scene, effects(mechanism), (less, None), (more, None), unmeasured=why)
 
 
 def explain_lines(found: Explanation) -> Iterator[str]:
