@@ -253,6 +253,15 @@ def test_wheels_after_very_many_turns_are_judged_with_the_digits_that_are_left(
     assert "solve --digits proves what can be known" in told.stderr
 
 
+def test_a_rack_that_is_far_away_does_not_hide_what_a_wheel_has_lost(
+    run: Run, tmp_path: Path
+) -> None:
+    text = (FOLDER / "gears-rack.toml").read_text()
+    file = tmp_path / "rack.toml"
+    file.write_text(text.replace('angle = "angle"', 'angle = "2e15 + sqrt(2)"'))
+    assert "digits   sure: positions 11, velocities 1, accelerations 1" in run("solve", file).stdout
+
+
 def test_numbers_that_differ_are_told_with_the_digits_that_are_left() -> None:
     scene = load("pump").scene
     verdict = Verdict(False, 1e-3, "points.D.velocity", 1e-9, 0, 0, digits={"velocity": 3})

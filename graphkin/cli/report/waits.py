@@ -144,11 +144,16 @@ def waits_record(found: Waits) -> dict[str, Any]:
     return {
         "waits": {name: time_record(time) for name, time in found.times.items()},
         "sheet": {
-            "drawing": None if found.drawing is None or isinf(found.drawing) else found.drawing,
+            "drawing": shortened(found.drawing),
             "marks_within_mm": found.point,
             "digits": found.digits,
         },
     }
+
+
+def shortened(share: float | None) -> float | None:
+    """A share with three digits; None where there is none, or no drawing closes."""
+    return None if share is None or isinf(share) else float(f"{share:.3g}")
 
 
 def time_record(time: Timing | None) -> dict[str, float] | None:

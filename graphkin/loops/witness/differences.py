@@ -100,11 +100,12 @@ class Magnitudes(Struct, frozen=True, eq=False):
         pushed = np.maximum(largest(points.acceleration, errors.acceleration), slides[2])
         omega = largest(motion.omega, bounds.omega)
         epsilon = largest(motion.epsilon, bounds.epsilon)
-        natural = np.maximum(speed**2 / length, omega**2 * length)
-        fastest = np.maximum(speed, FLOOR * omega * length)
-        turning = np.maximum(omega, FLOOR * speed / length)
-        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * length))
-        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / length)
+        bar = motion.loops.size  # however far away a rack or a block has come
+        natural = np.maximum(speed**2 / bar, omega**2 * bar)
+        fastest = np.maximum(speed, FLOOR * omega * bar)
+        turning = np.maximum(omega, FLOOR * speed / bar)
+        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * bar))
+        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / bar)
         return cls(length, *map(or_one, (fastest, most, turning, twist)))
 
 
