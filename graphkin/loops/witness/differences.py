@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import (
     BY_TARGET,
+    KINDS,
     OF_POINTS,
     OF_SLIDES,
     QUANTITIES,
@@ -281,7 +282,7 @@ def digits_of(differences: Differences) -> dict[str, int]:
         kind = KINDS_OF.get(name.rpartition(".")[2])
         if kind is not None:
             found[kind] = min(found.get(kind, MOST_DIGITS), sure_digits(off))
-    return found
+    return {kind: found[kind] for kind in KINDS if kind in found}
 
 
 def sure_digits(share: float) -> int:
