@@ -64,7 +64,7 @@ def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
 
 def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
     """Sine-like measure of the side of a pin: positive to the left of the way first → second."""
-    start, end, place = (motion.point(name).place for name in (first, second, pin))
+    start, end, place = (motion.place(name) for name in (first, second, pin))
     line, arm = end - start, place - start
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
 

@@ -156,6 +156,10 @@ class Motion(Struct, frozen=True, eq=False):
             acceleration + (1j * epsilon - omega**2) * arm,
         )
 
+    def place(self, name: str) -> Complexes:
+        """Where a point stands that the scene names."""
+        return np.asarray(self.points.place[:, self.names[name]])
+
     def point(self, name: str) -> PlaceMotion:
         """Motion of a point; ``A@3`` is the point of link 3 under A. Unknown: StructureError."""
         point, carrier = ends_of(name)

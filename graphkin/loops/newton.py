@@ -213,6 +213,8 @@ def linear_solve(matrix: Reals, right: Reals) -> Reals:
 
 def finite_rows(stack: Reals) -> Flags:
     """Where every number of a matrix of a stack is finite."""
+    if len(stack) == 1:
+        return np.array([np.isfinite(stack).all()])
     return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
 
 

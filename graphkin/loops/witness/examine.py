@@ -209,10 +209,9 @@ def branch_conditions(
 
 def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
     """How far rounding may put a pin on the other side of the way between two others, as a sine."""
-    start, end, place = (
-        solved.motion.point(each).place for each in (branch.first, branch.second, name)
-    )
-    errors = sum(solved.rounding.point(each).place for each in (branch.first, branch.second, name))
+    pins, names = (branch.first, branch.second, name), solved.motion.names
+    start, end, place = (solved.motion.place(each) for each in pins)
+    errors = solved.rounding.points.place[:, [names[each] for each in pins]].sum(axis=1)
     return ON_LINE + errors / np.minimum(abs(end - start), abs(place - start))
 
 
