@@ -212,7 +212,7 @@ def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
     pins, names = (branch.first, branch.second, name), solved.motion.names
     start, end, place = (solved.motion.place(each) for each in pins)
     errors = solved.rounding.points.place[:, [names[each] for each in pins]].sum(axis=1)
-    return ON_LINE + errors / np.minimum(abs(end - start), abs(place - start))
+    return np.asarray(ON_LINE + errors / np.minimum(abs(end - start), abs(place - start)))
 
 
 def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
