@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from graphkin.construction.tape.batch_runner import BatchRunner
+    from graphkin.loops.witness import Check
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -126,6 +127,13 @@ class Mechanism(Struct, frozen=True, dict=True):
         from graphkin.construction.higher_class.trial_rates import trial_rates
 
         return trial_rates(self.scene, self.program)
+
+    @cached_property
+    def check(self) -> Check:
+        """The independent route, with its loops written once."""
+        from graphkin.loops.witness import Check
+
+        return Check(self.scene)
 
     @cached_property
     def sliced(self) -> dict[tuple[tuple[Target, ...], bool], tuple[int, ...]]:
@@ -226,9 +234,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         Without ``numbered`` it does not count all closures of groups of class III and higher to
         tell whether the stated one is drawn, which takes longer than all else.
         """
-        from graphkin.loops.witness import compare
-
-        return compare(self.scene, solution, numbered=numbered)
+        return self.check.compare(solution, numbered=numbered)
 
     def batch(
         self,

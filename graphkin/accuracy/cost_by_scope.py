@@ -1,4 +1,4 @@
-"""The third picture: what is asked decides what it costs."""
+"""The third picture: what a position costs by what is asked."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def bars(study: Study, machine: str) -> Figure:
     scopes = study.scopes
     figure_title(
         figure,
-        f"What is not asked costs nothing: {study.mechanism.scene.title}",
+        f"What a position costs by what is asked: {study.mechanism.scene.title}",
         fontweight="bold",
         fontsize=12.5,
     )

@@ -10,11 +10,11 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import Found, Reference, radii_of, rows_of
-from graphkin.accuracy.stopwatch import Effort, Work
+from graphkin.accuracy.effort import Effort
 from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.run import StepFailed, run
-from graphkin.construction.core.timing import Timing
+from graphkin.construction.core.timing import Timing, Work
 from graphkin.construction.tape.batch_runner import BatchRunner, Way
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind, ball_kind, decimal_kind

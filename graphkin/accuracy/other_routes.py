@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.accuracy.compared_answers import Reference, rows_of
+from graphkin.accuracy.effort import Effort
 from graphkin.accuracy.methods import (
     Method,
     MethodRow,
@@ -21,7 +22,6 @@ from graphkin.accuracy.methods import (
     head_of,
     variants_of,
 )
-from graphkin.accuracy.stopwatch import Effort
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
 from graphkin.construction.core.solution import gathered

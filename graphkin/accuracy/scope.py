@@ -7,15 +7,13 @@ from collections.abc import Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.accuracy.compared_answers import Reference
+from graphkin.accuracy.effort import Effort
 from graphkin.accuracy.methods import batch_work, can_be_emitted, variants_of
-from graphkin.accuracy.stopwatch import Effort, Stopwatch, Work
 from graphkin.construction.core.program import Target
 from graphkin.construction.core.quantities import BY_TARGET, KINDS
-from graphkin.construction.core.run import run
-from graphkin.construction.core.timing import Timing
+from graphkin.construction.core.timing import Stopwatch, Timing, Work, one_position
 from graphkin.construction.tape.batch_runner import Way
 from graphkin.mechanism import Mechanism
-from graphkin.numbers.arithmetic import FLOAT
 
 SCOPES = dict(zip(KINDS, ("position", "+ velocity", "+ acceleration"), strict=True))
 """What each derivative adds to those before it."""
@@ -33,7 +31,9 @@ class Scope(Struct, frozen=True):
     batch: Timing
 
 
-def scopes(mechanism: Mechanism, reference: Reference, watch: Stopwatch) -> tuple[Scope, ...]:
+def scopes(
+    mechanism: Mechanism, reference: Reference, effort: Effort, watch: Stopwatch
+) -> tuple[Scope, ...]:
     """The cost of each scope, one position after the other and in a batch; of what is asked last.
 
     A scope that adds nothing, in a mechanism without centres, is left out.
@@ -47,7 +47,7 @@ def scopes(mechanism: Mechanism, reference: Reference, watch: Stopwatch) -> tupl
         if new:
             known[name] = tuple(wanted)
     known[ASKED] = tuple(target for target in mechanism.asked() if target in program.targets)
-    works = [work for some in known.values() for work in ways(some, reference, watch.effort)]
+    works = [work for some in known.values() for work in ways(some, reference, effort)]
     times = watch.times(works)
     pairs = zip(times[::2], times[1::2], strict=True)
     return tuple(
@@ -73,11 +73,8 @@ def ways(
     program = places.course.program
     needed = program.needed(targets)
 
-    def one_by_one() -> None:
-        for values in reference.exact_values:
-            run(program, needed, values, FLOAT)
-
-    yield one_by_one, len(places.at)
+    singly = [one_position(program, needed, values) for values in reference.exact_values]
+    yield lambda: [work() for work in singly], len(places.at)
     count = variants_of(reference, effort)
     way: Way = "numpy" if can_be_emitted(reference) else "steps"
     yield batch_work(program, targets, places.repeated(count), "float64", way), count

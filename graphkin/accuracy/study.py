@@ -13,12 +13,13 @@ from msgspec.structs import replace
 from graphkin.accuracy.agreement import Agreement, agreement
 from graphkin.accuracy.compared_answers import Reference, answers_of, reference_of
 from graphkin.accuracy.compared_positions import approach, ground_of, places_around
+from graphkin.accuracy.effort import Effort
 from graphkin.accuracy.flattening import Flattening, flattened
 from graphkin.accuracy.methods import Method, MethodRow, own_methods
 from graphkin.accuracy.other_routes import other_methods
 from graphkin.accuracy.pencil_rows import pencil_rows, pencilled
 from graphkin.accuracy.scope import Scope, scopes
-from graphkin.accuracy.stopwatch import Clock, Effort, Stopwatch
+from graphkin.construction.core.timing import Clock, Stopwatch
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
@@ -61,7 +62,7 @@ def study(
     ClosureError where the scene closes nowhere, WitnessError where nothing can be certified.
     """
     effort = effort or Effort()
-    watch = Stopwatch(effort, clock, say)
+    watch = effort.watch(clock, say)
     say("positions and certified reference")
     ground = ground_of(mechanism.scene)
     answers = answers_of(ground.sweep.scene, ground.piece.course.program)
@@ -83,7 +84,7 @@ def study(
     if flattening is not None and scales is not None:
         pencil = pencilled(ground, answers, scales, flattening, effort.drawn)
     say("cost by scope")
-    costs = scopes(mechanism, reference, watch)
+    costs = scopes(mechanism, reference, effort, watch)
     return Study(mechanism, reference, agreement(reference), tuple(rows), flattening, pencil, costs)
 
 

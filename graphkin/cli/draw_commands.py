@@ -195,8 +195,9 @@ def accuracy(
     in batches, in single and extended precision, in decimals of up to 120 digits, in balls that
     prove their radius, by Newton's method on the loop equations and by central differences, and
     foretells what a pencil makes of them. Writes a table (CSV) and three pictures: error against
-    time; error towards a dead point; cost by what is asked. It takes about half a minute; groups of
-    class III and higher some minutes.
+    time; error towards a dead point; cost by what is asked. Ends with what you wait for (load,
+    solve, check, page) and with how sure a drawing and the numbers are. It takes about half a
+    minute; groups of class III and higher some minutes.
 
     \b
     Examples:
@@ -204,10 +205,11 @@ def accuracy(
       graphkin accuracy mine.toml -o accuracy --quick
     """
     kinds = option_words("--format", formats, ("svg", "png"))
-    from graphkin.accuracy.stopwatch import QUICK, Effort
+    from graphkin.accuracy.effort import QUICK, Effort
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_files import picture_files
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
+    from graphkin.cli.report.waits import waits_lines, waits_of
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)
@@ -218,6 +220,7 @@ def accuracy(
     found = study(mechanism, scales_if_any(mechanism), effort, say=say)
     say("")
     tell(accuracy_lines(found))
+    tell(["", *waits_lines(waits_of(lambda: mechanism_of(name, settings)))])
     files = {f"{stem}-accuracy.csv": accuracy_table(found).encode()}
     files |= picture_files(found, stem, kinds)
     tell(["", *(str(path) for path in write_all(folder, files, force))])

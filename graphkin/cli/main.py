@@ -130,7 +130,8 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
 
     For what the scene asks: which effects are in (tangential components, an accelerated
     driver, ...), which are out, why, how many steps each of them costs, and the time that those
-    steps alone take here and now.
+    steps alone take here and now. Then what you wait for (load, solve, check, page), and how sure a
+    drawing and the numbers are.
 
     \b
     Examples:
@@ -139,7 +140,7 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
     """
     from graphkin.cli.report.explain_report import explain_lines, explain_record, explained
 
-    found = explained(mechanism_of(name, settings))
+    found = explained(lambda: mechanism_of(name, settings))
     if as_json:
         import json
 

@@ -39,6 +39,9 @@ DEAD = (
     "driver's speed determines no other: change the driver's position"
 )
 
+BY_DIGITS = "; solve --digits finds it where doubles cannot tell"
+"""What is added to a hint where numbers of more digits may find what doubles do not."""
+
 AT_DEAD = "at this dead point the driver's speed determines no other: change the driver's position"
 
 MERGE = f"merge here, or so near that balls of {BITS[-1]} bits do not tell"
@@ -76,7 +79,10 @@ def does_not_close(
 
 def to_balls_too(problem: Problem) -> Problem:
     """The problem where balls of many bits do not find the position either: nobody can tell it."""
-    return replace(problem, hint=AT_DEAD) if problem.hint == DEAD else problem
+    if problem.hint == DEAD:
+        return replace(problem, hint=AT_DEAD)
+    hint = problem.hint
+    return replace(problem, hint=hint.removesuffix(BY_DIGITS)) if isinstance(hint, str) else problem
 
 
 def missed(scene: Scene, program: Program, number: int, found: Meeting) -> Problem:
@@ -135,8 +141,10 @@ def sought(step: Step) -> tuple[str, tuple[str, ...]]:
 
 
 def undetermined(step: Step, args: Sequence[Any]) -> Problem | None:
-    """The problem of a step whose loci leave any place or direction open; None for others."""
-    return step.of.undetermined(args) if isinstance(step.of, Determined) else None
+    """The problem of a step whose loci leave any place or direction open, as far as doubles tell;
+    None for others."""
+    found = step.of.undetermined(args) if isinstance(step.of, Determined) else None
+    return replace(found, hint=f"{found.hint}{BY_DIGITS}") if found else None
 
 
 def no_such_closure(scene: Scene, failed: StepFailed, error: ClosingError) -> Problem:

@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.program import OF_PART, Effect, Part, Program, Step, Target
-from graphkin.construction.core.timing import Timing, time_of_steps
+from graphkin.construction.core.timing import Stopwatch, Timing, one_position, work_of_steps
 from graphkin.construction.registry import CAUSES, LIMITED
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
@@ -63,19 +63,22 @@ def effects(mechanism: Mechanism) -> tuple[EffectRow, ...]:
     return (*rows, by_hand(program, asked), *by_command)
 
 
-def measured(mechanism: Mechanism) -> tuple[EffectRow, ...]:
-    """The same, each with the time that its steps alone take on this scene."""
-    program, asked = mechanism.program, mechanism.asked()
+def measured(mechanism: Mechanism, watch: Stopwatch) -> tuple[tuple[EffectRow, ...], list[Timing]]:
+    """The same, each with the time that its steps alone take on this scene; and the times of one
+    position, of what is asked and of everything. All are measured in the same rounds.
+    """
+    program, asked, values = mechanism.program, mechanism.asked(), mechanism.scene.values
     trace = mechanism.trace(asked, by_hand=True)
     numbers: dict[str, list[int]] = {BY_HAND: hand_steps(program, asked)}
     for number, effect in parted(mechanism).items():
         numbers.setdefault(effect, []).append(number)
-    return tuple(
-        replace(row, time=time_of_steps(trace, numbers[row.name], mechanism.scene.values))
-        if row.steps
-        else row
-        for row in effects(mechanism)
-    )
+    rows = effects(mechanism)
+    works = [work_of_steps(trace, numbers[row.name], values) for row in rows if row.steps]
+    for targets in (asked, program.answers):
+        works.append(one_position(program, program.needed(targets), values))
+    *times, some, every = watch.times([(work, 1) for work in works])
+    left = iter(times)
+    return tuple(replace(row, time=next(left)) if row.steps else row for row in rows), [some, every]
 
 
 def parted(mechanism: Mechanism) -> dict[int, Effect]:

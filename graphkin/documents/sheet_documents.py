@@ -135,7 +135,8 @@ def lost(verdict: Verdict) -> Problem:
     """The problem of quantities of which no digit is sure, told of the first."""
     return Problem(
         verdict.unsure[0],
-        "no digit of it is sure: flat crossings enlarge the rounding of doubles beyond it",
+        "no digit of it is sure: the rounding of doubles, which flat crossings and angles of many "
+        "turns enlarge, exceeds it",
         "crossings that are less flat, one after the other",
         "move the driver; no sheet is handed out",
     )

@@ -64,7 +64,7 @@ def span(motion: Motion, dyad: Group, slide: Joint, block: str) -> Complexes:
 
 def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
     """Sine-like measure of the side of a pin: positive to the left of the way first → second."""
-    start, end, place = (motion.point(name).place for name in (first, second, pin))
+    start, end, place = (motion.place(name) for name in (first, second, pin))
     line, arm = end - start, place - start
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
 
@@ -200,7 +200,7 @@ def turns_of_wheels(loops: Equations, moving: Mask) -> float:
 def led(loops: Equations, unknowns: Reals, moving: Mask) -> Reals:
     """Unknowns moved as little as the linear equations ask, by least squares."""
     scale = np.where(moving, loops.columns[0], 0.0)
-    step = np.linalg.pinv(loops.linear_rows()[0] * scale) @ loops.linear(unknowns).T
+    step = np.linalg.pinv(loops.linear_rows[0] * scale) @ loops.linear(unknowns).T
     return np.asarray(unknowns - step.T * scale)
 
 

@@ -16,7 +16,7 @@ from math import comb
 import numpy as np
 from msgspec import Struct
 
-from graphkin.loops.equations import Equations, equations, part_of, tied_by
+from graphkin.loops.equations import Equations, joined, part_of, tied_by
 from graphkin.loops.loop_motion import setting_of
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
@@ -129,7 +129,7 @@ def counted_in_order(loops: Equations) -> Equations:
         return loops
     order = enumerate(stages(loops.scene, loops), 1)
     known = {link: number for number, group in order for link in group.links}
-    return equations(loops.scene, loops.numbers.values, loops.links, known)
+    return joined(loops.scene, loops.parts, loops.links, known)
 
 
 def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equations) -> bool:

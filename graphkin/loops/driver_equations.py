@@ -53,7 +53,8 @@ class Drives(Struct, frozen=True, eq=False):
     A turning driver compares the unit vector e^{i(selected angle)}·``lean`` with ``aim``, a
     sliding one its coordinate with ``aim``; all (N, D). ``whole`` counts full turns, too, from the
     angle ``given`` (radians), ``leaning`` being the angle of ``lean``, not reduced: a wheel's place
-    depends on them. Rates are in SI units.
+    depends on them. Rates are in SI units. ``errors`` (3, N, D) bound what the rounding of a law of
+    time adds to the given value and to its rates.
     """
 
     selects: Reals
@@ -65,6 +66,7 @@ class Drives(Struct, frozen=True, eq=False):
     whole: bool
     speed: Reals
     acceleration: Reals
+    errors: Reals
     lifts: tuple[Lift, ...] = ()
     bases: tuple[CountedApart, ...] = ()
 
@@ -94,6 +96,8 @@ class Drives(Struct, frozen=True, eq=False):
 
     def rows(self, unknowns: Reals) -> Reals:
         """Derivative of the residual: (N, D, K + m)."""
+        if not self.lifts and len(unknowns) == 1:
+            return self.selects[None]
         rows = np.broadcast_to(self.selects, (len(unknowns), *self.selects.shape))
         if not self.lifts:
             return rows
@@ -122,7 +126,8 @@ class Drives(Struct, frozen=True, eq=False):
         lean, leaning, aim = self.lean[:, :0], self.leaning[:, :0], self.aim[:, :0]
         given, rates = self.given[:, :0], (self.speed[:, :0], self.acceleration[:, :0])
         left = lean, leaning, aim, given
-        return Drives(self.selects[:0], self.turns[:0], *left, self.whole, *rates)
+        none = self.selects[:0], self.turns[:0], *left, self.whole, *rates
+        return Drives(*none, self.errors[:, :, :0])
 
 
 def drives_of(
@@ -139,7 +144,7 @@ def drives_of(
     selects = np.zeros((count, turned.count + len(guides)))
     lean = np.ones((numbers.count, count), dtype=np.complex128)
     aim = np.zeros((numbers.count, count), dtype=np.complex128)
-    leaning, given, speed, acceleration = np.zeros((4, numbers.count, count))
+    leaning, given, speed, acceleration, *errors = np.zeros((7, numbers.count, count))
     for d, driver in enumerate(scene.drivers):
         if driver.kind == "turn":
             selects[d, turned.of[driver.link]] += 1
@@ -158,8 +163,12 @@ def drives_of(
                 aim[:, d] = numbers.si(driver.position)
         speed[:, d] = numbers.si(driver.speed)
         acceleration[:, d] = numbers.si(driver.acceleration)
+        if not isinstance(driver.position, ByLaw):
+            laws = driver.position, driver.speed, driver.acceleration
+            for bound, law in zip(errors, laws, strict=True):
+                bound[:, d] = numbers.error(law)
     turning = np.array([driver.kind == "turn" for driver in scene.drivers], dtype=np.bool_)
-    rates = speed, acceleration
+    rates = speed, acceleration, np.array(errors)
     lifts = lifts_of(scene, guides, turned, numbers)
     places = lean, leaning, aim, given
     bases = bases_of(scene, turned, own_turns, numbers)

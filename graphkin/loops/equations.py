@@ -8,7 +8,7 @@ carry the N settings of a batch first.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -21,6 +21,7 @@ from graphkin.loops.cam_laws import ByLaw, by_law
 from graphkin.loops.driver_equations import Drives, drives_of
 from graphkin.loops.no_slip import (
     Gear,
+    NoSlip,
     Slips,
     counted_turnings,
     gears_of,
@@ -42,6 +43,7 @@ from graphkin.loops.rigid_bodies import (
     longest,
 )
 from graphkin.loops.vector_chains import Chain, Tree, Turnings, refuse_unknown_lean, turnings
+from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, LEADING, Driver, Scene
 from graphkin.text.errors import Problem, StructureError
 
@@ -115,8 +117,30 @@ def packed(rows: Sequence[Chain], tree: Tree, numbers: Numbers) -> Chains:
     return Chains(fixed, slid, guide, carrier)
 
 
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+Indices = np.ndarray[Any, np.dtype[np.intp]]
+
+Bar = tuple[str, str, Complexes]
+"""A bar by its ends and as a vector (N,) in the axes of its turning."""
+
+UNIT = 4 * 2.0**-52
+"""Share of its terms by which a sound computation in doubles misses an equation at most."""
+
 CANCELLED = 2.0**-48
 """Length, as a share of the mechanism's, that rounding may leave of bars that cancel."""
+
+
+class Parts(Struct, frozen=True, eq=False):
+    """What the loops of a scene are made of, whatever drives them: bodies, guides and wheels."""
+
+    numbers: Numbers
+    bodies: Mapping[str, Body]
+    starts: Mapping[str, Point]
+    gears: tuple[Gear, ...]
+    guides: tuple[Guide, ...]
+    turned: Turnings
+    slips: tuple[NoSlip, ...]
+    near: Mapping[str, Real]
 
 
 class Equations(Struct, frozen=True, eq=False, dict=True):
@@ -130,6 +154,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
     """
 
     scene: Scene
+    parts: Parts
     numbers: Numbers
     links: tuple[str, ...]
     points: tuple[str, ...]
@@ -187,6 +212,102 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         driven = np.where(self.drives.turns, 1, self.columns @ abs(self.drives.selects).T)
         return np.concatenate([self.around, self.around, wheels, driven], axis=1)
 
+    @cached_property
+    def turning_of_link(self) -> Indices:
+        """The turning of each link (links,)."""
+        return np.array([self.turned.of[link] for link in self.links], dtype=np.intp)
+
+    @cached_property
+    def leans(self) -> Complexes:
+        """How each link leans against its turning, as unit vectors: (N, links)."""
+        return self.numbers.columns([self.turned.lean[link] for link in self.links])
+
+    @cached_property
+    def link_index(self) -> dict[str, int]:
+        """The number of each link."""
+        return {link: number for number, link in enumerate(self.links)}
+
+    @cached_property
+    def point_index(self) -> dict[str, int]:
+        """The number of each point."""
+        return {name: number for number, name in enumerate(self.points)}
+
+    @cached_property
+    def longest_bars(self) -> dict[int, Bar]:
+        """The longest bar of each turning."""
+        return self.bars_among(self.points)
+
+    def bars_among(self, known: Container[str]) -> dict[int, Bar]:
+        """The longest bar of each turning between two points that are known."""
+        found: dict[int, tuple[float, Bar]] = {}
+        for link, body in self.bodies.items():
+            k, names = self.turned.of[link], [name for name in body if name in known]
+            places = self.numbers.columns([body[name] for name in names])
+            for n in range(len(names) - 1):
+                bars = places[:, n + 1 :] - places[:, n : n + 1]
+                lengths = np.fmax.reduce(abs(bars), axis=0)
+                far = int(np.argmax(np.where(np.isnan(lengths), 0.0, lengths)))
+                if lengths[far] > (found[k][0] if k in found else 0.0):
+                    way = bars[:, far] * self.turned.lean[link]
+                    found[k] = float(lengths[far]), (names[n], names[n + 1 + far], way)
+        return {k: bar for k, (_, bar) in found.items()}
+
+    @cached_property
+    def owners_of(self) -> dict[str, list[str]]:
+        """The links that have each point."""
+        found: dict[str, list[str]] = {}
+        for link, body in self.bodies.items():
+            for point in body:
+                found.setdefault(point, []).append(link)
+        return found
+
+    @cached_property
+    def carries(self) -> Flags:
+        """What each turning carries: (K + 1, links, then points)."""
+        found = np.zeros((self.turned.count, len(self.links) + len(self.points)), dtype=np.bool_)
+        for link, body in self.bodies.items():
+            k = self.turned.of[link]
+            found[k, self.link_index[link]] = True
+            found[k, [len(self.links) + self.point_index[point] for point in body]] = True
+        return found
+
+    @cached_property
+    def magnitudes(self) -> Reals:
+        """Lengths of the vectors of the chains, then of those to every point, without what slides:
+        (N, R + points, K + 1 + m) by turning, then 1 for each slide that they pass.
+        """
+        owners, arms = self.owners
+        turned, along = np.abs(self.chains.fixed), np.abs(self.chains.slid)
+        reaching = turned[:, owners]
+        for p, owner in enumerate(owners):
+            reaching[:, p, self.turning_of_link[owner]] += np.abs(arms[:, p])
+        turned = np.concatenate([turned, reaching], axis=1)
+        passed = np.concatenate([along, along[owners]])
+        passed = np.broadcast_to(passed, (self.numbers.count, *passed.shape))
+        return np.concatenate([turned, passed], axis=2)
+
+    @cached_property
+    def turned_by(self) -> Indices:
+        """The turning of every turning, itself, then of every slide: (K + 1 + m,)."""
+        return np.concatenate([np.arange(self.turned.count), self.chains.carrier])
+
+    @cached_property
+    def twice(self) -> Reals:
+        """1 for every turning, 2 for every slide, whose direction also turns: (K + 1 + m,)."""
+        return np.repeat([1.0, 2.0], [self.turned.count, len(self.guides)])
+
+    @cached_property
+    def linear_sizes(self) -> Reals:
+        """Magnitudes of the coefficients of the linear equations (N, R + D, K + m)."""
+        return np.abs(self.linear_rows)
+
+    @cached_property
+    def whole_turns(self) -> Reals:
+        """What rounding adds to the linear equations (N, R + D): angles count from a start, or from
+        a quarter, and a law of time rounds its value."""
+        drives = np.where(self.drives.turns, UNIT, 0.0) + self.drives.errors[0]
+        return np.concatenate([UNIT * np.abs(self.slips.constant), drives], axis=1)
+
     def closures(self, rows: Reals | Complexes) -> Reals:
         """Two real equations from each closed chain among the rows (the second axis)."""
         closed = rows[:, len(self.links) :]
@@ -201,6 +322,7 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         slipped = self.slips.residual(unknowns)
         return np.concatenate([slipped, self.drives.residual(unknowns)], axis=1)
 
+    @cached_property
     def linear_rows(self) -> Reals:
         """Derivative of the linear equations: shape (N, R + D, K + m).
 
@@ -215,7 +337,8 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         """∂f/∂φ: shape (N, equations, K + m); without the drivers' rows on request."""
         rows = np.concatenate([1j * linear.turned, linear.along], axis=-1)
         closed, slips = self.closures(rows), self.slips.rows
-        slips = np.broadcast_to(slips, (len(closed), *slips.shape[1:]))
+        if len(slips) != len(closed):
+            slips = np.broadcast_to(slips, (len(closed), *slips.shape[1:]))
         own = [self.drives.rows(linear.unknowns)] if driven else []
         return np.concatenate([closed, slips, *own], axis=1)
 
@@ -237,6 +360,21 @@ class Equations(Struct, frozen=True, eq=False, dict=True):
         return None
 
 
+def parts_of(scene: Scene, values: Mapping[str, Any] | None = None) -> Parts:
+    """The parts of a scene's loops in numbers. Raises as ``equations`` does."""
+    numbers = Numbers.of({**scene.values, **(values or {})})
+    bodies, starts = bodies_of(scene, numbers)
+    gears, arms = gears_of(scene, bodies, numbers)
+    bodies |= arms
+    slides = guides_of(scene, bodies, starts, numbers)
+    turned = turnings(tuple(bodies), slides)
+    refuse_unknown_lean(turned, slides)
+    guides, rolled = tracks_of(scene, bodies, starts, slides, turned, numbers)
+    slips = slips_of(gears, rolled, guides, numbers)
+    near = starting_angles(scene, slips, numbers)
+    return Parts(numbers, bodies, starts, gears, guides, turned, slips, near)
+
+
 def equations(
     scene: Scene,
     values: Mapping[str, Any] | None = None,
@@ -251,18 +389,17 @@ def equations(
     on a further guide is not told.
     """
     scene = by_law(scene)
-    numbers = Numbers.of({**scene.values, **(values or {})})
-    bodies, starts = bodies_of(scene, numbers)
-    gears, arms = gears_of(scene, bodies, numbers)
-    bodies |= arms
-    slides = guides_of(scene, bodies, starts, numbers)
-    turned = turnings(tuple(bodies), slides)
-    refuse_unknown_lean(turned, slides)
-    guides, rolled = tracks_of(scene, bodies, starts, slides, turned, numbers)
-    slips = slips_of(gears, rolled, guides, numbers)
-    every, written = slips, scene
-    near = starting_angles(written, every, numbers)
+    return joined(scene, parts_of(scene, values), within, known)
+
+
+def joined(
+    scene: Scene, parts: Parts, within: Collection[str] | None, known: Mapping[str, int]
+) -> Equations:
+    """The equations of a scene's parts, of all of them or of those ``within`` some links."""
+    numbers, every, written, near = parts.numbers, parts.slips, scene, parts.near
+    bodies, gears, guides, turned = parts.bodies, parts.gears, parts.guides, parts.turned
     own_turns = own_turns_of(written, every, turned, near, known)
+    slips = every
     if within is not None:
         names = {FRAME, *within}
         bodies = {name: body for name, body in bodies.items() if name in names}
@@ -281,13 +418,14 @@ def equations(
     turned = standing(turned, near, numbers)
     counted = counted_turnings(written, every, turned, numbers)
     owner = {point: link for link in reversed(links) for point in bodies[link]}
-    reach = [numbers.complexes(bodies[link][point]) for point, link in owner.items()]
+    reach = numbers.columns([bodies[link][point] for point, link in owner.items()])
     return Equations(
         scene=scene,
+        parts=parts,
         numbers=numbers,
         links=links,
         points=tuple(owner),
-        owners=([links.index(link) for link in owner.values()], stacked(reach, numbers)),
+        owners=([links.index(link) for link in owner.values()], reach),
         bodies=bodies,
         guides=guides,
         turned=turned,
@@ -296,7 +434,7 @@ def equations(
         closing=tuple(closing),
         slips=packed_slips(slips, counted, own_turns, turned, guides, numbers),
         drives=drives_of(scene, bodies, guides, turned, numbers, own_turns, bool(every)),
-        home=numbers.complexes(starts[FRAME]),
+        home=numbers.complexes(parts.starts[FRAME]),
         size=longest(scene, bodies, numbers),
         known=known,
         doubtful=own_turns.doubtful,
@@ -306,8 +444,10 @@ def equations(
 def part_of(
     loops: Equations, links: Collection[str], values: Mapping[str, Any] | None = None
 ) -> Equations:
-    """The equations within some links, for the same parameter values or for others."""
-    return equations(loops.scene, values or loops.numbers.values, links, loops.known)
+    """The equations within some links, for the same parameter values or for one setting of them."""
+    if values is None or loops.numbers.single:
+        return joined(loops.scene, loops.parts, links, loops.known)
+    return equations(loops.scene, values, links, loops.known)
 
 
 def tied_by(driver: Driver) -> tuple[str, ...]:
@@ -320,13 +460,6 @@ def tied_by(driver: Driver) -> tuple[str, ...]:
 def undriven(loops: Equations) -> Equations:
     """The same equations without those of the drivers."""
     return replace(loops, drives=loops.drives.none())
-
-
-def stacked(columns: Sequence[Complexes], numbers: Numbers) -> Complexes:
-    """Columns of shape (N,) side by side: (N, columns)."""
-    if not columns:
-        return np.zeros((numbers.count, 0), dtype=np.complex128)
-    return np.stack(columns, axis=1)
 
 
 def refuse_loose(links: Sequence[str], tree: Tree) -> None:

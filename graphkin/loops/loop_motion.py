@@ -104,37 +104,43 @@ class Motion(Struct, frozen=True, eq=False):
     slides: Reals
 
     @classmethod
-    def of(cls, loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals) -> Motion:
-        """From the unknowns φ and their first and second derivatives by time, (N, unknowns)."""
-        chains = loops.chains
+    def of(cls, loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals | None) -> Motion:
+        """From the unknowns φ and their first and second derivatives by time, (N, unknowns).
+
+        Without the second ones all accelerations are NaN.
+        """
+        chains, links = loops.chains, len(loops.links)
         linear = chains.at(unknowns)
-        (angle, s), (turn, slid), (spin, thrust) = map(chains.split, (unknowns, rates, seconds))
-        velocity = linear.turned @ (1j * turn[:, 1:, None]) + linear.along @ slid[:, :, None]
-        along = linear.turned @ (1j * spin[:, 1:, None]) + linear.along @ thrust[:, :, None]
-        acceleration = along[:, :, 0] + chains.second(linear, rates, rates)
-        links = loops.links
-        which = [loops.turned.of[link] for link in links]
-        lean = np.stack([loops.numbers.complexes(loops.turned.lean[link]) for link in links], 1)
-        heading = np.exp(1j * angle)[:, which] * lean
-        omega, epsilon = turn[:, which], spin[:, which]
-        rows = (linear.place + loops.home[:, None], velocity[:, :, 0], acceleration)
-        origin = PlaceMotion(*(row[:, : len(links)] for row in rows))
+        (angle, s), (turn, slid) = map(chains.split, (unknowns, rates))
+        which = loops.turning_of_link
+        heading, omega = np.exp(1j * angle)[:, which] * loops.leans, turn[:, which]
         owners, arms = loops.owners
         arm = heading[:, owners] * arms
+        swung = 1j * omega[:, owners] * arm
+        place = linear.place[:, :links] + loops.home[:, None]
+        velocity = linear.turned @ (1j * turn[:, 1:, None]) + linear.along @ slid[:, :, None]
+        velocity = velocity[:, :links, 0]
+        if seconds is None:
+            thrust, epsilon = np.full_like(s, np.nan), np.full_like(omega, np.nan)
+            acceleration = np.full_like(velocity, np.nan)
+            pushed = np.full_like(swung, np.nan)
+        else:
+            spin, thrust = chains.split(seconds)
+            along = linear.turned @ (1j * spin[:, 1:, None]) + linear.along @ thrust[:, :, None]
+            acceleration = (along[:, :, 0] + chains.second(linear, rates, rates))[:, :links]
+            epsilon = spin[:, which]
+            swing = (1j * epsilon[:, owners] - omega[:, owners] ** 2) * arm
+            pushed = acceleration[:, owners] + swing
+        points = PlaceMotion(place[:, owners] + arm, velocity[:, owners] + swung, pushed)
         return cls(
             loops=loops,
-            index={link: number for number, link in enumerate(links)},
-            origin=origin,
+            index=loops.link_index,
+            origin=PlaceMotion(place, velocity, acceleration),
             heading=heading,
             omega=omega,
             epsilon=epsilon,
-            names={name: number for number, name in enumerate(loops.points)},
-            points=PlaceMotion(
-                origin.place[:, owners] + arm,
-                origin.velocity[:, owners] + 1j * omega[:, owners] * arm,
-                origin.acceleration[:, owners]
-                + (1j * epsilon[:, owners] - omega[:, owners] ** 2) * arm,
-            ),
+            names=loops.point_index,
+            points=points,
             slides=np.stack([s, slid, thrust]),
         )
 
@@ -149,6 +155,10 @@ class Motion(Struct, frozen=True, eq=False):
             velocity + 1j * omega * arm,
             acceleration + (1j * epsilon - omega**2) * arm,
         )
+
+    def place(self, name: str) -> Complexes:
+        """Where a point stands that the scene names."""
+        return np.asarray(self.points.place[:, self.names[name]])
 
     def point(self, name: str) -> PlaceMotion:
         """Motion of a point; ``A@3`` is the point of link 3 under A. Unknown: StructureError."""

@@ -14,11 +14,11 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask
-from graphkin.loops.equations import Equations, Linear
+from graphkin.loops.equations import UNIT, Equations, Linear
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton_start import start_values
 from graphkin.loops.rigid_bodies import Reals
-from graphkin.loops.rounding import Rounding, rounding, straight, whole_turns
+from graphkin.loops.rounding import Rounding, rounding, straight
 from graphkin.text.errors import Problem, StructureError, WitnessError
 
 ITERATIONS = 60
@@ -111,23 +111,25 @@ def closed_from(
     with np.errstate(all="ignore"):
         found, iterations = newton(loops, start)
         linear = loops.chains.at(found)
-        residual, jacobian = scaled(loops, found, linear)
-        closed = np.asarray((np.abs(residual) < open_at_most(loops, found)).all(axis=1))
+        missed, jacobian = loops.residual(linear, found), loops.scaled_jacobian(linear)
+        open_now = np.abs(missed / loops.rows)
+        closed = np.asarray((open_now < open_at_most(loops, found)).all(axis=1))
         ratios = ratios_about(loops, linear, jacobian, accelerations=accelerations)
-        rates = ratios.rates(loops.drives.speed)
-        seconds = ratios.accelerations(loops.drives.speed, loops.drives.acceleration)
-        bounds = rounding(loops, found, rates, seconds, jacobian)
+        rates, seconds = ratios.rates(loops.drives.speed), None
+        if accelerations:
+            seconds = ratios.accelerations(loops.drives.speed, loops.drives.acceleration)
+        motion = Motion.of(loops, found, rates, seconds)
+        bounds = rounding(motion, found, rates, seconds, jacobian)
         good = closed & (bounds.regular | singular)
         moved = largest((found - start) / loops.columns) * loops.size
-        before, remains = gap(loops, start), gap(loops, found)
+        before, remains = gap(loops, start), widest_gap(loops, missed)
         report = Report(before, remains, moved, iterations, closed, good)
         if loops.numbers.single:
             refuse_failure(loops, found, report)
         if good.all():
-            return LoopSolution(loops, found, ratios, bounds.motion, bounds, report)
-        unknowns, rates, seconds = (
-            np.where(good[:, None], values, np.nan) for values in (found, rates, seconds)
-        )
+            return LoopSolution(loops, found, ratios, motion, bounds, report)
+        unknowns, rates = (np.where(good[:, None], values, np.nan) for values in (found, rates))
+        seconds = None if seconds is None else np.where(good[:, None], seconds, np.nan)
         motion = Motion.of(loops, unknowns, rates, seconds)
     return LoopSolution(loops, unknowns, ratios, motion, bounds, report)
 
@@ -211,6 +213,8 @@ def linear_solve(matrix: Reals, right: Reals) -> Reals:
 
 def finite_rows(stack: Reals) -> Flags:
     """Where every number of a matrix of a stack is finite."""
+    if len(stack) == 1:
+        return np.array([np.isfinite(stack).all()])
     return np.asarray(np.isfinite(stack).all(axis=(1, 2)))
 
 
@@ -218,17 +222,23 @@ def open_at_most(loops: Equations, unknowns: Reals) -> Reals:
     """How far each equation of a closed mechanism may be open, in its own size: (N, e).
 
     Angles of many turns, and ways of many lengths, leave those of wheels and drivers open by their
-    own rounding.
+    own rounding, and closed chains by that of their angles.
     """
-    linear = ROUNDED * (straight(loops, unknowns) + whole_turns(loops))
-    shape = (len(unknowns), 2 * len(loops.closing))
-    opened = np.concatenate([np.zeros(shape), linear], axis=1) / loops.rows
+    linear = ROUNDED * (straight(loops, unknowns) + loops.whole_turns)
+    links, count = len(loops.links), loops.turned.count
+    turned = loops.magnitudes[:, links : links + len(loops.closing), 1:count]
+    chains = UNIT * (turned @ abs(unknowns[:, : count - 1, None]))[:, :, 0]
+    opened = np.concatenate([chains, chains, linear], axis=1) / loops.rows
     return np.maximum(CLOSED, opened)
 
 
 def gap(loops: Equations, unknowns: Reals) -> Reals:
     """The largest closure error (m), angles of drivers measured on the longest bar: (N,)."""
-    missed = loops.residual(loops.chains.at(unknowns), unknowns)
+    return widest_gap(loops, loops.residual(loops.chains.at(unknowns), unknowns))
+
+
+def widest_gap(loops: Equations, missed: Reals) -> Reals:
+    """The same from what the equations are missed by: (N,)."""
     turns = np.zeros(missed.shape[1], dtype=np.bool_)
     turns[len(turns) - len(loops.drives.turns) :] = loops.drives.turns
     return largest(missed * np.where(turns, loops.size[:, None], 1))

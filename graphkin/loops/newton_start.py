@@ -11,7 +11,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask, moved_by, stages
-from graphkin.loops.equations import Equations, stacked
+from graphkin.loops.equations import Equations
 from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.model import FRAME
@@ -90,7 +90,7 @@ def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) ->
     ``values`` hold the known ones, and zero for the free; equations with others are left out.
     """
     scale = np.where(free, loops.columns, 0.0)
-    every = np.nan_to_num(loops.linear_rows())
+    every = np.nan_to_num(loops.linear_rows)
     others = np.abs(every[:, :, ~(known | free)])
     ready = others.max(axis=(0, 2), initial=0) == 0
     waits = np.concatenate([loops.slips.waits, loops.drives.waits])
@@ -122,7 +122,7 @@ def counted(loops: Equations, values: Reals, k: int) -> Reals:
 def counted_freely(loops: Equations, values: Reals, moving: Mask) -> Reals:
     """The unknowns with the angles counted that no linear equation ties: only chains hold them."""
     found = values.copy()
-    tied = np.abs(np.nan_to_num(loops.linear_rows())).max(axis=(0, 1), initial=0) > 0
+    tied = np.abs(np.nan_to_num(loops.linear_rows)).max(axis=(0, 1), initial=0) > 0
     for k in np.flatnonzero(moving & ~tied):
         if k < loops.turning_count:
             found[:, k] = counted(loops, found, int(k))
@@ -156,7 +156,8 @@ def start_values(
     turns are counted as the scene means them. What no position tells is zero.
     """
     numbers = loops.numbers
-    known = {name: numbers.complexes(z) - loops.home for name, z in places.items()}
+    read = numbers.columns(list(places.values())) - loops.home[:, None]
+    known = {name: read[:, n] for n, name in enumerate(places)}
     frame = {name: numbers.complexes(z) for name, z in loops.bodies[FRAME].items()}
     known = {**known, **frame}
     given = {name: numbers.reals(s) for name, s in slides.items()}
@@ -170,12 +171,12 @@ def start_values(
         known = {**points_on_links(loops, known, turn), **known}
         if seen == (len(turn), len(known)):
             break
-    angles = [np.angle(turn.get(k, numbers.complexes(1))) for k in range(1, loops.turned.count)]
+    turns = numbers.columns([turn.get(k, 1.0) for k in range(1, loops.turned.count)])
     coordinates = [slide_start(loops, j, known, given, turn) for j in range(len(loops.guides))]
-    columns = [*angles, *(numbers.reals(0) if s is None else s for s in coordinates)]
+    slid = numbers.columns([0.0 if s is None else s for s in coordinates], float)
     told = [k in turn and k not in guessed for k in range(1, loops.turned.count)]
     told += [s is not None for s in coordinates]
-    unknowns = np.stack(columns, axis=-1) if columns else np.zeros((numbers.count, 0))
+    unknowns = np.concatenate([np.angle(turns), slid], axis=1)
     return Start(*settled(loops, unknowns, np.array(told, dtype=np.bool_)))
 
 
@@ -191,21 +192,10 @@ def turns_of_bars(
     loops: Equations, known: Places, turn: Mapping[int, Complexes]
 ) -> dict[int, Complexes]:
     """e^{iθ} of the turnings with a link of which two points are known; the longest bar counts."""
-    best: dict[int, tuple[float, Complexes]] = {}
-    for link, body in loops.bodies.items():
-        turning, lean = loops.turned.of[link], loops.turned.lean[link]
-        if turning in turn:
-            continue
-        names = [name for name in body if name in known]
-        places = stacked([loops.numbers.complexes(body[name]) for name in names], loops.numbers)
-        for n in range(len(names) - 1):
-            bars = places[:, n + 1 :] - places[:, n : n + 1]
-            lengths = np.fmax.reduce(abs(bars), axis=0)
-            far = int(np.argmax(np.where(np.isnan(lengths), 0.0, lengths)))
-            if lengths[far] > best.get(turning, (0.0, bars))[0]:
-                way = known[names[n + 1 + far]] - known[names[n]]
-                best[turning] = float(lengths[far]), way / (bars[:, far] * lean)
-    return {turning: ratio for turning, (_, ratio) in best.items()}
+    bars = {k: bar for k, bar in loops.longest_bars.items() if k not in turn}
+    if not known.keys() >= {end for first, second, _ in bars.values() for end in (first, second)}:
+        bars = {k: bar for k, bar in loops.bars_among(known).items() if k not in turn}
+    return {k: (known[second] - known[first]) / way for k, (first, second, way) in bars.items()}
 
 
 def turns_of_blocks(
@@ -265,7 +255,7 @@ def points_on_links(
     for link, body in loops.bodies.items():
         base = next((name for name in body if name in known), None)
         turning = loops.turned.of[link]
-        if base is None or turning not in turn:
+        if base is None or turning not in turn or body.keys() <= known.keys():
             continue
         heading = turn[turning] / abs(turn[turning]) * loops.turned.lean[link]
         for name, arm in body.items():

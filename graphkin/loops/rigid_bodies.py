@@ -6,7 +6,7 @@ loses nothing. Lengths in metres; every value is a float or, in a batch, an arra
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import reduce
 from typing import Any
 
@@ -56,6 +56,10 @@ class Numbers(Struct, frozen=True):
         """A length, speed or angle in SI units."""
         return quantity.si(self.values, self.kind)
 
+    def error(self, quantity: Quantity) -> Real:
+        """Bound of the error by which sums and functions round a number, in SI units."""
+        return quantity.error(self.values, self.kind)
+
     def direction(self, quantity: Quantity) -> Point:
         """The unit vector of an angle."""
         return quantity.direction(self.values, self.kind)
@@ -69,6 +73,16 @@ class Numbers(Struct, frozen=True):
         """A vector as an array of shape (N,)."""
         array = np.asarray(value, dtype=np.complex128)
         return array.reshape(1) if self.count == 1 else np.broadcast_to(array, (self.count,))
+
+    def columns(self, values: Sequence[Any], dtype: type = complex) -> Complexes:
+        """Many values side by side, each a number or an array of shape (N,): (N, values)."""
+        if any(getattr(value, "shape", ()) for value in values):
+            shape = (self.count,)
+            return np.stack(
+                [np.broadcast_to(np.asarray(each, dtype), shape) for each in values], axis=1
+            )
+        found: Complexes = np.array([values], dtype)
+        return found if self.count == 1 else np.broadcast_to(found, (self.count, len(values)))
 
     @property
     def single(self) -> bool:
@@ -231,8 +245,9 @@ def longest(scene: Scene, bodies: Mapping[str, Body], numbers: Numbers) -> Reals
     links = scene.every_link
     lengths = list[Any]()
     for body in bodies.values():
-        places = np.array([numbers.complexes(place) for place in body.values()])
-        lengths += [abs(places[i + 1 :] - places[i]).max(axis=0) for i in range(len(places) - 1)]
+        places = numbers.columns(list(body.values()))
+        for i in range(places.shape[1] - 1):
+            lengths.append(abs(places[:, i + 1 :] - places[:, i : i + 1]).max(axis=1))
     lengths += [radius(wheel, numbers) for link in links for wheel in link.wheels]
     most = numbers.reals(reduce(np.maximum, lengths, 0.0))
     return np.where(most == 0, 1.0, most)

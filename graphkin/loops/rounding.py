@@ -15,17 +15,16 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.loops.equations import Equations
+from graphkin.loops.equations import UNIT, Equations
 from graphkin.loops.loop_motion import Motion, SlideRates
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.link_points import ends_of
 
-UNIT = 4 * 2.0**-52
-"""Share of its terms by which a sound computation in doubles misses an equation at most."""
 AGAIN = 4
 """How many times the first-order error a position may be off where it is nearly singular."""
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
+Indices = np.ndarray[Any, np.dtype[np.intp]]
 
 
 class PlaceBound(NamedTuple):
@@ -36,55 +35,52 @@ class PlaceBound(NamedTuple):
     acceleration: Reals
 
 
-class Loads(Struct, frozen=True, eq=False):
-    """Magnitudes for every turning, the frame's first (N, K + 1), and for every slide (N, m)."""
-
-    turned: Reals
-    slid: Reals
-
-
 class Vectors(Struct, frozen=True, eq=False):
-    """Magnitudes of vectors in rows of chains: ``turned`` (N, R, K + 1) by turning, and ``along``
-    (N, R, m), which is 1 where a slide is passed; ``carrier`` (m,) are the turnings of the slides.
+    """Magnitudes of the vectors in rows of chains: ``every`` (N, R, 1 + U), by turning, the frame's
+    first, then 1 where a slide is passed. ``turned_by`` (1 + U,) are the turnings of all of them,
+    of which there are ``count``; ``twice`` (1 + U,) is 2 for the slides.
+
+    Loads on them, such as errors or rates of unknowns, are magnitudes (N, 1 + U), 0 for the frame.
     """
 
-    turned: Reals
-    along: Reals
-    carrier: np.ndarray[Any, np.dtype[np.intp]]
+    every: Reals
+    turned_by: Indices
+    twice: Reals
+    count: int
 
-    def sum(self, loads: Loads) -> Reals:
+    def sum(self, loads: Reals) -> Reals:
         """The longest sum of the vectors times their loads, whatever their directions: (N, R)."""
-        turned = self.turned @ loads.turned[:, :, None] + self.along @ loads.slid[:, :, None]
-        return np.asarray(turned[:, :, 0])
+        return np.asarray((self.every @ loads[:, :, None])[:, :, 0])
 
-    def bent(self, off: Loads) -> Reals:
+    def ends(self) -> Reals:
+        """How far the ends of the chains are off at most, by what turns: (N, R)."""
+        return np.asarray(self.every[:, :, : self.count].sum(axis=-1))
+
+    def bent(self, off: Reals) -> Reals:
         """The second-order change of the rows when the unknowns are off: half f″ twice."""
-        held = off.turned[:, self.carrier]
-        return self.sum(Loads(off.turned**2 / 2, off.slid * held))
+        return self.sum(off * off[:, self.turned_by] * (self.twice / 2))
 
-    def moved(self, off: Loads, places: Reals) -> Vectors:
+    def moved(self, off: Reals, places: Reals) -> Vectors:
         """How far the tips of the vectors move, with the rounding of the ``places`` (N, K + 1)."""
-        shaken = self.turned * (off.turned[:, None, :] + UNIT)
-        shaken += np.where(self.turned > 0, places[:, None, :], 0)
-        for j, k in enumerate(self.carrier):
-            shaken[:, :, k] += self.along[:, :, j] * off.slid[:, None, j]
-        along = self.along * (off.turned[:, None, self.carrier] + UNIT)
-        return Vectors(shaken, along, self.carrier)
+        shaken = self.every * (off[:, None, self.turned_by] + UNIT)
+        turned = shaken[:, :, : self.count]
+        turned += np.where(self.every[:, :, : self.count] > 0, places[:, None, :], 0)
+        for j in range(self.count, len(self.twice)):
+            turned[:, :, self.turned_by[j]] += self.every[:, :, j] * off[:, None, j]
+        return replace(self, every=shaken)
 
     def plus(self, other: Vectors) -> Vectors:
         """Every vector longer by another."""
-        return Vectors(self.turned + other.turned, self.along + other.along, self.carrier)
+        return replace(self, every=self.every + other.every)
 
-    def carried(self, rate: Loads, second: Loads) -> Loads:
+    def carried(self, rate: Reals, second: Reals) -> Reals:
         """What accelerations load the vectors with: by the second derivatives, and by the rates."""
-        held = 2 * rate.turned[:, self.carrier]
-        return Loads(second.turned + rate.turned**2, second.slid + rate.slid * held)
+        return np.asarray(second + self.twice * rate * rate[:, self.turned_by])
 
-    def carried_more(self, rate: Loads, more: Loads) -> Loads:
+    def carried_more(self, rate: Reals, more: Reals) -> Reals:
         """How much the parts by the rates grow when these are off by ``more``."""
-        held, extra = rate.turned[:, self.carrier], more.turned[:, self.carrier]
-        sliding = 2 * (rate.slid * extra + more.slid * (held + extra))
-        return Loads(more.turned * (2 * rate.turned + more.turned), sliding)
+        held, extra = rate[:, self.turned_by], more[:, self.turned_by]
+        return np.asarray(self.twice * (rate * extra + more * (held + extra)))
 
 
 class Rounding(Struct, frozen=True, eq=False):
@@ -160,36 +156,22 @@ class PositionBounds(Struct, frozen=True, eq=False):
     def of(cls, loops: Equations, unknowns: Reals) -> PositionBounds:
         """Bounded at a closed position."""
         still, jacobian = np.zeros_like(unknowns), loops.scaled_jacobian(loops.chains.at(unknowns))
-        return cls.about(Motion.of(loops, unknowns, still, still), unknowns, jacobian)
+        return cls.about(Motion.of(loops, unknowns, still, None), unknowns, jacobian)
 
     @classmethod
     def about(cls, motion: Motion, unknowns: Reals, jacobian: Reals) -> PositionBounds:
-        """The same, from a motion there and the scaled Jacobian (N, equations, K + m)."""
-        still, inverse = np.zeros_like(unknowns), abs_inverse(motion.loops, jacobian)
-        vectors, places = vectors_of(motion, unknowns), places_of(motion)
-        return cls(motion.loops, vectors, places, inverse, still, still == 0).bounded(unknowns)
+        """The same, from a motion there and the scaled Jacobian (N, equations, K + m).
 
-    def bounded(self, unknowns: Reals) -> PositionBounds:
-        """With the bounds: to first order, and by how much the loops bend within that."""
-        loops, rows = self.loops, self.rows
-        shaken = rows.moved(self.split(self.off), self.places).turned.sum(axis=-1)
-        first = self.led(shaken, straight(loops, unknowns) + whole_turns(loops))
-        bent = self.led(4 * rows.bent(self.split(first)))
+        To first order, and by how much the loops bend within that.
+        """
+        loops, inverse = motion.loops, abs_inverse(motion.loops, jacobian)
+        rows, places = vectors_of(loops, unknowns), places_of(motion)
+        shaken = rows.moved(loads(np.zeros_like(unknowns)), places).ends()
+        first = led(loops, inverse, shaken, straight(loops, unknowns) + loops.whole_turns)
+        bent = led(loops, inverse, 4 * rows.bent(loads(first)))
         regular = bent <= first
-        return replace(self, off=np.where(regular, first + bent, AGAIN * first), regular=regular)
-
-    def led(self, missed: Reals, linear: Reals | None = None) -> Reals:
-        """How far unknowns are off when the rows, and the linear equations, miss so much."""
-        loops, links = self.loops, len(self.loops.links)
-        closed = missed[:, links : links + len(loops.closing)]
-        if linear is None:
-            linear = np.zeros((len(missed), len(loops.slips.links) + len(loops.drives.turns)))
-        every = np.concatenate([closed, closed, linear], axis=1)
-        return np.asarray((self.inverse @ every[:, :, None])[:, :, 0])
-
-    def split(self, values: Reals) -> Loads:
-        """Magnitudes of unknowns or their derivatives by turning and by slide."""
-        return Loads(*(abs(part) for part in self.loops.chains.split(values)))
+        off = np.where(regular, first + bent, AGAIN * first)
+        return cls(loops, rows, places, inverse, off, regular)
 
     @property
     def lost(self) -> Reals:
@@ -197,92 +179,99 @@ class PositionBounds(Struct, frozen=True, eq=False):
         return np.where(self.regular, self.off, np.maximum(self.off, self.loops.columns))
 
 
+def loads(values: Reals) -> Reals:
+    """Magnitudes of unknowns or their derivatives, with the frame's first: (N, 1 + U)."""
+    found = np.zeros((len(values), values.shape[1] + 1))
+    np.abs(values, out=found[:, 1:])
+    return found
+
+
+def led(loops: Equations, inverse: Reals, missed: Reals, linear: Reals | None = None) -> Reals:
+    """How far unknowns are off when the rows, and the linear equations, miss so much."""
+    links = len(loops.links)
+    closed = missed[:, links : links + len(loops.closing)]
+    if linear is None:
+        linear = np.zeros((len(missed), len(loops.slips.links) + len(loops.drives.turns)))
+    every = np.concatenate([closed, closed, linear], axis=1)
+    return np.asarray((inverse @ every[:, :, None])[:, :, 0])
+
+
 def rounding(
-    loops: Equations, unknowns: Reals, rates: Reals, seconds: Reals, jacobian: Reals
+    motion: Motion, unknowns: Reals, rates: Reals, seconds: Reals | None, jacobian: Reals
 ) -> Rounding:
-    """The bounds at a position found, from the unknowns and their derivatives, (N, K + m) each, and
+    """The bounds of a motion found, from the unknowns and their derivatives, (N, K + m) each, and
     the Jacobian there with each equation and unknown over its own size.
+
+    Without the ``seconds`` the bounds of all accelerations are NaN.
     """
-    motion = Motion.of(loops, unknowns, rates, seconds)
+    loops = motion.loops
     links, points = len(loops.links), len(loops.links) + len(loops.closing)
     with np.errstate(all="ignore"):
         found = PositionBounds.about(motion, unknowns, jacobian)
-        rows, places, split = found.rows, found.places, found.split
-        off, speed, thrust = split(found.off), split(rates), split(seconds)
-        moved = rows.moved(split(found.lost), places)
-        longer = rows.plus(moved)
+        rows, places, inverse = found.rows, found.places, found.inverse
+        off, speed = loads(found.off), loads(rates)
+        place = rows.moved(off, places).ends() + places[:, :1]
+        moved = rows.moved(loads(found.lost), places)
         velocity = moved.sum(speed)
         linear = straight(loops, rates) + touching(loops, speed, places)
         linear += lifted(loops, unknowns, found.off, (rates, None, None))
-        less = found.led(velocity, linear)
-        slower = split(less)
-        carried = rows.carried(speed, thrust)
-        acceleration = moved.sum(carried) + longer.sum(rows.carried_more(speed, slower))
-        linear = straight(loops, seconds) + touching(loops, carried, places)
-        linear += lifted(loops, unknowns, found.off, (rates, seconds, less))
-        later = split(found.led(acceleration, linear))
-        every = PlaceBound(
-            rows.moved(off, places).turned.sum(axis=-1) + places[:, :1],
-            velocity + longer.sum(slower),
-            acceleration + longer.sum(later),
-        )
-    which = [loops.turned.of[link] for link in loops.links]
+        linear[:, len(loops.slips.links) :] += loops.drives.errors[1]
+        less = led(loops, inverse, velocity, linear)
+        slower, longer = loads(less), rows.plus(moved)
+        velocity = velocity + longer.sum(slower)
+        later, acceleration = np.full_like(slower, np.nan), np.full_like(velocity, np.nan)
+        if seconds is not None:
+            carried = rows.carried(speed, loads(seconds))
+            acceleration = moved.sum(carried) + longer.sum(rows.carried_more(speed, slower))
+            linear = straight(loops, seconds) + touching(loops, carried, places)
+            linear += lifted(loops, unknowns, found.off, (rates, seconds, less))
+            linear[:, len(loops.slips.links) :] += loops.drives.errors[2]
+            later = loads(led(loops, inverse, acceleration, linear))
+            acceleration = acceleration + longer.sum(later)
+    which, turnings = loops.turning_of_link, rows.count
+    every = PlaceBound(place, velocity, acceleration)
+    slid = off[:, turnings:] + 2 * places[:, rows.turned_by[turnings:]]
     return Rounding(
         motion=motion,
-        angles=off.turned,
+        angles=off[:, :turnings],
         origin=PlaceBound(*(row[:, :links] for row in every)),
-        omega=slower.turned[:, which],
-        epsilon=later.turned[:, which],
+        omega=slower[:, which],
+        epsilon=later[:, which],
         points=PlaceBound(*(row[:, points:] for row in every)),
-        slides=np.stack([off.slid + 2 * places[:, rows.carrier], slower.slid, later.slid]),
+        slides=np.stack([slid, slower[:, turnings:], later[:, turnings:]]),
         regular=np.asarray(found.regular.all(axis=1)),
     )
 
 
-def vectors_of(motion: Motion, unknowns: Reals) -> Vectors:
+def vectors_of(loops: Equations, unknowns: Reals) -> Vectors:
     """The vectors of the chains to every link, of those that close, and of those to every point."""
-    loops = motion.loops
-    chains = loops.chains
-    _, slides = chains.split(unknowns)
-    count = len(unknowns)
-    turned = np.array(np.broadcast_to(abs(chains.fixed), (count, *chains.fixed.shape[1:])))
-    along = np.array(np.broadcast_to(abs(chains.slid), (count, *chains.slid.shape)))
-    for j, k in enumerate(chains.carrier):
-        turned[:, :, k] += along[:, :, j] * abs(slides[:, None, j])
-    owners, arms = loops.owners
-    reaching = turned[:, owners]
-    for p, owner in enumerate(owners):
-        reaching[:, p, loops.turned.of[loops.links[owner]]] += abs(arms[:, p])
-    turned = np.concatenate([turned, reaching], axis=1)
-    along = np.concatenate([along, along[:, owners]], axis=1)
-    return Vectors(np.asarray(turned, dtype=np.float64), along, chains.carrier)
+    fixed, count = loops.magnitudes, loops.turned.count
+    every = np.array(np.broadcast_to(fixed, (len(unknowns), *fixed.shape[1:])))
+    for j, k in enumerate(loops.chains.carrier):
+        every[:, :, k] += every[:, :, count + j] * abs(unknowns[:, None, count - 1 + j])
+    return Vectors(every, loops.turned_by, loops.twice, count)
 
 
 def places_of(motion: Motion) -> Reals:
     """The rounding of the coordinates of what each turning carries, which count from the origin."""
-    loops = motion.loops
-    far = np.zeros((len(motion.heading), loops.turned.count))
-    for link, body in loops.bodies.items():
-        k, i = loops.turned.of[link], motion.index[link]
-        far[:, k] = np.maximum(far[:, k], abs(motion.origin.place[:, i]))
-        for point in body:
-            p = motion.names.get(point)
-            if p is not None:
-                far[:, k] = np.maximum(far[:, k], abs(motion.points.place[:, p]))
-    return UNIT * far
+    far = abs(np.concatenate([motion.origin.place, motion.points.place], axis=1))
+    carried = np.where(motion.loops.carries, far[:, None, :], 0.0)
+    return np.asarray(UNIT * carried.max(axis=2, initial=0.0))
 
 
 def straight(loops: Equations, values: Reals) -> Reals:
     """The rounding of the equations that are linear in unknowns, or in their rates: (N, R + D)."""
-    terms = abs(loops.linear_rows()) @ abs(values)[:, :, None]
-    return np.asarray(UNIT * terms[:, :, 0])
+    return np.asarray(UNIT * (loops.linear_sizes @ abs(values)[:, :, None])[:, :, 0])
 
 
-def touching(loops: Equations, loads: Loads, places: Reals) -> Reals:
+def touching(loops: Equations, loaded: Reals, places: Reals) -> Reals:
     """What the rounding of the points where wheels touch adds to the rates of those equations."""
-    turned = (abs(loops.slips.rows) > 0)[:, :, : loops.turning_count]
-    slips = (turned @ (loads.turned * places)[:, 1:, None])[:, :, 0]
-    return np.concatenate([slips, np.zeros((len(slips), len(loops.drives.turns)))], axis=1)
+    found = np.zeros((len(places), len(loops.slips.links) + len(loops.drives.turns)))
+    if loops.slips.links:
+        turned = (abs(loops.slips.rows) > 0)[:, :, : loops.turning_count]
+        shaken = loaded[:, 1 : loops.turned.count] * places[:, 1:]
+        found[:, : len(loops.slips.links)] = (turned @ shaken[:, :, None])[:, :, 0]
+    return found
 
 
 def lifted(
@@ -306,14 +295,6 @@ def lifted(
             added += 2 * abs(here.bend) * turn * lift.of(slower, abs(lift.way))
         found[:, len(loops.slips.links) + lift.row] = added
     return found
-
-
-def whole_turns(loops: Equations) -> Reals:
-    """What rounding adds to those equations where angles count from a start, or from a quarter."""
-    drives = np.where(loops.drives.turns, UNIT, 0.0)
-    shape = (loops.numbers.count, len(loops.drives.turns))
-    slips = np.broadcast_to(UNIT * abs(loops.slips.constant), (shape[0], len(loops.slips.links)))
-    return np.concatenate([slips, np.broadcast_to(drives, shape)], axis=1)
 
 
 def abs_inverse(loops: Equations, scaled: Reals) -> Reals:

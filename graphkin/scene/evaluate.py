@@ -8,6 +8,7 @@ from math import isqrt
 from typing import Any
 
 from graphkin.numbers.arithmetic import Kind
+from graphkin.numbers.arrays import np
 from graphkin.scene.expression import (
     CONSTANT,
     WIDEST,
@@ -168,6 +169,68 @@ def root(value: Any, kind: Kind) -> Any:
     if not hasattr(value, "shape") and value < 0:
         raise EvaluationError(*NO_ROOT)
     return kind.sqrt(value)
+
+
+UNIT = 2.0**-53
+"""Share of itself by which one operation in doubles is off at most; a function by up to four."""
+
+
+def with_error(tree: Tree, values: Mapping[str, Any], kind: Kind) -> tuple[Any, Any]:
+    """The value of a tree in doubles, and a bound of its error; 0 as long as it is exact.
+
+    Errors add up to first order. Arrays among the values count as exact.
+    """
+    match tree:
+        case Number() | Name():
+            value = evaluate(tree, values, kind)
+            return value, UNIT * value if tree == Name(CONSTANT) else 0
+        case Minus(inner):
+            value, error = with_error(inner, values, kind)
+            return -value, error
+        case Pair(sign, first, second):
+            left, right = with_error(first, values, kind), with_error(second, values, kind)
+            value = joined(sign, left[0], right[0], kind)
+            if isinstance(value, Fraction):
+                return value, 0
+            return value, joined_error(sign, rounded(*left, kind), rounded(*right, kind), value)
+        case Call(function, inner):
+            argument, error = with_error(inner, values, kind)
+            value = called(function, argument, kind)
+            if isinstance(value, Fraction):
+                return value, 0
+            return value, called_error(function, error, value)
+
+
+def rounded(value: Any, error: Any, kind: Kind) -> tuple[Any, Any]:
+    """A number in doubles with its error, which an exact one has from then on."""
+    if not isinstance(value, Fraction):
+        return value, error
+    near = kind.number(value)
+    return near, UNIT * abs(near)
+
+
+def joined_error(sign: str, left: tuple[Any, Any], right: tuple[Any, Any], value: Any) -> Any:
+    """The error of two numbers joined, from theirs."""
+    (a, off_a), (b, off_b) = left, right
+    own = UNIT * abs(value)
+    match sign:
+        case "+" | "-":
+            return off_a + off_b + own
+        case "*":
+            return abs(a) * off_b + abs(b) * off_a + own
+        case "/":
+            return (off_a + abs(value) * off_b) / abs(b) + own
+    sized = abs(a) + (a == 0)
+    grown = abs(b) * off_a / sized + abs(np.log(sized)) * off_b
+    return abs(value) * grown + (4 + abs(b)) * own
+
+
+def called_error(function: str, error: Any, value: Any) -> Any:
+    """The error of a root or of a sine, cosine or tangent of degrees, from that of the argument."""
+    if function == "sqrt":
+        return error / (2 * abs(value) + (value == 0)) + UNIT * abs(value)
+    turned = error / 57 + 4 * UNIT
+    return turned * (1 + value * value) if function == "tan" else turned
 
 
 NOUGHT = Number(Fraction(0))

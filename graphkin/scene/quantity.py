@@ -12,7 +12,14 @@ from msgspec import Struct
 
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point, Real
 from graphkin.numbers.arrays import np
-from graphkin.scene.evaluate import BOUNDLESS, EvaluationError, differentiated, evaluate
+from graphkin.scene.evaluate import (
+    BOUNDLESS,
+    UNIT,
+    EvaluationError,
+    differentiated,
+    evaluate,
+    with_error,
+)
 from graphkin.scene.expression import HEAVIEST, TIME, Minus, Number, Pair, Tree, names, parse, size
 from graphkin.scene.findings import shown
 from graphkin.text.errors import Problem, SceneError
@@ -112,6 +119,20 @@ class Quantity(Struct, frozen=True, eq=False):
         if isinstance(value, Fraction | float) or hasattr(value, "shape"):
             return kind.direction(value)
         return kind.radians(value * (kind.pi / 180))
+
+    def error(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
+        """Bound of the error of ``si``, or of ``direction``, by sums and functions in doubles: in
+        metres, radians and seconds. It leaves out the last few roundings, which are shares of the
+        value, or of a turn.
+        """
+        try:
+            value, error = with_error(self.tree, values, kind)
+        except ArithmeticError:
+            return 0.0
+        if self.unit == "rad" and isinstance(value, Fraction):
+            error = UNIT * abs(kind.number(value))
+        factor, of_pi = SI[self.unit]
+        return error * float(factor) * (kind.pi if of_pi else 1)
 
     def written(self, values: Mapping[str, Any]) -> str:
         """The value as printed on a sheet: ``44``, ``0.25``; 12 digits when it does not end."""

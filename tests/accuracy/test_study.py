@@ -15,15 +15,13 @@ from matplotlib.figure import Figure
 
 from graphkin.accuracy.compared_positions import approach, ground_of, places_around
 from graphkin.accuracy.cost_by_scope import panel
+from graphkin.accuracy.effort import QUICK
 from graphkin.accuracy.flattening import LAW
 from graphkin.accuracy.methods import BITS, DIGITS
 from graphkin.accuracy.other_routes import STEPS, TOLERANCES, plain
-from graphkin.accuracy.stopwatch import QUICK, Timing
 from graphkin.accuracy.study import Study, study
-from graphkin.cli.report.accuracy_report import (
-    HEADS,
-    accuracy_table,
-)
+from graphkin.cli.report.accuracy_report import HEADS, accuracy_table
+from graphkin.construction.core.timing import Timing
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load
 from tests.running import Run

@@ -14,6 +14,7 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.construction.core.batch import run_blocks
 from graphkin.construction.core.drawn_scene import Drawing
@@ -25,6 +26,7 @@ from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.marks import Page
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind
+from graphkin.scene.model import Ask
 from graphkin.text import words
 from graphkin.writers.pdf import write_pdf
 from graphkin.writers.svg import write_svg
@@ -61,6 +63,44 @@ def scalar() -> list[tuple[str, float, float]]:
         ("one position: the same as a solution", best(mechanism.solve), plain),
         ("one position: only what is asked", best(lambda: mechanism.solve(asked=True)), plain),
         ("one position: gathering alone", best(lambda: gathered(trace, links)), plain),
+    ]
+
+
+def checking() -> list[tuple[str, float, float]]:
+    """The independent check of one velocity and of everything, against the solve of that velocity.
+
+    Both keep what they had last; first without that, then with it, then of a mechanism that has
+    just been read.
+    """
+    scene = load("pump", n=7).scene
+    one = Mechanism(replace(scene, ask=Ask(velocity=("D",))))
+    some, every = one.solve(asked=True), one.solve()
+    one.witness(some), one.witness(every)
+
+    def forget() -> None:
+        one.drawings.clear()
+        for part in (one.check.whole, *one.check.parts.values()):
+            part.closed.clear()
+
+    def after(work: Callable[[], object]) -> float:
+        return best(lambda: (forget(), work())) - best(forget)
+
+    def new() -> Mechanism:
+        return Mechanism(one.scene)
+
+    anew, kept = after(lambda: one.solve(asked=True)), best(lambda: one.solve(asked=True))
+    first = best(lambda: new().solve(asked=True))
+    return [
+        ("one velocity: solved anew", anew, anew),
+        ("one velocity: checked anew", after(lambda: one.witness(some)), anew),
+        ("everything: checked anew", after(lambda: one.witness(every)), anew),
+        ("one velocity: solved again", kept, kept),
+        ("everything: solved again", best(one.solve), kept),
+        ("one velocity: checked again", best(lambda: one.witness(some)), kept),
+        ("one velocity: solved by a new mechanism", first, first),
+        ("everything: solved by a new mechanism", best(lambda: new().solve()), first),
+        ("one velocity: checked by a new mechanism", best(lambda: new().witness(some)), first),
+        ("everything: checked by a new mechanism", best(lambda: new().witness(every)), first),
     ]
 
 
@@ -193,7 +233,7 @@ def in_words(seconds: float) -> str:
 def table() -> str:
     """All rows as one text."""
     lines = []
-    for rows in (scalar(), batch(), page()):
+    for rows in (scalar(), checking(), batch(), page()):
         lines += [
             f"{name:46} {in_words(seconds):>10} {seconds / plain:8.2f} ×"
             for name, seconds, plain in rows

@@ -10,7 +10,12 @@ from typing import Any
 import pytest
 
 from graphkin import load
+from graphkin.accuracy.pencil import Pencil, forecast, original
+from graphkin.cli.report.waits import waits_of
+from graphkin.construction.core import run as running
+from graphkin.construction.core.timing import Stopwatch, Work, one_position
 from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, EFFECTS, EffectRow, effects
+from graphkin.documents.scaling import scales
 from tests.running import ROOT, Run
 
 SCENES = ROOT / "examples" / "scenes"
@@ -45,18 +50,17 @@ def test_every_effect_that_is_in_has_its_own_time_and_no_other(run: Run, name: o
 
 def test_only_the_steps_of_an_effect_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
     """The steps handed to the clock are those of the slice, each once, under its own effect."""
-    from graphkin.construction.core.timing import Timing
     from graphkin.diagnosis import effects as room
 
     mechanism = load(str(SCENES / "oscillating-slide.toml"))
     handed: list[list[int]] = []
 
-    def noted(trace: object, numbers: list[int], values: object) -> Timing:
+    def noted(trace: object, numbers: list[int], values: object) -> Work:
         handed.append(list(numbers))
-        return Timing(1.0, 1.0, 1.0, 1)
+        return lambda: None
 
-    monkeypatch.setattr(room, "time_of_steps", noted)
-    rows = room.measured(mechanism)
+    monkeypatch.setattr(room, "work_of_steps", noted)
+    rows, _ = room.measured(mechanism, Stopwatch(rounds=2, least=0, patience=0))
     assert [len(numbers) for numbers in handed] == [row.steps for row in rows if row.steps]
     program, asked = mechanism.program, mechanism.asked()
     every = sorted(number for numbers in handed for number in numbers)
@@ -85,3 +89,48 @@ def test_a_guide_that_never_turns_is_not_said_to() -> None:
     """The cylinder of the locomotive is carried by its frame, which two wheels keep level."""
     reason = of(SCENES / "locomotive.toml")["Coriolis"].reason
     assert reason.startswith("the guide of 6 is on a link that may turn; ")
+
+
+def test_one_position_is_every_needed_step_with_nothing_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    mechanism = load("pump")
+    mechanism.solve()
+    ran: list[int] = []
+    evaluate = running.evaluate
+
+    def counted(step: Any, number: int, *rest: Any) -> Any:
+        ran.append(number)
+        return evaluate(step, number, *rest)
+
+    monkeypatch.setattr(running, "evaluate", counted)
+    needed = mechanism.program.needed(mechanism.asked())
+    work = one_position(mechanism.program, needed, mechanism.scene.values)
+    work()
+    work()
+    assert ran == [*needed, *needed]
+
+
+def test_what_a_user_waits_for_and_what_a_lab_sheet_needs(run: Run) -> None:
+    found = told(run, "pump")
+    assert list(found["waits"]) == ["load", "solve", "check", "page"]
+    assert all(time["median"] > 0 for time in found["waits"].values())
+    pump = load("pump")
+    digits = pump.witness(pump.solve(asked=True)).digits
+    expected = forecast(original(pump, scales(pump)), Pencil()).expected
+    errors = [each.relative for each in expected if each.relative is not None]
+    sheet = {"drawing": max(errors), "marks_within_mm": 0.5, "digits": min(digits.values())}
+    assert found["sheet"] == pytest.approx(sheet, rel=5e-3)
+    last = run("explain", "pump").stdout.splitlines()[-1]
+    assert last.startswith("for a lab sheet: a drawing with marks within 0.5 mm is sure to ")
+    assert last.endswith(f"float64 leaves {min(digits.values())} digits")
+
+
+def test_a_mechanism_without_a_sheet_is_timed_without_a_page(
+    four_bar: Callable[..., Path],
+) -> None:
+    """Beside its dead point: everything is measured but the page, and that is said."""
+    flat = four_bar(coupler=10.0000000001, angle=0)
+    found = waits_of(lambda: load(str(flat)), Stopwatch(rounds=2, least=0, patience=0))
+    assert "page" not in found.times and found.undrawn
+    assert found.drawing is None

@@ -9,6 +9,9 @@ from typing import Any
 
 import pytest
 
+from graphkin.cli.report.motion_report import sure_lines, verdict_words
+from graphkin.construction.core.solution import Verdict
+from graphkin.mechanism import load
 from tests.chosen import FOLDER
 from tests.running import ROOT, Run
 from tests.scene_files import scene_text
@@ -217,3 +220,51 @@ def test_at_a_dead_point_proved_digits_do_not_advise_themselves(run: Run, tmp_pa
     assert (proved.exit_code, proved.stdout) == (2, "")
     assert "--digits" not in proved.stderr
     assert "the driver's speed determines no other: change the driver's position" in proved.stderr
+
+
+def test_a_pin_beside_the_pivot_of_its_slot_is_left_to_proved_digits(
+    run: Run, tmp_path: Path
+) -> None:
+    file = tmp_path / "slot.toml"
+    file.write_text(scene_text("cli/slot-beside-its-pivot"))
+    told = run("solve", file)
+    assert (told.exit_code, told.stdout) == (2, "")
+    assert "A falls on O2" in told.stderr
+    assert "solve --digits finds it where doubles cannot tell" in told.stderr
+    proved = run("solve", file, "--digits", "12")
+    assert "velocity y, m/s        300000003.000" in proved.stdout
+    assert "every one proved" in proved.stdout
+    file.write_text(scene_text("cli/slot-beside-its-pivot").replace("100.000001", "100"))
+    at_once = run("solve", file, "--digits", "12")
+    assert at_once.exit_code == 2
+    assert "--digits" not in at_once.stderr
+
+
+def test_wheels_after_very_many_turns_are_judged_with_the_digits_that_are_left(
+    run: Run, tmp_path: Path
+) -> None:
+    text = (FOLDER / "gears-lever.toml").read_text()
+    file = tmp_path / "turns.toml"
+    file.write_text(text.replace('angle = "angle"', 'angle = "2e15 + sqrt(2)"'))
+    told = run("solve", file)
+    assert "witness  agrees" in told.stdout
+    assert "digits   sure: positions 1, velocities 0" in told.stdout
+    assert "angles of many turns" in told.stderr
+    assert "solve --digits proves what can be known" in told.stderr
+
+
+def test_a_rack_that_is_far_away_does_not_hide_what_a_wheel_has_lost(
+    run: Run, tmp_path: Path
+) -> None:
+    text = (FOLDER / "gears-rack.toml").read_text()
+    file = tmp_path / "rack.toml"
+    file.write_text(text.replace('angle = "angle"', 'angle = "2e15 + sqrt(2)"'))
+    assert "digits   sure: positions 11, velocities 1, accelerations 1" in run("solve", file).stdout
+
+
+def test_numbers_that_differ_are_told_with_the_digits_that_are_left() -> None:
+    scene = load("pump").scene
+    verdict = Verdict(False, 1e-3, "points.D.velocity", 1e-9, 0, 0, digits={"velocity": 3})
+    words = verdict_words(verdict, scene)
+    assert words.endswith("; sure digits: velocities 3; solve --digits proves what can be known")
+    assert sure_lines(verdict) == []

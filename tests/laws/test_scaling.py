@@ -7,10 +7,13 @@ from cmath import rect
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from graphkin.construction.core.program import Plane
-from graphkin.mechanism import Mechanism
+from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.plane import Ratio, Vector
+from graphkin.scene.quantity import exact
+from tests.chosen import FOLDER
 from tests.mechanisms import LAW, SHIPPED, angles, log_scaled, mechanisms, shipped, signs
 
 CLOSE = 1e-9
@@ -84,6 +87,45 @@ def test_the_same_for_any_k_also_backwards(made, size, sign):
     speed, most = size * largest(slow.velocities), size**2 * largest(slow.accelerations)
     assert_equal(fast.velocities, slow.velocities, lambda v: k * v, speed)
     assert_equal(fast.accelerations, slow.accelerations, lambda a: k * k * a, most)
+
+
+def faster(name: str, k: int, **accelerations: int) -> Mechanism:
+    """An example with its drivers k times as fast, their accelerations growing with the square, or
+    as given."""
+    scene = load(str(FOLDER / f"{name}.toml")).scene
+    drivers = []
+    for driver in scene.drivers:
+        speed, push = driver.speed, driver.acceleration
+        more = accelerations.get("acceleration", push.number({}) * k**2)
+        changed = exact(speed.number({}) * k, speed.unit), exact(more, push.unit)
+        drivers.append(replace(driver, speed=changed[0], acceleration=changed[1]))
+    return Mechanism(replace(scene, drivers=tuple(drivers)))
+
+
+HIGHER = ("platform-3rpr", "platform-six", "wheel-in-ring-rod", "stephenson-3-crank")
+"""Groups of higher class that drivers within them or before them move."""
+
+
+@pytest.mark.parametrize("name", HIGHER)
+@pytest.mark.parametrize("k", [10**3, 10**6, 10**9])
+def test_drivers_in_a_group_of_higher_class_may_be_of_any_speed(name, k):
+    slow, fast = Motion(faster(name, 1)), Motion(faster(name, k))
+    speed, most = k * largest(slow.velocities), k**2 * largest(slow.accelerations)
+    for found, expected, power, size in (
+        (fast.velocities, slow.velocities, k, speed),
+        (fast.accelerations, slow.accelerations, k**2, most),
+    ):
+        for point, value in expected.items():
+            assert abs(found[point] - power * value) <= 1e-12 * size, point
+
+
+@pytest.mark.parametrize("name", HIGHER)
+def test_an_acceleration_far_larger_than_the_speeds_loses_no_digit(name):
+    """Of accelerations a thousand million times as large the part by speeds is rounding."""
+    least, most = (Motion(faster(name, 1, acceleration=10**n)) for n in (15, 18))
+    size = largest(most.accelerations)
+    for point, value in least.accelerations.items():
+        assert abs(most.accelerations[point] - 1000 * value) <= 1e-9 * size, point
 
 
 @LAW

@@ -96,7 +96,7 @@ def test_an_angle_that_no_linear_equation_ties_is_counted_by_itself():
     """Two angles two turns ahead, the first of them tied to the rest: that one is left as it is."""
     rows = np.array([[[1.0, 0.0, 0.5]]])
     slips = SimpleNamespace(counted={1: 0.0, 2: 0.0})
-    loops = SimpleNamespace(linear_rows=lambda: rows, turning_count=2, slips=slips)
+    loops = SimpleNamespace(linear_rows=rows, turning_count=2, slips=slips)
     values, turns = np.array([[0.3, -2.0, 1.0]]), 4 * np.pi * np.array([[1, 1, 0]])
     found = counted_freely(loops, values + turns, np.array([True, True, True]))
     assert found == pytest.approx(values + turns * [1, 0, 0])

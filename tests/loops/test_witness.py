@@ -8,8 +8,11 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.solution import PointMotion, Solution
 from graphkin.loops.witness import compare
+from graphkin.mechanism import Mechanism
+from graphkin.numbers.kinds import ball_kind
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
+from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import StructureError, WitnessError
 from tests.documents.sheet_tools import mechanism_named
 from tests.loops.loops_alone import as_solution, by_loops
@@ -302,3 +305,30 @@ def test_closures_of_a_group_of_class_three_are_counted_unless_told_not_to():
     assert compare(other, solution, numbered=False).agrees
     assert compare(other, solution).branches == (name,)
     assert compare(mechanism.scene, solution).agrees
+
+
+LAWS = {
+    "sum": ("deg", "18000*t + 2*sin(36000*t + 10.7)"),
+    "sine of a product": ("deg", "90 + 40*sin(36000*pi*t)"),
+    "radians": ("rad", "1800*t + 0.2"),
+    "multiple of pi": ("rad", "1800*pi*t + sqrt(2)"),
+    "difference": ("deg", "40 + 5*((t + sqrt(2))**3 - t**3)/t**2"),
+}
+
+
+@pytest.mark.parametrize("time", [0.3, 100.3, 1e4, 1e6])
+@pytest.mark.parametrize("law", LAWS)
+def test_no_digit_is_claimed_that_the_value_of_a_law_of_time_has_lost(law, time):
+    unit, text = LAWS[law]
+    text = scene_text("loops/law-of-time", unit=unit, law=text, time=time)
+    mechanism = Mechanism(read_text(text, "law", None, {}))
+    solution, kind = mechanism.solve(), ball_kind(300)
+    balls, digits = mechanism.trace(kind=kind), mechanism.witness(solution).digits
+    for quantity in ("position", "velocity", "acceleration"):
+        for name in "AB":
+            ball = balls.value(quantity, name)
+            sure = complex(float(ball.real.mid()), float(ball.imag.mid()))
+            error = abs(getattr(solution.points[name], quantity) - sure) / abs(sure)
+            assert error <= 10.0 ** -digits.get(quantity, 0), (name, quantity)
+    if law in ("sum", "radians"):  # and no more are given up than the phase has taken
+        assert digits["position"] >= 11 - np.log10(max(1800 * time, 1))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.solution_record import heading
-from graphkin.construction.core.timing import Timing, timing
+from graphkin.cli.report.waits import Waits, time_record, waits_lines, waits_of, waits_record
+from graphkin.construction.core.timing import Stopwatch, Timing
 from graphkin.diagnosis.effects import EFFECTS, EffectRow, effects, measured
 from graphkin.scene.model import Scene
 from graphkin.text.errors import ClosureError
@@ -30,23 +31,23 @@ class Explanation(Struct, frozen=True):
     rows: tuple[EffectRow, ...]
     asked: tuple[int, Timing | None]
     everything: tuple[int, Timing | None]
+    waits: Waits | None = None
     unmeasured: str = ""
 
 
-def explained(mechanism: Mechanism) -> Explanation:
-    """Count the effects of a mechanism, and measure them where its scene can be drawn."""
-    program, asked = mechanism.program, mechanism.asked()
-    some, every = len(program.needed(asked)), len(program.needed(program.answers))
+def explained(new: Callable[[], Mechanism]) -> Explanation:
+    """Count the effects of a mechanism, and measure them where its scene can be drawn; ``new``
+    reads it."""
+    mechanism = new()
+    program, asked, scene = mechanism.program, mechanism.asked(), mechanism.scene
+    steps = len(program.needed(asked)), len(program.needed(program.answers))
     try:
-        return Explanation(
-            mechanism.scene,
-            measured(mechanism),
-            (some, timing(lambda: mechanism.trace(asked))),
-            (every, timing(mechanism.trace)),
-        )
+        rows, times = measured(mechanism, Stopwatch())
+        some, every = zip(steps, times, strict=True)
+        return Explanation(scene, rows, some, every, waits_of(new))
     except ClosureError as error:
-        why = str(error.problems[0])
-        return Explanation(mechanism.scene, effects(mechanism), (some, None), (every, None), why)
+        why, (less, more) = str(error.problems[0]), steps
+        return Explanation(scene, effects(mechanism), (less, None), (more, None), unmeasured=why)
 
 
 def explain_lines(found: Explanation) -> Iterator[str]:
@@ -66,9 +67,12 @@ def explain_lines(found: Explanation) -> Iterator[str]:
     yield f"{steps} steps give what is asked, in {in_words(asked)}; {share(found.rows)}"
     yield f"{all_steps} steps would give everything, in {in_words(everything)}"
     yield (
-        f"time: median of {asked.rounds} rounds of those steps alone on one scene in float64, "
-        "without the witness; half of the rounds lie between the quartiles"
+        f"time: median of {asked.rounds} rounds of those steps alone on one scene in float64, with "
+        "nothing kept; half of the rounds lie between the quartiles"
     )
+    if found.waits is not None:
+        yield ""
+        yield from waits_lines(found.waits)
 
 
 def cells(row: EffectRow) -> tuple[str, ...]:
@@ -99,7 +103,7 @@ def in_words(time: Timing) -> str:
 def share(rows: Sequence[EffectRow]) -> str:
     """What the effects add up to, beside a whole run."""
     seconds = sum(row.time.median for row in rows if row.time and row.name in EFFECTS)
-    return f"the effects alone add up to {micro(seconds)} µs"
+    return f"the effects add up to {micro(seconds)} µs, the rest is the run itself"
 
 
 def explain_record(found: Explanation) -> dict[str, Any]:
@@ -121,11 +125,5 @@ def explain_record(found: Explanation) -> dict[str, Any]:
         "time_asked": time_record(found.asked[1]),
         "steps_everything": found.everything[0],
         "time_everything": time_record(found.everything[1]),
+        **(waits_record(found.waits) if found.waits is not None else {}),
     }
-
-
-def time_record(time: Timing | None) -> dict[str, float] | None:
-    """A time in seconds; None where nothing was run."""
-    if time is None:
-        return None
-    return {"median": time.median, "low": time.low, "high": time.high, "rounds": time.rounds}

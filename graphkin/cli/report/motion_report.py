@@ -173,15 +173,22 @@ def verdict_words(verdict: Verdict | None, scene: Scene) -> str:
         says = "lines stand in line, where no difference can be judged"
     if verdict.branches:
         says += f"; does not hold of [branches]: {verdict.not_as_stated(scene.branches)}"
+    if verdict.differs and verdict.digits:
+        says += f"; sure digits: {digits_words(verdict)}; {PROVES}"
     return f"DOES NOT AGREE: {says}"
+
+
+PROVES = "solve --digits proves what can be known"
+"""What to do where doubles have lost digits."""
 
 
 def sure_lines(verdict: Verdict | None) -> list[str]:
     """How many digits are sure, and of what there is none."""
     if verdict is None or not verdict.digits:
         return []
-    words = [f"digits   sure: {digits_words(verdict)}"]
-    return [*words, f"         {unsure_words(verdict)}"] if verdict.unsure else words
+    told = [] if verdict.differs else [f"sure: {digits_words(verdict)}"]
+    told += [unsure_words(verdict)] if verdict.unsure else []
+    return [f"{head:9}{words}" for head, words in zip(("digits", ""), told, strict=False)]
 
 
 def is_flat(trace: Trace) -> bool:
@@ -216,6 +223,6 @@ def digits_words(verdict: Verdict) -> str:
 def unsure_words(verdict: Verdict) -> str:
     """Of which quantities no digit is sure, and why."""
     return (
-        f"no digit is sure of {listed(verdict.unsure, 6)}: flat crossings enlarge the rounding of "
-        "doubles beyond them; solve --digits proves what can be known"
+        f"no digit is sure of {listed(verdict.unsure, 6)}: the rounding of doubles, which flat "
+        f"crossings and angles of many turns enlarge, exceeds them; {PROVES}"
     )

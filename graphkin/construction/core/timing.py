@@ -1,4 +1,7 @@
-"""What some steps of a program cost on one scene: they alone are run, again and again."""
+"""How long work takes: seconds of one call on one clock, the median of some rounds with quartiles.
+
+One position means a run of the steps that targets need, on given values, with nothing kept.
+"""
 
 from __future__ import annotations
 
@@ -7,17 +10,16 @@ from statistics import quantiles
 from time import perf_counter
 from typing import Any
 
-from msgspec import Struct
+from msgspec import Struct, field
 
-from graphkin.construction.core.run import Trace, Values, evaluate
+from graphkin.construction.core.program import Program
+from graphkin.construction.core.run import Trace, Values, evaluate, run
 from graphkin.numbers.arithmetic import FLOAT
 
-ROUNDS = (5, 25)
-"""Rounds of which the median is taken: at least, at most."""
-LONGEST = 1.0
-"""Seconds after which no more than the least rounds are made."""
-LEAST = 2e-4
-"""Seconds that a round lasts at least, so that the clock's own step does not count."""
+Clock = Callable[[], float]
+Work = Callable[[], object]
+FEWEST = 5
+"""Rounds of work that alone takes longer than the patience allows."""
 
 
 class Timing(Struct, frozen=True):
@@ -29,8 +31,76 @@ class Timing(Struct, frozen=True):
     rounds: int
 
 
-def time_of_steps(trace: Trace, numbers: Sequence[int], values: Values) -> Timing:
-    """The time that some steps alone take, on what a trace found before them.
+class TimedWork(Struct):
+    """Work on so many positions, how often it is done in a round, and the rounds' times."""
+
+    work: Work
+    positions: int
+    calls: int = 1
+    rounds: int = 0
+    seconds: list[float] = field(default_factory=list)
+
+    @property
+    def timing(self) -> Timing:
+        """Median and quartiles, in seconds a position."""
+        low, median, high = quantiles(self.seconds, n=4)
+        return Timing(median, low, high, len(self.seconds))
+
+
+class Stopwatch(Struct, frozen=True):
+    """Times work with a clock that tests may replace, in at most so many ``rounds``.
+
+    ``least`` is the time in seconds that a round lasts at least, so that the clock's own step does
+    not count; ``patience`` is what all rounds of one work may take together, if there are more than
+    the ``fewest``.
+    """
+
+    rounds: int = 25
+    least: float = 2e-4
+    patience: float = 1.0
+    fewest: int = FEWEST
+    clock: Clock = perf_counter
+    say: Callable[[str], None] = lambda words: None
+
+    def times(self, works: Sequence[tuple[Work, int]]) -> list[Timing]:
+        """Seconds a position of each work on so many positions, each done once beforehand.
+
+        A round takes all works in turn, so that what else the machine does meanwhile troubles
+        them alike.
+        """
+        every = [self.prepared(TimedWork(work, positions)) for work, positions in works]
+        for n in range(max((timed.rounds for timed in every), default=0)):
+            self.say(f"timing, round {n + 1}")
+            for timed in every:
+                if n < timed.rounds:
+                    seconds = self.seconds(timed.work, timed.calls)
+                    timed.seconds.append(seconds / (timed.calls * timed.positions))
+        return [timed.timing for timed in every]
+
+    def prepared(self, timed: TimedWork) -> TimedWork:
+        """How many calls and rounds a work is worth."""
+        timed.work()
+        once = self.seconds(timed.work, 1)
+        timed.calls = max(1, round(self.least / max(once, 1e-9)))
+        affordable = int(self.patience / max(once * timed.calls, 1e-9))
+        timed.rounds = max(2, min(self.rounds, max(affordable, self.fewest)))
+        return timed
+
+    def seconds(self, work: Work, calls: int) -> float:
+        """The time of so many calls together."""
+        before = self.clock()
+        for _ in range(calls):
+            work()
+        return self.clock() - before
+
+
+def one_position(program: Program, needed: Sequence[int], values: Values) -> Work:
+    """The work of one position: every needed step anew."""
+    return lambda: run(program, needed, values, FLOAT)
+
+
+def work_of_steps(trace: Trace, numbers: Sequence[int], values: Values) -> Work:
+    """The work of some steps alone, on what a trace found before them.
 
     Steps that the trace had to leave out are left out here too.
     """
@@ -42,22 +112,4 @@ def time_of_steps(trace: Trace, numbers: Sequence[int], values: Values) -> Timin
         for step, number in work:
             evaluate(step, number, found, values, FLOAT, margins)
 
-    return timing(once)
-
-
-def timing(work: Callable[[], object]) -> Timing:
-    """The time of one call: a round calls so often that it lasts a while; fewer rounds if slow."""
-    work()
-    before = perf_counter()
-    work()
-    once = max(perf_counter() - before, 1e-9)
-    calls, (fewest, most) = max(1, round(LEAST / once)), ROUNDS
-    rounds = max(fewest, min(most, int(LONGEST / once)))
-    seconds = []
-    for _ in range(rounds):
-        before = perf_counter()
-        for _ in range(calls):
-            work()
-        seconds.append((perf_counter() - before) / calls)
-    low, median, high = quantiles(seconds, n=4)
-    return Timing(median, low, high, rounds)
+    return once

@@ -6,7 +6,7 @@ What a trial misses grows in proportion to what was tried (method of two plans, 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from msgspec.structs import replace
 
@@ -53,7 +53,7 @@ from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengt
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
-from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
@@ -366,28 +366,54 @@ def plans_of(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> tuple[TrialP
     return first, second
 
 
+@action("pace")
+def pace(bar: Real, *rest: Any) -> Real:
+    """How fast drivers move together, or 1 where all are at rest: ``rest`` are what they give, and
+    how many of them turn; those that slide do so by bars."""
+    *given, turning = rest
+    total: Real = 0.0
+    for number, value in enumerate(given):
+        total = total + (abs(value) if number < turning else abs(value) / bar)
+    return pick(total > 0, total, 1.0)
+
+
 def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
-    """The second trial: as fast as the driver turns, or slides by a bar in that time.
+    """The second trial: as fast as the drivers turn, or slide by a bar in that time.
 
     An acceleration is as large as the squares of that and of how fast the link has been found to
-    turn make it: a trial far too small misses nearly as much as none, and digits are lost. On paper
-    a round number takes its place (trial_rates).
+    turn make it, with what the drivers give: a trial far too small misses nearly as much as none,
+    and digits are lost. On paper a round number takes its place (trial_rates).
     """
-    rate = pen.draw(inverse, pen.seconds())
+    drivers = pen.scene.drivers
+    one_turns = len(drivers) == 1 and drivers[0].kind == "turn"
     turns = isinstance(group.tried.pair, Pin)
-    bar = None if turns else pen.draw(far, *places_of(pen, group))
+    slide = not turns or any(driver.kind == "slide" for driver in drivers)
+    bar = pen.draw(far, *places_of(pen, group)) if slide else None
+    seconds = pen.seconds()
+    rate = pen.draw(inverse, seconds) if one_turns else pace_of(pen, VELOCITY, bar)
     if plan is ACCELERATION:
         with pen.on(plan.part, Plane.NUMBERS):
-            own = omega_of(pen, group.tried.link) if bar is None else slid_rate(pen, group, bar)
+            own = omega_of(pen, group.tried.link) if turns else slid_rate(pen, group, bar)
             squares = (pen.draw(product, each, each) for each in (rate, own))
             rate = pen.draw(sum_of, *squares)
-    return rate if bar is None else pen.draw(product, rate, bar)
+        if not all(driver.acceleration.is_zero() for driver in drivers):
+            rate = pen.draw(sum_of, rate, pace_of(pen, ACCELERATION, bar))
+    return rate if turns or bar is None else pen.draw(product, rate, bar)
 
 
-def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int) -> int:
+def pace_of(pen: Pen, plan: Plan, bar: int | None) -> int:
+    """How fast all drivers of a scene move together, by their speeds or by their accelerations."""
+    kinds = sorted(pen.scene.drivers, key=lambda driver: driver.kind != "turn")
+    turning = sum(driver.kind == "turn" for driver in kinds)
+    given = [getattr(pen.drive(driver), plan.given) for driver in kinds]
+    bar = pen.given("one") if bar is None else bar
+    return pen.draw(pace, bar, *given, extra=(turning,))
+
+
+def slid_rate(pen: Pen, group: CoupledTrain | Higher, bar: int | None) -> int:
     """How fast the tried link moves along the line that leads it, in bars a second."""
     pair, point = group.tried.pair, pen.bases[group.tried.link].start
-    assert not isinstance(pair, Pin)
+    assert bar is not None and not isinstance(pair, Pin)
     under = image_under(pen, partner(pair, group.tried.link), point, VELOCITY)
     speed = pen.draw(distance, under, pen.the("velocity", point))
     return pen.draw(product, speed, pen.draw(inverse, bar))

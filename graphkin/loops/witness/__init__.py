@@ -7,6 +7,6 @@ of a quantity that is nought everywhere is not taken for a difference.
 """
 
 from graphkin.loops.witness.differences import sure_of
-from graphkin.loops.witness.examine import compare, examine
+from graphkin.loops.witness.examine import Check, compare, examine
 
-__all__ = ["compare", "examine", "sure_of"]
+__all__ = ["Check", "compare", "examine", "sure_of"]

@@ -5,16 +5,15 @@ With it come its bound, by the errors of the motion, and the motion that cancels
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, Protocol
 
 import numpy as np
 from msgspec import Struct
 
-from graphkin.construction.core.solution import Solution
 from graphkin.loops.newton import LoopSolution
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.model import FRAME
 
 
 class Sizes(Protocol):
@@ -49,7 +48,10 @@ class MotionField(Struct, frozen=True, eq=False):
 
 
 class Left(Struct, frozen=True, eq=False):
-    """What motion is left at a centre, its bound, and the motion that cancels there."""
+    """What is left between a value and the loops, its bound, and the size of what cancels there.
+
+    At a centre that is the motion left there.
+    """
 
     found: Reals
     bound: Reals
@@ -60,27 +62,22 @@ class Left(Struct, frozen=True, eq=False):
         return Left(self.found / scale, self.bound / scale, self.size / scale)
 
 
-Found = Iterator[tuple[str, Left]]
+def left_at_centre(solved: LoopSolution, name: str, centre: Ratio, scales: Sizes) -> Left:
+    """What is left at the centre of a link against the frame, or of two links such as 2-4."""
+    first, second = name.split("-") if "-" in name else (FRAME, name)
+    return off_centre(solved, centre, first, second, scales)
 
 
-def centre_differences(solved: LoopSolution, solution: Solution, scales: Sizes) -> Found:
-    """What is left at every centre, acceleration pole and inflection pole of a solution."""
-    for name, link in solution.links.items():
-        if link.instant_centre is not None:
-            left = off_centre(solved, link.instant_centre, "0", name, scales)
-            yield f"links.{name}.instant_centre", left
-        if link.acceleration_pole is not None:
-            field = accelerations_of(solved, name)
-            left = left_at(link.acceleration_pole, field, scales.length)
-            yield f"links.{name}.acceleration_pole", left.over(scales.acceleration)
-        if link.inflection_pole is not None:
-            field = bends_of(solved, name)
-            left = left_at(link.inflection_pole, field, scales.length)
-            scale = scales.acceleration * scales.omega
-            yield f"links.{name}.inflection_pole", left.over(scale)
-    for pair, centre in solution.centres.items():
-        first, second = pair.split("-")
-        yield f"centres.{pair}", off_centre(solved, centre, first, second, scales)
+def left_at_pole(solved: LoopSolution, name: str, pole: Ratio, scales: Sizes) -> Left:
+    """What is left at the acceleration pole of a link."""
+    left = left_at(pole, accelerations_of(solved, name), scales.length)
+    return left.over(scales.acceleration)
+
+
+def left_at_inflection(solved: LoopSolution, name: str, pole: Ratio, scales: Sizes) -> Left:
+    """What is left at the inflection pole of a link."""
+    left = left_at(pole, bends_of(solved, name), scales.length)
+    return left.over(scales.acceleration * scales.omega)
 
 
 def off_centre(solved: LoopSolution, centre: Ratio, first: str, second: str, scales: Sizes) -> Left:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from math import nan
 from typing import Any
@@ -12,9 +12,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import (
+    BY_TARGET,
     KINDS,
     OF_POINTS,
     OF_SLIDES,
+    QUANTITIES,
     RATES,
     MotionQuantity,
     motion_value,
@@ -25,9 +27,15 @@ from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import LoopSolution
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import Rounding
-from graphkin.loops.witness.centre_differences import centre_differences
+from graphkin.loops.witness.centre_differences import (
+    Left,
+    left_at_centre,
+    left_at_inflection,
+    left_at_pole,
+)
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
+from graphkin.text.errors import Problem, WitnessError
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 FLOOR = 1e-3
@@ -51,14 +59,6 @@ class Differences(Struct, frozen=True, eq=False, dict=True):
     found: Reals
     bound: Reals
     size: Reals
-
-    @classmethod
-    def of(cls, rows: Sequence[tuple[str, Any, Any, Any]], count: int) -> Differences:
-        """From the name, difference, bound and size, (N,) each, of every quantity."""
-        if not rows:
-            return cls((), *np.zeros((3, 0, count)))
-        names, *columns = zip(*rows, strict=True)
-        return cls(tuple(names), *map(np.array, columns))
 
     @cached_property
     def sure(self) -> Flags:
@@ -101,11 +101,12 @@ class Magnitudes(Struct, frozen=True, eq=False):
         pushed = np.maximum(largest(points.acceleration, errors.acceleration), slides[2])
         omega = largest(motion.omega, bounds.omega)
         epsilon = largest(motion.epsilon, bounds.epsilon)
-        natural = np.maximum(speed**2 / length, omega**2 * length)
-        fastest = np.maximum(speed, FLOOR * omega * length)
-        turning = np.maximum(omega, FLOOR * speed / length)
-        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * length))
-        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / length)
+        bar = motion.loops.size  # however far away a rack or a block has come
+        natural = np.maximum(speed**2 / bar, omega**2 * bar)
+        fastest = np.maximum(speed, FLOOR * omega * bar)
+        turning = np.maximum(omega, FLOOR * speed / bar)
+        most = np.maximum(pushed, FLOOR * np.maximum(natural, epsilon * bar))
+        twist = np.maximum(epsilon, FLOOR * np.maximum(natural, pushed) / bar)
         return cls(length, *map(or_one, (fastest, most, turning, twist)))
 
 
@@ -120,68 +121,152 @@ def or_one(scale: Reals) -> Reals:
     return np.where(scale == 0, 1.0, scale)
 
 
-def differing(solved: LoopSolution, solution: Solution, extent: Reals) -> Differences:
-    """Every difference that can be taken, by the quantity's name."""
-    scales = Magnitudes.of(solved.motion, solved.rounding, extent)
-    pairs = (
-        *of_points(solved, solution, scales),
-        *of_links(solved, solution, scales),
-        *of_slides(solved, solution, scales),
+def differing(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Differences:
+    """Every difference between what a solution holds and the loops, by the quantity's name.
+
+    Raises WitnessError for a quantity that no independent route gives.
+    """
+    names: list[str] = []
+    every: list[Left] = []
+    for quantity, values in held(solution):
+        route = ROUTES.get(quantity.target)
+        if route is None:
+            raise unwitnessed(quantity, next(iter(values)))
+        names += [path_of(quantity, name) for name in values]
+        every.append(route(solved, values, scales))
+    if not names:
+        return Differences((), *np.zeros((3, 0, len(scales.length))))
+    columns = (np.concatenate([getattr(each, part) for each in every], axis=1) for part in PARTS)
+    return Differences(tuple(names), *(np.ascontiguousarray(column.T) for column in columns))
+
+
+PARTS = Left.__struct_fields__
+PAIRS = BY_TARGET["centre"]
+"""The quantity of the centres of two links, which a solution holds apart."""
+
+
+def held(solution: Solution) -> Iterator[tuple[MotionQuantity, Mapping[str, Any]]]:
+    """Every quantity of which a solution holds anything, with its values by points, links, blocks.
+
+    Of two ways to one quantity it holds the first that is known.
+    """
+    first = {(each.whose, each.attribute): each for each in reversed(QUANTITIES)}
+    for quantity in reversed(first.values()):
+        motions = getattr(solution, quantity.whose)
+        values = {name: motion_value(motion, quantity) for name, motion in motions.items()}
+        if known := {name: value for name, value in values.items() if value is not None}:
+            yield quantity, known
+    if solution.centres:
+        yield PAIRS, solution.centres
+
+
+def path_of(quantity: MotionQuantity, name: str) -> str:
+    """Where a solution holds a quantity."""
+    if quantity is PAIRS and "-" in name:
+        return f"centres.{name}"
+    return f"{quantity.whose}.{name}.{quantity.attribute}"
+
+
+def unwitnessed(quantity: MotionQuantity, name: str) -> WitnessError:
+    """The refusal of a quantity that nothing independent of its construction gives."""
+    return WitnessError(
+        Problem(
+            path_of(quantity, name),
+            "no independent route gives this quantity",
+            f"a route of {quantity.target} among the routes of the independent check",
+        )
     )
 
-    rows = [
-        (name, abs(ours - theirs) / scale, bound / scale, abs(theirs) / scale)
-        for name, ours, theirs, bound, scale in pairs
-        if ours is not None
-    ]
-    left = centre_differences(solved, solution, scales)
-    rows += [(name, each.found, each.bound, each.size) for name, each in left]
-    return Differences.of(rows, len(extent))
+
+Route = Callable[[LoopSolution, Mapping[str, Any], "Magnitudes"], Left]
+"""What is left between the values of a quantity, by name, and the loops: (N, values) each."""
 
 
-Pairs = Iterator[tuple[str, Any, Reals | Complexes, Reals, Reals]]
-"""Name of a quantity, its value by the solution and by the loops, its bound, its scale."""
+def apart(
+    solved: LoopSolution, ours: Mapping[str, Any], theirs: Any, bound: Reals, scale: Reals
+) -> Left:
+    """The differences of values from what the loops give, over their scale."""
+    own, scale = solved.loops.numbers.columns(list(ours.values()), theirs.dtype), scale[:, None]
+    return Left(abs(own - theirs) / scale, bound / scale, abs(theirs) / scale)
 
 
-def of_points(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
-    """Position, velocity and acceleration of every point."""
-    for name, point in solution.points.items():
-        found = solved.motion.point(name), solved.rounding.point(name)
-        yield from paired(f"points.{name}", point, OF_POINTS, *found, scales)
+def of_points(order: int, scale: str) -> Route:
+    """The route to a place, a velocity or an acceleration of points."""
+
+    def route(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
+        motion, bounds = solved.motion, solved.rounding
+        if motion.names.keys() >= ours.keys():
+            which = [motion.names[name] for name in ours]
+            theirs, bound = motion.points[order][:, which], bounds.points[order][:, which]
+        else:
+            theirs = np.stack([motion.point(name)[order] for name in ours], axis=1)
+            bound = np.stack([bounds.point(name)[order] for name in ours], axis=1)
+        return apart(solved, ours, theirs, bound, getattr(scales, scale))
+
+    return route
 
 
-def paired(
-    name: str,
-    ours: object,
-    quantities: Sequence[MotionQuantity],
-    theirs: Sequence[Any],
-    bounds: Sequence[Any],
-    scales: Magnitudes,
-) -> Pairs:
-    """Some quantities of a point or a block, which the loops give in the same order."""
-    sizes = dict(zip(KINDS, (scales.length, scales.speed, scales.acceleration), strict=True))
-    for each, *pair in zip(quantities, theirs, bounds, strict=True):
-        yield f"{name}.{each.attribute}", motion_value(ours, each), *pair, sizes[each.kind]
+def of_links(rate: str) -> Route:
+    """The route to ω or ε of links."""
+
+    def route(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
+        which = [solved.motion.index[name] for name in ours]
+        theirs, bound = getattr(solved.motion, rate), getattr(solved.rounding, rate)
+        return apart(solved, ours, theirs[:, which], bound[:, which], getattr(scales, rate))
+
+    return route
 
 
-def of_links(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
-    """ω and ε of every link."""
-    motion, bounds = solved.motion, solved.rounding
-    for name, link in solution.links.items():
-        i = motion.index[name]
-        for rate in RATES:
-            theirs, bound = motion_value(motion, rate)[:, i], motion_value(bounds, rate)[:, i]
-            path = f"links.{name}.{rate.attribute}"
-            yield path, motion_value(link, rate), theirs, bound, motion_value(scales, rate)
+def of_slides(part: str, scale: str) -> Route:
+    """The route to the motion of blocks along their guides."""
+
+    def route(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
+        guides = [guide_of(solved, name) for name in ours]
+        theirs, bound = (
+            np.stack([getattr(each.slide(j), part) for j in guides], axis=1)
+            for each in (solved.motion, solved.rounding)
+        )
+        return apart(solved, ours, theirs, bound, getattr(scales, scale))
+
+    return route
 
 
-def of_slides(solved: LoopSolution, solution: Solution, scales: Magnitudes) -> Pairs:
-    """The motion of every block along its guide."""
-    for name, slide in solution.slides.items():
-        j = solved.loops.guide_index(name)
-        if j is not None:
-            found = solved.motion.slide(j), solved.rounding.slide(j)
-            yield from paired(f"slides.{name}", slide, OF_SLIDES, *found, scales)
+def guide_of(solved: LoopSolution, block: str) -> int:
+    """The guide that a block names first. Raises WitnessError where the loops have none."""
+    found = solved.loops.guide_index(block)
+    if found is None:
+        raise WitnessError(
+            Problem(f"slides.{block}", "the vector loops know no guide of this block", "a guide")
+        )
+    return found
+
+
+def of_centres(left: Callable[[LoopSolution, str, Any, Magnitudes], Left]) -> Route:
+    """The route to centres: what is left of the motion at each, which should vanish."""
+
+    def route(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) -> Left:
+        every = [left(solved, name, centre, scales) for name, centre in ours.items()]
+        return Left(*(np.stack([getattr(e, part) for e in every], axis=1) for part in PARTS))
+
+    return route
+
+
+ROUTES: dict[str, Route] = {
+    "position": of_points(0, "length"),
+    "velocity": of_points(1, "speed"),
+    "acceleration": of_points(2, "acceleration"),
+    "omega": of_links("omega"),
+    "epsilon": of_links("epsilon"),
+    "slide": of_slides("position", "length"),
+    "slide speed": of_slides("speed", "speed"),
+    "slide acceleration": of_slides("acceleration", "acceleration"),
+    "coriolis": of_slides("coriolis", "acceleration"),
+    "centre": of_centres(left_at_centre),
+    "inflection centre": of_centres(left_at_centre),
+    "pole": of_centres(left_at_pole),
+    "inflection": of_centres(left_at_inflection),
+}
+"""The independent route to each quantity, by its target: what has none here is refused."""
 
 
 def digits_of(differences: Differences) -> dict[str, int]:
@@ -197,7 +282,7 @@ def digits_of(differences: Differences) -> dict[str, int]:
         kind = KINDS_OF.get(name.rpartition(".")[2])
         if kind is not None:
             found[kind] = min(found.get(kind, MOST_DIGITS), sure_digits(off))
-    return found
+    return {kind: found[kind] for kind in KINDS if kind in found}
 
 
 def sure_digits(share: float) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from math import isnan
 from typing import Any
 
@@ -27,7 +28,7 @@ from graphkin.loops.branch_closures import (
 )
 from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.closing_groups import Group, counted_in_order, groups, speaks_of, stages
-from graphkin.loops.equations import Equations, equations, part_of
+from graphkin.loops.equations import Equations, equations, joined, part_of
 from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
 from graphkin.loops.newton import LoopSolution, closed_from, refuse_undriven
 from graphkin.loops.newton_start import Start, start_values
@@ -35,6 +36,7 @@ from graphkin.loops.rigid_bodies import Reals
 from graphkin.loops.witness.differences import (
     LEAST_LIMIT,
     Differences,
+    Magnitudes,
     differing,
     digits_of,
     or_one,
@@ -48,8 +50,136 @@ NUMBERED = 12
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 
 
+class Closed(Struct, frozen=True, eq=False, dict=True):
+    """Loops closed and derived, with the sizes of their quantities and the branches they hold."""
+
+    solved: LoopSolution
+
+    @cached_property
+    def scales(self) -> Magnitudes:
+        """The largest magnitudes of each kind of quantity."""
+        motion = self.solved.motion
+        return Magnitudes.of(motion, self.solved.rounding, breadth(motion))
+
+    @cached_property
+    def branches(self) -> dict[bool, dict[str, Flags]]:
+        """The branch conditions, with numbers of closures and without, as far as looked at."""
+        return {}
+
+
+class Concerned(Struct, frozen=True, eq=False, dict=True):
+    """The loops that a solution concerns, and the scene with the branches among them."""
+
+    scene: Scene
+    loops: Equations
+
+    @cached_property
+    def closed(self) -> dict[tuple[bytes, bool], Closed]:
+        """What was closed last, by where it started and whether it has accelerations."""
+        return {}
+
+    def closed_from(self, start: Reals, *, accelerations: bool) -> Closed:
+        """The loops closed from some unknowns, unless they were closed from there last."""
+        key = start.tobytes(), accelerations
+        if key not in self.closed:
+            found = closed_from(self.loops, start, accelerations=accelerations, singular=True)
+            self.closed.clear()
+            self.closed[key] = Closed(found)
+        return self.closed[key]
+
+    def branches(self, closed: Closed, *, numbered: bool) -> dict[str, Flags]:
+        """The branch conditions of closed loops."""
+        if numbered not in closed.branches:
+            found = branch_conditions(self, closed.solved, numbered=numbered)
+            closed.branches[numbered] = found
+        return closed.branches[numbered]
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The groups of two links and more, in the order in which one after the other is known."""
+        return groups(self.scene, self.loops)
+
+
+class Check(Struct, frozen=True, eq=False, dict=True):
+    """The independent check of a scene, for its own parameters or for a batch of them.
+
+    Its loops are written once, and cut once to each set of links that solutions concern.
+    """
+
+    scene: Scene
+    values: Mapping[str, Any] | None = None
+
+    @cached_property
+    def whole(self) -> Concerned:
+        """All loops."""
+        scene = by_law(self.scene)
+        loops = equations(scene, self.values)
+        return Concerned(scene, counted_in_order(loops))
+
+    @cached_property
+    def stages(self) -> list[Group]:
+        """All groups of links in the order of knowing."""
+        return stages(self.whole.scene, self.whole.loops)
+
+    @cached_property
+    def parts(self) -> dict[frozenset[str], Concerned]:
+        """The loops within some links, those that were looked at."""
+        return {}
+
+    def concerned(self, solution: Solution) -> Concerned:
+        """The loops that a solution speaks of, with those on which they hang."""
+        within = links_concerned(self, solution)
+        if within is None:
+            return self.whole
+        if within not in self.parts:
+            loops = counted_in_order(joined(self.whole.scene, self.whole.loops.parts, within, {}))
+            self.parts[within] = Concerned(scene_of(loops), loops)
+        return self.parts[within]
+
+    def examine(self, solution: Solution, *, numbered: bool = True) -> Examined:
+        """Solve the loops from the solution's positions and compare all that the solution holds.
+
+        Links and accelerations of which it says nothing are left alone.
+        """
+        solution = without_linkages(self.scene, solution)
+        concerned = self.concerned(solution)
+        loops = concerned.loops
+        refuse_undriven(loops)
+        start, guessed = started(concerned.scene, loops, solution)
+        closed = concerned.closed_from(start, accelerations=has_acceleration(solution))
+        with np.errstate(all="ignore"):
+            differences = differing(closed.solved, solution, closed.scales)
+            branches = concerned.branches(closed, numbered=numbered)
+        return Examined(closed.solved, differences, branches, guessed)
+
+    def compare(self, solution: Solution, *, numbered: bool = True) -> Verdict:
+        """Hold one solution against the vector loops, starting Newton's method at its positions.
+
+        ``guessed`` in the verdict names the links that no position tells; without ``numbered`` it
+        says nothing of branches for which all closures would have to be counted. Raises
+        WitnessError where the loops do not close or are singular, StructureError where drivers
+        are missing.
+        """
+        examined = self.examine(solution, numbered=numbered)
+        difference, quantity, limit = examined.told(0)
+        broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
+        report = examined.solved.report
+        return Verdict(
+            agrees=bool(examined.agrees[0]),
+            largest_difference=difference,
+            quantity=quantity,
+            limit=limit,
+            residual=float(report.residual[0]),
+            moved=float(report.moved[0]),
+            branches=broken,
+            guessed=examined.guessed,
+            digits=digits_of(examined.differences),
+            unsure=tuple(examined.unsure),
+        )
+
+
 def branch_conditions(
-    scene: Scene, solved: LoopSolution, *, numbered: bool = True
+    concerned: Concerned, solved: LoopSolution, *, numbered: bool = True
 ) -> dict[str, Flags]:
     """Whether each statement of [branches] holds: arrays of shape (N,).
 
@@ -57,9 +187,9 @@ def branch_conditions(
     settings of a batch, evenly spread; not at all without ``numbered``.
     """
     found: dict[str, Flags] = {}
-    stated = scene.branches.items()
+    stated = concerned.scene.branches.items()
     sides_only = all(isinstance(branch, Side) for _, branch in stated)
-    known = [] if sides_only else groups(scene, solved.loops)
+    known = [] if sides_only else concerned.groups
     motion = solved.motion
     for name, branch in stated:
         if isinstance(branch, Side):
@@ -79,11 +209,10 @@ def branch_conditions(
 
 def side_slack(solved: LoopSolution, name: str, branch: Side) -> Reals:
     """How far rounding may put a pin on the other side of the way between two others, as a sine."""
-    start, end, place = (
-        solved.motion.point(each).place for each in (branch.first, branch.second, name)
-    )
-    errors = sum(solved.rounding.point(each).place for each in (branch.first, branch.second, name))
-    return ON_LINE + errors / np.minimum(abs(end - start), abs(place - start))
+    pins, names = (branch.first, branch.second, name), solved.motion.names
+    start, end, place = (solved.motion.place(each) for each in pins)
+    errors = solved.rounding.points.place[:, [names[each] for each in pins]].sum(axis=1)
+    return np.asarray(ON_LINE + errors / np.minimum(abs(end - start), abs(place - start)))
 
 
 def way_of_dyad(branch: Way, solved: LoopSolution, group: Group) -> Flags:
@@ -135,28 +264,8 @@ def compare(
     *,
     numbered: bool = True,
 ) -> Verdict:
-    """Hold one solution against the vector loops, starting Newton's method at its positions.
-
-    ``guessed`` in the verdict names the links that no position tells; without ``numbered`` it says
-    nothing of branches for which all closures would have to be counted. Raises WitnessError where
-    the loops do not close or are singular, StructureError where drivers are missing.
-    """
-    examined = examine(scene, solution, values, numbered=numbered)
-    difference, quantity, limit = examined.told(0)
-    broken = tuple(name for name, holds in examined.branches.items() if not holds[0])
-    report = examined.solved.report
-    return Verdict(
-        agrees=bool(examined.agrees[0]),
-        largest_difference=difference,
-        quantity=quantity,
-        limit=limit,
-        residual=float(report.residual[0]),
-        moved=float(report.moved[0]),
-        branches=broken,
-        guessed=examined.guessed,
-        digits=digits_of(examined.differences),
-        unsure=tuple(examined.unsure),
-    )
+    """The verdict of ``Check.compare`` on one solution."""
+    return Check(scene, values).compare(solution, numbered=numbered)
 
 
 class Examined(Struct, frozen=True, eq=False):
@@ -219,24 +328,8 @@ def examine(
     *,
     numbered: bool = True,
 ) -> Examined:
-    """Solve the loops from the solution's positions and compare all that the solution holds.
-
-    Links and accelerations of which it says nothing are left alone.
-    """
-    solution, scene = without_linkages(scene, solution), by_law(scene)
-    loops = equations(scene, values)
-    within = links_concerned(scene, loops, solution)
-    if within is not None:
-        loops = equations(scene, values, within)
-        scene = scene_of(loops)
-    loops = counted_in_order(loops)
-    refuse_undriven(loops)
-    start, guessed = started(scene, loops, solution)
-    solved = closed_from(loops, start, accelerations=has_acceleration(solution), singular=True)
-    with np.errstate(all="ignore"):
-        differences = differing(solved, solution, breadth(solved.motion))
-        branches = branch_conditions(scene, solved, numbered=numbered)
-    return Examined(solved, differences, branches, guessed)
+    """Both routes side by side, by ``Check.examine``."""
+    return Check(scene, values).examine(solution, numbered=numbered)
 
 
 def started(scene: Scene, loops: Equations, solution: Solution) -> tuple[Reals, tuple[str, ...]]:
@@ -276,19 +369,20 @@ def breadth(motion: Motion) -> Reals:
     return or_one(np.abs(places[:, :, None] - places[:, None, :]).max(axis=(1, 2)))
 
 
-def links_concerned(scene: Scene, loops: Equations, solution: Solution) -> frozenset[str] | None:
+def links_concerned(check: Check, solution: Solution) -> frozenset[str] | None:
     """The links that a solution speaks of, and those on which they hang; None when that is all.
 
     A pin that several links share speaks of the one that is known first. All of them are taken
     where some link belongs to no group, for it may be idle and still hold the others.
     """
+    loops = check.whole.loops
     spoken, moving = set(links_named(solution)), set(loops.links) - {FRAME}
-    links_of = owners_of(loops)
+    links_of = loops.owners_of
     named = (name for name, motion in solution.points.items() if says_anything(motion))
     owners = [links_of.get(ends_of(name)[0], []) for name in named]
     if spoken.union(*(each for each in owners if len(each) == 1)) >= moving:
         return None
-    order = stages(scene, loops)
+    order = check.stages
     place = {link: n for n, group in enumerate(order) for link in group.links}
     if not place.keys() >= moving:
         return None
@@ -313,15 +407,6 @@ def links_named(solution: Solution) -> Iterator[str]:
 def says_anything(motion: PointMotion | LinkMotion | SlideMotion) -> bool:
     """Whether any quantity of a motion is known."""
     return any(getattr(motion, name) is not None for name in motion.__struct_fields__)
-
-
-def owners_of(loops: Equations) -> dict[str, list[str]]:
-    """The links that have each point."""
-    found: dict[str, list[str]] = {}
-    for link, body in loops.bodies.items():
-        for point in body:
-            found.setdefault(point, []).append(link)
-    return found
 
 
 def has_acceleration(solution: Solution) -> bool:
