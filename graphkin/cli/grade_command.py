@@ -168,6 +168,7 @@ def grade(  # noqa: PLR0915
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in
+    from graphkin.writers.commit import settle
     from graphkin.writers.files import write_all
 
     kinds = kinds_of(formats, context)
@@ -181,6 +182,7 @@ def grade(  # noqa: PLR0915
         raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
     full = scale_of(scale, context)
     out = report or folder / "report"
+    settle(out)
     free = releases(out, tuple(ids), released, held)
     deciding = Deciding(opened.takers, opened.book.form, opened.book.lab.rubric, opened.signs)
     decisions = read_decisions(out, deciding)

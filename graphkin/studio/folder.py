@@ -89,6 +89,7 @@ class Folder:
     def read(self, name: str) -> str:
         """The text of a scene. Raises SceneError where there is none, or none that can be read."""
         path = self.path(name)
+        scene_files.settle(path)
         if not path.is_file():
             raise SceneError(Problem("file", f"there is no file {name} here", "one that is listed"))
         return decoded(read_bytes(path))

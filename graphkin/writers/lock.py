@@ -23,12 +23,16 @@ LOCKLESS = (ENOLCK, EOPNOTSUPP)
 """What file systems say that have no locks: their folders are written without."""
 
 
+class InUseError(PageError):
+    """Another run holds the folder."""
+
+
 @contextmanager
 def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     """Hold a folder while files are written into it; gives who left it without letting go.
 
     That is empty after a run that ended well. A process that was killed holds nothing: its lock
-    is stale, and taken over. Raises PageError, with the process and its age, when another run
+    is stale, and taken over. Raises InUseError, with the process and its age, when another run
     holds the folder, and still does after ``patience`` seconds.
     """
     from filelock import FileLock, Timeout
@@ -37,7 +41,7 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     try:
         lock.acquire()
     except Timeout:
-        raise PageError(in_use(folder, told(note))) from None
+        raise InUseError(in_use(folder, told(note))) from None
     except OSError as error:
         if error.errno not in LOCKLESS:
             raise

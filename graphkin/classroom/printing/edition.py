@@ -26,7 +26,8 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import Problem, SceneError
-from graphkin.writers.files import put_in_place
+from graphkin.writers.commit import settle
+from graphkin.writers.files import write_all
 
 if TYPE_CHECKING:
     from graphkin.classroom.grading.class_marking import Book
@@ -83,6 +84,7 @@ def read_edition(folder: Path) -> Edition:
     """
     from graphkin.classroom.lab.read_lab import read_lab
 
+    settle(folder)
     raw = tables(folder)
     refuse_changed(folder, raw.get("sha256"))
     problems: list[Problem] = []
@@ -110,7 +112,7 @@ def keep_language(folder: Path, language: str) -> None:
     record = tables(folder)
     students = record.pop("students")
     text = as_text({**record, "language": language, "students": students})
-    put_in_place({folder / MANIFEST: text.encode()})
+    write_all(folder, {MANIFEST: text.encode()}, force=True)
 
 
 def tables(folder: Path) -> dict[str, Any]:

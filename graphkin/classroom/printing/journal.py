@@ -15,7 +15,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct, field
 
-from graphkin.writers.files import put_in_place
+from graphkin.writers.commit import put_in_place
 
 JOURNAL = ".journal.jsonl"
 
@@ -92,7 +92,7 @@ class Journal:
         parts |= dict.fromkeys(sorted(self.entries.keys() - parts))
         data = b"".join(self.entries[part].line() for part in parts)
         if not self.path.exists() or self.path.read_bytes() != data:
-            put_in_place({self.path: data})
+            put_in_place(self.folder, {self.path: data})
 
 
 def entry_of(line: bytes) -> Entry | None:

@@ -13,6 +13,7 @@ from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.classroom.variants.assign import Assigned
 from graphkin.classroom.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
+from graphkin.writers.commit import settle
 from graphkin.writers.files import write_all
 
 HEAD = ("row", "number", "id", "name", "group")
@@ -35,6 +36,7 @@ def write_class(
     A class that is written again keeps its salt, so that codes that were printed stay true, and its
     language unless another is named.
     """
+    settle(folder)
     scene = lab.scene.read_bytes()
     rule = lab.text.encode("utf-8")
     salt = (kept(folder, "salt") if force else "") or secrets.token_hex(SALT)
