@@ -22,6 +22,8 @@ from graphkin.text.plain_table import labelled, table
 
 MOST = 40
 """Rows of one list."""
+COMPARED = 1_000
+"""Students whose data are compared with one another; of more of them so many."""
 WHO = ("row", "number", "id", "name")
 """The heads of what lists say of who somebody is."""
 
@@ -48,6 +50,10 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     lengths = [each.shortest for each in drawn if each.shortest is not None]
     rays = [each.rays for each in drawn if each.rays is not None]
     yield from labelled("spread", spread_lines(angles, lengths, rays))
+    if len(drawn) > COMPARED:
+        told = f"{COMPARED} of {len(drawn)} students, evenly spaced in the list"
+        yield from labelled("compared", [told])
+        drawn = [drawn[i * len(drawn) // COMPARED] for i in range(COMPARED)]
     names = [each.student.id for each in drawn]
     standards = held_against(lab, drawn)
     neighbours = compared(standards)
