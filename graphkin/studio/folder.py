@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import unicodedata
 from functools import lru_cache
 from itertools import count
 from pathlib import Path
@@ -22,6 +23,8 @@ LONGEST, DEEPEST = 200, 6
 """Signs of a name, and its parts."""
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
 """Signs that some file system takes for something else."""
+UNSEEN = frozenset(("Cc", "Cf", "Co", "Cn", "Zl", "Zp"))
+"""Kinds of signs that turn, hide or break what is written: a name must be what it looks like."""
 WORD = re.compile(r"\w[\w-]{0,60}")
 """A name that is good everywhere."""
 OTHERS = frozenset((scene_files.LAB, "pyproject.toml"))
@@ -35,12 +38,15 @@ class Folder:
         self.root = root.resolve()
 
     def path(self, name: str) -> Path:
-        """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``.
+        """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``; a name has one file,
+        whether its accents are written with their letters (NFC) or apart (NFD).
 
         Raises SceneError for a name that leads out of the folder, in whatever way, or that is none.
         """
         problem = doubt(name)
-        target = None if problem else (self.root / name)
+        forms = [name, *(unicodedata.normalize(form, name) for form in ("NFC", "NFD"))]
+        there = (form for form in forms if not problem and os.path.lexists(self.root / form))
+        target = None if problem else (self.root / next(there, forms[1]))
         if target is None or not target.resolve().is_relative_to(self.root):
             expected = f"a name within this folder, ending in {ENDING}, such as {meant(name)}"
             raise SceneError(Problem("file", problem or "leads out of the folder", expected))
@@ -138,6 +144,8 @@ def doubt_of_part(part: str) -> str:
         return "a part of the name is empty, or begins or ends with a dot"
     if FORBIDDEN.search(part):
         return "the name holds a sign that file names do not have everywhere"
+    if any(unicodedata.category(sign) in UNSEEN for sign in part):
+        return "the name holds a sign that cannot be seen"
     if part.partition(".")[0].upper() in RESERVED:
         return f"{part} is the name of a device"
     return ""

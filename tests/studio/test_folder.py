@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from unicodedata import normalize
 
 import pytest
 
@@ -65,6 +66,9 @@ OUTSIDE = [
     "a/" * 20 + "b.toml",
     "one.toml:stream.toml",
     "a*.toml",
+    "\u202ex.toml",
+    "a\u200bb.toml",
+    "a\u2028b.toml",
 ]
 
 
@@ -81,6 +85,20 @@ def test_no_name_leads_out_of_the_folder(place, name):
 
 def test_scenes_are_listed_and_other_files_are_not(place):
     assert Folder(place).scenes() == ["lab/scene.toml", "one.toml", "within.toml"]
+
+
+@pytest.mark.parametrize("first", ["NFC", "NFD"])
+def test_a_name_has_one_file_however_its_accents_are_written(place, first):
+    """A Mac writes them apart from their letters."""
+    name = normalize(first, "méca.toml")
+    (place / name).write_text("first", encoding="utf-8")
+    folder = Folder(place)
+    for form in ("NFC", "NFD"):
+        other = normalize(form, name)
+        assert folder.read(other) == "first"
+        assert save_scene(folder, other, "second", "", replace=False).exist == (name,)
+    save_scene(folder, normalize("NFD", "né.toml"), "new", "", replace=False)
+    assert (place / normalize("NFC", "né.toml")).read_text(encoding="utf-8") == "new"
 
 
 def test_a_pipe_is_no_scene(place):
