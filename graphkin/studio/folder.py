@@ -38,9 +38,9 @@ class Folder:
         self.root = root.resolve()
 
     def path(self, name: str) -> Path:
-        """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``; a name has one file,
-        whether its accents are written with their letters (NFC) or apart (NFD).
+        """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``.
 
+        A name has one file, whether accents are written with their letters (NFC) or apart (NFD).
         Raises SceneError for a name that leads out of the folder, in whatever way, or that is none.
         """
         problem = doubt(name)
