@@ -308,11 +308,12 @@ def all_files(
         report_files,
         returned,
     )
+    from graphkin.scene.file_limits import whole_file
 
     scene = opened.book.mechanism({}).scene
     title = scene.titles.get(words.language, scene.title)
     before = report / MARKS
-    earlier = before.read_bytes() if before.is_file() else b""
+    earlier = whole_file(before) if before.is_file() else b""
     told = ReportSettings(title, words, given.unread, scene.titles, scene)
     files = report_files(found, opened.lab, told, kinds, earlier)
     return files | returned(files, found.graded, given.senders, kinds)

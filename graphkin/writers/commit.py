@@ -19,6 +19,7 @@ from typing import BinaryIO
 import msgspec
 from msgspec import Struct
 
+from graphkin.scene.file_limits import whole_file
 from graphkin.scene.scene_files import UNFINISHED
 from graphkin.text.errors import FileError, PageError, Problem
 from graphkin.writers.lock import InUseError, alive, locked
@@ -156,7 +157,7 @@ def plan_in(folder: Path, name: str) -> CommitPlan:
     """The plan that waits in a folder. Raises FileError for one that cannot be read."""
     path = folder / UNFINISHED / name
     try:
-        return checked(folder, msgspec.json.decode(path.read_bytes(), type=CommitPlan))
+        return checked(folder, msgspec.json.decode(whole_file(path), type=CommitPlan))
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
         found, hint = "an earlier run did not end, and its plan is unreadable", "remove this file"
         raise FileError(Problem(str(path), found, hint=hint)) from error

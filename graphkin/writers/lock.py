@@ -13,6 +13,7 @@ from pathlib import Path
 from time import time
 from typing import Any
 
+from graphkin.scene.file_limits import file_bytes
 from graphkin.text.errors import PageError, Problem
 
 LOCK = ".graphkin-lock"
@@ -73,7 +74,7 @@ def alive(process: int) -> bool:
 def told(note: Path) -> dict[str, Any]:
     """What is written of the holder; nothing where that is not there or cannot be read."""
     try:
-        found = json.loads(note.read_bytes())
+        found = json.loads(file_bytes(note, 1 << 12))
     except (OSError, ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}

@@ -106,6 +106,7 @@ def test_a_pipe_is_no_scene(place):
     assert "pipe.toml" not in Folder(place).scenes()
     with pytest.raises(SceneError):
         Folder(place).read("pipe.toml")
+    assert save_scene(Folder(place), "pipe.toml", "x", "", replace=False).exist == ("pipe.toml",)
 
 
 def test_a_file_that_is_there_is_not_replaced_without_asking(place):

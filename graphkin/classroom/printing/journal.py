@@ -15,9 +15,12 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct, field
 
+from graphkin.scene.file_limits import whole_file
 from graphkin.writers.commit import put_in_place
 
 JOURNAL = ".journal.jsonl"
+LARGEST = 512 << 20
+"""Bytes of a journal."""
 
 
 class Entry(Struct, frozen=True):
@@ -45,7 +48,7 @@ class Journal:
         self.folder = folder
         self.path = folder / JOURNAL
         self.entries: dict[str, Entry] = {}
-        data = self.path.read_bytes() if self.path.exists() else b""
+        data = whole_file(self.path, LARGEST) if self.path.exists() else b""
         whole = data[: data.rfind(b"\n") + 1]
         if whole != data:  # a line that was cut short
             with self.path.open("r+b") as stream:

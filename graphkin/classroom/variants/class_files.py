@@ -13,6 +13,7 @@ from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.classroom.variants.assign import Assigned
 from graphkin.classroom.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
+from graphkin.scene.file_limits import whole_file
 from graphkin.writers.commit import settle
 from graphkin.writers.files import write_all
 
@@ -43,7 +44,7 @@ def write_class(
     language = language or (kept(folder, "language") if force else "")
     table = csv_text(table_rows(students, salt)).encode("utf-8")
     hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule), TABLE: digest(table)}
-    hashes["roster"] = digest(roster.read_bytes())
+    hashes["roster"] = digest(whole_file(roster))
     record = manifest(lab, students, hashes, roster.name, salt, language)
     files = {
         TABLE: table,
@@ -62,7 +63,7 @@ def digest(data: bytes) -> str:
 def kept(folder: Path, name: str) -> str:
     """A text of the manifest that stands in a folder; empty where none can be read."""
     try:
-        text = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))[name]
+        text = json.loads(whole_file(folder / MANIFEST).decode("utf-8"))[name]
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return ""
     return text if isinstance(text, str) else ""

@@ -79,12 +79,13 @@ def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[
 def alike_lines(students: Sequence[Student]) -> list[str]:
     """Numbers that several students of a group share, and so their data."""
     shared = Counter((student.group, student.number) for student in students)
-    return [
+    found = [
         f"{count} students{f' of group {group}' if group else ''} have number {number}: "
         "they get the same data"
         for (group, number), count in shared.items()
         if count > 1
-    ][:MOST]
+    ]
+    return [*found[:MOST], *([f"… and {len(found) - MOST} more numbers"] if found[MOST:] else [])]
 
 
 def who(student: Student) -> tuple[str, str, str, str]:
