@@ -77,7 +77,7 @@ class Folder:
         """The names of the scenes here and in the folders here, in alphabetical order."""
         found = [*self.root.glob(f"*{ENDING}"), *self.root.glob(f"*/{SCENE}")]
         names = sorted(path.relative_to(self.root).as_posix() for path in found)
-        return [name for name in names if self.holds(name)][:MOST]
+        return [name for name in names if self.holds(name)]
 
     def holds(self, name: str) -> bool:
         """Whether a name is that of a scene that can be read here."""

@@ -9,8 +9,10 @@ from unicodedata import normalize
 import pytest
 
 from graphkin.scene.read_scene import read_text
+from graphkin.studio import session as desk
 from graphkin.studio.folder import Folder
 from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene, sheets_of
+from graphkin.studio.session import Session
 from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
 
@@ -255,6 +257,18 @@ def test_one_like_a_scene_has_its_text_and_another_name(place):
     opened = session.open("one.toml", "like")
     assert (opened.name, opened.text, opened.mark) == ("one-3.toml", PUMP, "")
     assert session.open("lab/scene.toml", "like").name == "lab-2.toml"
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_scenes_that_are_too_many_to_be_listed_are_counted(tmp_path, monkeypatch, language):
+    for name in "abc":
+        (tmp_path / f"{name}.toml").touch()
+    session = Session(Folder(tmp_path))
+    assert session.listed(language)["more"] == ""
+    monkeypatch.setattr(desk, "MOST", 2)
+    listed = session.listed(language)
+    assert listed["scenes"] == ["a.toml", "b.toml"]
+    assert "1" in listed["more"]
 
 
 def test_every_scene_that_comes_with_it_is_listed_with_its_title_and_opened(place):
