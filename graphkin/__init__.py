@@ -16,6 +16,7 @@ register(
     does_not_close="graphkin.diagnosis.assembly_failure:does_not_close",
     refuse_touching="graphkin.diagnosis.assembly_failure:refuse_touching",
     wrong_with_structure="graphkin.mechanism:wrong_with_structure",
+    settle="graphkin.writers.commit:settle",
     plot="graphkin.documents.notebook:plot",
     picture="graphkin.documents.notebook:picture",
 )

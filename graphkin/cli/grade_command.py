@@ -171,6 +171,7 @@ def grade(  # noqa: PLR0915
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in
     from graphkin.text.errors import Refusals
+    from graphkin.writers.commit import settle
     from graphkin.writers.files import write_all
 
     kinds = kinds_of(formats, context)
@@ -184,6 +185,7 @@ def grade(  # noqa: PLR0915
         raise click.UsageError(f"--release, --hold: {both} cannot be both", context)
     full = scale_of(scale, context)
     out = report or folder / "report"
+    settle(out)
     free = releases(out, tuple(ids), released, held)
     deciding = Deciding(opened.takers, opened.book.form, opened.book.lab.rubric, opened.signs)
     decisions = read_decisions(out, deciding)
@@ -313,11 +315,12 @@ def all_files(
         report_files,
         returned,
     )
+    from graphkin.scene.file_limits import whole_file
 
     scene = opened.book.mechanism({}).scene
     title = scene.titles.get(words.language, scene.title)
     before = report / MARKS
-    earlier = before.read_bytes() if before.is_file() else b""
+    earlier = whole_file(before) if before.is_file() else b""
     refused = list(refused_lines(opened, given, refusals, words))
     told = ReportSettings(title, words, given.unread, scene.titles, scene, refused, refusals)
     files = report_files(found, opened.lab, told, kinds, earlier)

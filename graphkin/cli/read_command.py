@@ -86,7 +86,7 @@ def read(
     from graphkin.classroom.printing.workers import cores
     from graphkin.reading.pictures import photographs
     from graphkin.reading.read_run import POINTS, points_file, read_class, read_order, said
-    from graphkin.writers.files import put_in_place
+    from graphkin.writers.files import write_all
 
     opened = read_edition(folder)
     pictures = photographs(list(photos))
@@ -94,9 +94,14 @@ def read(
     with progress("photographs") as shown:
         outcome = read_class(opened, pictures, out, order, jobs or cores(), shown)
     if as_json:
-        places = {each.name: each.path.parent / each.shown_name for each in pictures}
         told = {r.name: points_file(r) for r in outcome.records if r.key}
-        put_in_place({Path(f"{places[name]}{POINTS}"): data for name, data in told.items()})
+        beside: dict[Path, dict[str, bytes]] = {}
+        for each in pictures:
+            if each.name in told:
+                files = beside.setdefault(each.path.parent, {})
+                files[f"{each.shown_name}{POINTS}"] = told[each.name]
+        for place, files in beside.items():
+            write_all(place, files, force=True)
     tell(said(opened, outcome))
     refused = any(record.refused is not None for record in outcome.records)
     if refused or outcome.refusals.found:
@@ -148,10 +153,11 @@ def desk(folder: Path, port: int, no_browser: bool, lang: str) -> None:
     from graphkin.reading.desk_app import DeskSession, desk_application
     from graphkin.studio.server import served
     from graphkin.text import words
-    from graphkin.writers.lock import locked
+    from graphkin.writers.commit import held, settle
 
+    settle(folder)
     session = DeskSession(folder, words(lang))
-    with locked(folder):
+    with held(folder):
         show(
             lambda known: served(lambda: desk_application(session), port, known=known),
             no_browser=no_browser,

@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 
 from graphkin.reading.read_sheet import SheetRecord
+from graphkin.scene.file_limits import whole_file
 from graphkin.text.errors import PageError, Problem
 
 READING, PICTURE = ".reading.json", ".jpg"
@@ -16,7 +17,7 @@ READING, PICTURE = ".reading.json", ".jpg"
 def kept(out: Path, name: str) -> SheetRecord | None:
     """The record of a photograph in a folder; None where there is none that is whole."""
     try:
-        data = (out / f"{name}{READING}").read_bytes()
+        data = whole_file(out / f"{name}{READING}")
         return msgspec.json.decode(data, type=SheetRecord)
     except (OSError, msgspec.MsgspecError):
         return None

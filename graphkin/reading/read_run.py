@@ -25,8 +25,7 @@ from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
 from graphkin.text.errors import Refusals
 from graphkin.text.markup import as_text
-from graphkin.writers.files import put_in_place
-from graphkin.writers.lock import locked
+from graphkin.writers.commit import held, put_in_place, settle
 
 POINTS = ".points.json"
 FORMAT = 1
@@ -71,7 +70,7 @@ def read_class(
         if each.refused
     }
     every, pictures = pictures, [each for each in pictures if not each.refused]
-    with locked(out):
+    with held(out):
         keys = {each.name: reading_key(order, each) for each in pictures}
         known = {
             each.name: record
@@ -109,12 +108,13 @@ def put(out: Path, one: SheetRead) -> None:
     name = one.record.name
     files = {out / f"{name}{PICTURE}": one.picture} if one.picture else {}
     data = msgspec.json.format(msgspec.json.encode(one.record, enc_hook=as_text), indent=1)
-    put_in_place({**files, out / f"{name}{READING}": data + b"\n"})
+    put_in_place(out, {**files, out / f"{name}{READING}": data + b"\n"})
 
 
 def write_answers(opened: Edition, out: Path, refusals: Refusals) -> None:
     """Write the answers that follow from all that was read and decided."""
-    put_in_place({out / ANSWERS: answers_table(opened, out, refusals)})
+    settle(out)
+    put_in_place(out, {out / ANSWERS: answers_table(opened, out, refusals)})
 
 
 def points_file(record: SheetRecord) -> bytes:

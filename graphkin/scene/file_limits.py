@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
-from errno import EINVAL
+from errno import EFBIG, EINVAL
 from stat import S_ISDIR, S_ISREG
 from typing import Any
 
@@ -17,6 +17,8 @@ from graphkin.text.errors import Hint, InLine, Mend, Problem, SceneError
 
 LARGEST = 256 * 1024
 """Bytes of a scene file."""
+LARGEST_KEPT = 64 << 20
+"""Bytes of a file that an earlier run kept: a manifest, a table of marks, a reading."""
 LONGEST_LINE = 4000
 DOTTED = r"(?<![\w\"'.-])(?>[\w\"'-]+[ \t]*\.[ \t]*){16}"
 CURLED = "“”„‟‘’‚«»″"
@@ -42,6 +44,14 @@ def file_bytes(path: paths.Named, most: int) -> bytes:
     if mode and not (S_ISREG(mode) or S_ISDIR(mode)):
         raise OSError(EINVAL, "a pipe or a device is no file", str(path))
     return paths.first_bytes(path, most)
+
+
+def whole_file(path: paths.Named, most: int = LARGEST_KEPT) -> bytes:
+    """All bytes of a file that has no more than ``most``; raises OSError for a larger one."""
+    data = file_bytes(path, most + 1)
+    if len(data) > most:
+        raise OSError(EFBIG, f"it is larger than {most >> 20} MiB", str(path))
+    return data
 
 
 def decoded(data: bytes) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.text import paths
 from graphkin.text.errors import Problem, SceneError
+from graphkin.text.hooks import service
 from graphkin.text.paths import within
 
 if TYPE_CHECKING:
@@ -19,6 +20,9 @@ EXAMPLES = (within(HERE, "scenes"), within(ABOVE, "examples", "scenes"))
 """The folders with the scenes that come with it, likewise."""
 LAB, SCENE, ENDING = "lab.toml", "scene.toml", ".toml"
 """The file that makes a scene a lab, the scene of a folder, and how all of them end."""
+
+UNFINISHED = ".graphkin-unfinished"
+"""The folder, beside a scene or the files of a class, in which what is written waits."""
 
 
 def shipped() -> str:
@@ -54,6 +58,13 @@ def examples() -> dict[str, Path]:
     return {} if found is None else {path.stem: path for path in sorted(Path(found).glob("*.toml"))}
 
 
+def settle(path: paths.Named) -> None:
+    """Have the folder of a scene or a lab made whole, where a run that wrote there was killed."""
+    root = path if paths.is_folder(path) else paths.folder_of(path)
+    if paths.is_folder(within(root, UNFINISHED)):
+        service("settle")(root)
+
+
 def folder(name: str | Path) -> Path | None:
     """The folder of a lab: a shipped lab's name, a folder with lab.toml, or that file itself.
 
@@ -61,6 +72,7 @@ def folder(name: str | Path) -> Path | None:
     """
     from pathlib import Path
 
+    settle(name)
     path = Path(name)
     if path.is_file():
         return path.parent if path.name == LAB else None
@@ -72,6 +84,7 @@ def folder(name: str | Path) -> Path | None:
 def find(name: str) -> str:
     """The scene file of a path, of a folder with a scene.toml, or of a shipped lab's name."""
     path = name or "."
+    settle(path)
     if paths.is_file(path) and paths.name_of(path) == LAB:
         path = paths.folder_of(path)
     inside = within(path, SCENE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import unicodedata
 from functools import lru_cache
 from itertools import count
 from pathlib import Path
@@ -22,6 +23,8 @@ LONGEST, DEEPEST = 200, 6
 """Signs of a name, and its parts."""
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f\\:*?"<>|]')
 """Signs that some file system takes for something else."""
+UNSEEN = frozenset(("Cc", "Cf", "Co", "Cn", "Zl", "Zp"))
+"""Kinds of signs that turn, hide or break what is written: a name must be what it looks like."""
 WORD = re.compile(r"\w[\w-]{0,60}")
 """A name that is good everywhere."""
 OTHERS = frozenset((scene_files.LAB, "pyproject.toml"))
@@ -37,10 +40,13 @@ class Folder:
     def path(self, name: str) -> Path:
         """The file of a name such as ``pump.toml`` or ``crank-lab/scene.toml``.
 
+        A name has one file, whether accents are written with their letters (NFC) or apart (NFD).
         Raises SceneError for a name that leads out of the folder, in whatever way, or that is none.
         """
         problem = doubt(name)
-        target = None if problem else (self.root / name)
+        forms = [name, *(unicodedata.normalize(form, name) for form in ("NFC", "NFD"))]
+        there = (form for form in forms if not problem and os.path.lexists(self.root / form))
+        target = None if problem else (self.root / next(there, forms[1]))
         if target is None or not target.resolve().is_relative_to(self.root):
             expected = f"a name within this folder, ending in {ENDING}, such as {meant(name)}"
             raise SceneError(Problem("file", problem or "leads out of the folder", expected))
@@ -71,7 +77,7 @@ class Folder:
         """The names of the scenes here and in the folders here, in alphabetical order."""
         found = [*self.root.glob(f"*{ENDING}"), *self.root.glob(f"*/{SCENE}")]
         names = sorted(path.relative_to(self.root).as_posix() for path in found)
-        return [name for name in names if self.holds(name)][:MOST]
+        return [name for name in names if self.holds(name)]
 
     def holds(self, name: str) -> bool:
         """Whether a name is that of a scene that can be read here."""
@@ -89,6 +95,7 @@ class Folder:
     def read(self, name: str) -> str:
         """The text of a scene. Raises SceneError where there is none, or none that can be read."""
         path = self.path(name)
+        scene_files.settle(path)
         if not path.is_file():
             raise SceneError(Problem("file", f"there is no file {name} here", "one that is listed"))
         return decoded(read_bytes(path))
@@ -137,6 +144,8 @@ def doubt_of_part(part: str) -> str:
         return "a part of the name is empty, or begins or ends with a dot"
     if FORBIDDEN.search(part):
         return "the name holds a sign that file names do not have everywhere"
+    if any(unicodedata.category(sign) in UNSEEN for sign in part):
+        return "the name holds a sign that cannot be seen"
     if part.partition(".")[0].upper() in RESERVED:
         return f"{part} is the name of a device"
     return ""

@@ -16,7 +16,7 @@ from graphkin.classroom.sheet_files import sheet_files
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
-from graphkin.scene.file_limits import decoded, read_bytes
+from graphkin.scene.file_limits import decoded, read_bytes, whole_file
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.folder import SCENE, Folder, shipped_text, stem_of
@@ -74,7 +74,7 @@ def save_scene(
     exist = [
         path
         for path, (_, own) in texts.items()
-        if os.path.lexists(path) and mark_of_file(path) != own
+        if os.path.lexists(path) and (mark_of_file(path) or None) != own
     ]
     if exist and not replace:
         lines = [line for path in exist for line in changes(path, texts[path][0])]
@@ -107,7 +107,7 @@ def mark_of(data: bytes) -> str:
 def mark_of_file(path: Path) -> str:
     """The same of a file; nothing of one that cannot be read."""
     try:
-        return mark_of(path.read_bytes())
+        return mark_of(whole_file(path))
     except OSError:
         return ""
 

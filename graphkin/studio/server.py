@@ -103,9 +103,9 @@ THREADS = 16
 """Requests answered at once: of each page that is remembered one look and one to save."""
 CONNECTIONS = 500
 NOTHING: Mapping[str, str] = {}
-IDLE, SWEEP = 10, 2
+IDLE, SWEEP = 2, 1
 """Seconds after which a connection that asks for nothing is closed, and between two searches for
-such connections."""
+such connections: where more are open than may be, a page waits no longer than both."""
 
 
 class Served(Struct, frozen=True):

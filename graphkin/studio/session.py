@@ -22,6 +22,7 @@ from graphkin.structure.driver_count import driver_name
 from graphkin.studio.building import KINDS, Act, built
 from graphkin.studio.folder import (
     ENDING,
+    MOST,
     Folder,
     example_text,
     examples,
@@ -50,7 +51,7 @@ from graphkin.studio.saving import (
 )
 from graphkin.studio.scene_edits import edits
 from graphkin.studio.sketch import sketch
-from graphkin.text import LANGUAGES, Words
+from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.text.markup import as_text
 
@@ -166,8 +167,11 @@ class Session:
 
     def listed(self, language: str) -> dict[str, Any]:
         """The scenes that can be opened: those here, and what comes with graphkin."""
+        scenes = self.folder.scenes()
+        more = len(scenes) - MOST
         return {
-            "scenes": self.folder.scenes(),
+            "scenes": scenes[:MOST],
+            "more": words(language)("studio.more_scenes", count=more) if more > 0 else "",
             "labs": shipped(language),
             "examples": examples(language),
         }

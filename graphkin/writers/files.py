@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from zlib import crc32
 
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import Ink
-from graphkin.text.errors import FileError, PageError, Problem
-from graphkin.writers.lock import alive, locked
+from graphkin.text.errors import FileError, Problem
+from graphkin.writers.commit import PATIENCE, cannot_write, held, put_in_place, settle
 
 RESERVED = frozenset(
     ["CON", "PRN", "AUX", "NUL"] + [f"{port}{i}" for port in ("COM", "LPT") for i in range(10)]
@@ -24,10 +23,6 @@ MOST_BYTES = 180
 """Bytes of the first part of a file name, so that the rest finds room in 255."""
 SHOWN = 3
 """Files in the way that are named."""
-PATIENCE = 10.0
-"""Seconds to wait for another run that writes into the same folder."""
-ASIDE = re.compile(r"\.graphkin-([0-9]+)-[0-9]+\.part")
-"""A file that is written aside, with its process."""
 PDF_ONLY = "calculation"
 """The sheet that comes as PDF only, for it is several pages of text."""
 
@@ -81,22 +76,20 @@ def rendered(
 
 
 def write_all(folder: Path, files: Mapping[str, bytes], force: bool) -> list[Path]:
-    """Write all files into a folder, made if missing; raises PageError before any is touched.
+    """Write all files into a folder, made if missing, or none of them; raises PageError.
 
-    Files that exist are replaced only by ``force``. Each is written aside first, so that a full
-    disk or a folder that cannot be written leaves what was there. Runs into one folder wait for
-    each other.
+    Files that exist are replaced only by ``force``. A full disk, a file that cannot be replaced
+    and a folder that cannot be written leave what was there; a run that is killed is finished or
+    taken back by the next. Runs into one folder wait for each other.
     """
     targets = {folder / name: data for name, data in files.items()}
-    folders = dict.fromkeys((folder, *(target.parent for target in targets)))
     try:
+        settle(folder)
         refuse_existing(folder, list(targets), force)
-        for each in folders:
-            each.mkdir(parents=True, exist_ok=True)
-        with locked(folder, patience=PATIENCE):
+        folder.mkdir(parents=True, exist_ok=True)
+        with held(folder, patience=PATIENCE):
             refuse_existing(folder, list(targets), force)
-            sweep(folders)
-            put_in_place(targets)
+            put_in_place(folder, targets)
     except OSError as error:
         raise cannot_write(folder, error) from error
     return list(targets)
@@ -123,6 +116,7 @@ def refuse_folder(folder: Path, names: Iterable[str] = (), *, force: bool = Fals
     """
     from tempfile import TemporaryFile
 
+    settle(folder)
     refuse_existing(folder, [folder / name for name in names], force)
     try:
         there = next(path for path in (folder, *folder.parents) if path.exists())
@@ -142,42 +136,3 @@ def in_the_way(there: Sequence[Path]) -> Problem:
     names = ", ".join(map(str, there[:SHOWN])) + rest
     hint = "--force replaces them, -o names another folder"
     return Problem(names, "each exists already", "new files", hint)
-
-
-def sweep(folders: Iterable[Path]) -> None:
-    """Remove what runs that were killed left aside; that of another process that lives stays."""
-    for folder in folders:
-        for path in folder.glob(".graphkin-*.part"):
-            found = ASIDE.fullmatch(path.name)
-            if found and (int(found[1]) == os.getpid() or not alive(int(found[1]))):
-                path.unlink(missing_ok=True)
-
-
-def put_in_place(targets: Mapping[Path, bytes]) -> None:
-    """Write every file aside, then rename them one after the other; after a failure none is new."""
-    aside = {
-        target: target.with_name(f".graphkin-{os.getpid()}-{i}.part")
-        for i, target in enumerate(targets)
-    }
-    new: list[Path] = []
-    try:
-        for target, data in targets.items():
-            aside[target].write_bytes(data)
-        for target, written in aside.items():
-            if not target.exists():
-                new.append(target)
-            written.replace(target)
-    except BaseException:
-        for path in (*aside.values(), *new):
-            with suppress(OSError):
-                path.unlink()
-        raise
-
-
-def cannot_write(folder: Path, error: OSError) -> PageError:
-    """The error for a file or folder that the system does not let us write."""
-    reason = error.strerror or str(error)
-    found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
-    return FileError(
-        Problem(str(folder), found, "a folder that can be written", "name one with -o")
-    )

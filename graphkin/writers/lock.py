@@ -13,6 +13,7 @@ from pathlib import Path
 from time import time
 from typing import Any
 
+from graphkin.scene.file_limits import file_bytes
 from graphkin.text.errors import PageError, Problem
 
 LOCK = ".graphkin-lock"
@@ -23,12 +24,16 @@ LOCKLESS = (ENOLCK, EOPNOTSUPP)
 """What file systems say that have no locks: their folders are written without."""
 
 
+class InUseError(PageError):
+    """Another run holds the folder."""
+
+
 @contextmanager
 def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     """Hold a folder while files are written into it; gives who left it without letting go.
 
     That is empty after a run that ended well. A process that was killed holds nothing: its lock
-    is stale, and taken over. Raises PageError, with the process and its age, when another run
+    is stale, and taken over. Raises InUseError, with the process and its age, when another run
     holds the folder, and still does after ``patience`` seconds.
     """
     from filelock import FileLock, Timeout
@@ -37,7 +42,7 @@ def locked(folder: Path, patience: float = 0.0) -> Iterator[str]:
     try:
         lock.acquire()
     except Timeout:
-        raise PageError(in_use(folder, told(note))) from None
+        raise InUseError(in_use(folder, told(note))) from None
     except OSError as error:
         if error.errno not in LOCKLESS:
             raise
@@ -69,7 +74,7 @@ def alive(process: int) -> bool:
 def told(note: Path) -> dict[str, Any]:
     """What is written of the holder; nothing where that is not there or cannot be read."""
     try:
-        found = json.loads(note.read_bytes())
+        found = json.loads(file_bytes(note, 1 << 12))
     except (OSError, ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}

@@ -46,7 +46,7 @@ def test_a_failing_rename_leaves_nothing_new(
         rename(source, target)
 
     monkeypatch.setattr(os, "replace", failing)
-    with pytest.raises(PageError, match="cannot be written: permission denied"):
+    with pytest.raises(PageError, match=r"cannot be (written|replaced): permission denied"):
         write_all(tmp_path, FILES, force=False)
     assert names(tmp_path) == []
 
@@ -65,20 +65,17 @@ DEAD = 99_999_999
 
 @pytest.mark.skipif(sys.platform == "win32", reason="processes are not asked there")
 def test_what_a_killed_run_left_aside_is_removed_and_nothing_else(tmp_path: Path) -> None:
-    inner = tmp_path / "feedback"
-    inner.mkdir()
-    stale = [tmp_path / f".graphkin-{DEAD}-0.part", inner / f".graphkin-{DEAD}-11.part"]
+    stale = tmp_path / f".graphkin-{DEAD}.part"
     others = [
-        tmp_path / f".graphkin-{os.getppid()}-0.part",
-        tmp_path / f".graphkin-{DEAD}.part",
+        tmp_path / f".graphkin-{os.getppid()}.part",
+        tmp_path / f".graphkin-{DEAD}-0.part",
         tmp_path / "other.part",
     ]
-    for path in (*stale, *others):
+    for path in (stale, *others):
         path.write_bytes(b"half")
-    write_all(tmp_path, {"a.svg": b"a", "feedback/b.html": b"b"}, force=False)
-    assert not any(path.exists() for path in stale)
+    write_all(tmp_path, {"a.svg": b"a"}, force=False)
+    assert not stale.exists()
     assert all(path.exists() for path in others)
-    assert names(inner) == ["b.html"]
 
 
 def test_of_runs_at_once_without_force_one_writes_and_the_others_are_told(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-EXTRAS = ("cad", "class", "cluster", "fast", "studio")
+EXTRAS = ("cad", "class", "cluster", "fast", "read", "studio")
 NEWEST = (3, 12)
 """The newest Python for which the lowest versions were published."""
 REQUIREMENT = re.compile(r"([\w.-]+)>=([\w.]+)")
@@ -41,6 +41,13 @@ for name, rows in {
         book.active.append(row)
     book.save(f"{name}.xlsx")
 """
+PICTURE = """
+import pypdfium2
+sheet = pypdfium2.PdfDocument("class/print/task/0042-task.pdf")[0]
+sheet.render(scale=200 / 72).to_pil().convert("L").save("sheet.jpg")
+"""
+"""A sheet as a scanner sees it, which a library of the tests alone draws."""
+READING = "read class sheet.jpg -o read --by-hand --jobs 1"
 OTHERS = ROOT / "tests" / "lowest" / "uses.py"
 """What no command of these does."""
 
@@ -83,6 +90,9 @@ def commands(home: Path) -> Iterator[list[str]]:
     yield [str(python), "-c", TABLES]
     for command in COMMANDS:
         yield [str(python), "-m", "graphkin", *command.split()]
+    yield [*pip, "pypdfium2"]
+    yield [str(python), "-c", PICTURE]
+    yield [str(python), "-m", "graphkin", *READING.split()]
     yield [str(python), str(OTHERS)]
 
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from unicodedata import normalize
 
 import pytest
 
 from graphkin.scene.read_scene import read_text
+from graphkin.studio import session as desk
 from graphkin.studio.folder import Folder
 from graphkin.studio.saving import WantedSheets, lab_of, save_files, save_scene, sheets_of
+from graphkin.studio.session import Session
 from graphkin.text.errors import PageError, SceneError
 from tests.studio.pump import PUMP, desk_in, ordered
 
@@ -65,6 +68,9 @@ OUTSIDE = [
     "a/" * 20 + "b.toml",
     "one.toml:stream.toml",
     "a*.toml",
+    "\u202ex.toml",
+    "a\u200bb.toml",
+    "a\u2028b.toml",
 ]
 
 
@@ -83,11 +89,26 @@ def test_scenes_are_listed_and_other_files_are_not(place):
     assert Folder(place).scenes() == ["lab/scene.toml", "one.toml", "within.toml"]
 
 
+@pytest.mark.parametrize("first", ["NFC", "NFD"])
+def test_a_name_has_one_file_however_its_accents_are_written(place, first):
+    """A Mac writes them apart from their letters."""
+    name = normalize(first, "méca.toml")
+    (place / name).write_text("first", encoding="utf-8")
+    folder = Folder(place)
+    for form in ("NFC", "NFD"):
+        other = normalize(form, name)
+        assert folder.read(other) == "first"
+        assert save_scene(folder, other, "second", "", replace=False).exist == (name,)
+    save_scene(folder, normalize("NFD", "né.toml"), "new", "", replace=False)
+    assert (place / normalize("NFC", "né.toml")).read_text(encoding="utf-8") == "new"
+
+
 def test_a_pipe_is_no_scene(place):
     os.mkfifo(place / "pipe.toml")
     assert "pipe.toml" not in Folder(place).scenes()
     with pytest.raises(SceneError):
         Folder(place).read("pipe.toml")
+    assert save_scene(Folder(place), "pipe.toml", "x", "", replace=False).exist == ("pipe.toml",)
 
 
 def test_a_file_that_is_there_is_not_replaced_without_asking(place):
@@ -236,6 +257,18 @@ def test_one_like_a_scene_has_its_text_and_another_name(place):
     opened = session.open("one.toml", "like")
     assert (opened.name, opened.text, opened.mark) == ("one-3.toml", PUMP, "")
     assert session.open("lab/scene.toml", "like").name == "lab-2.toml"
+
+
+@pytest.mark.parametrize("language", ["en", "ro", "it"])
+def test_scenes_that_are_too_many_to_be_listed_are_counted(tmp_path, monkeypatch, language):
+    for name in "abc":
+        (tmp_path / f"{name}.toml").touch()
+    session = Session(Folder(tmp_path))
+    assert session.listed(language)["more"] == ""
+    monkeypatch.setattr(desk, "MOST", 2)
+    listed = session.listed(language)
+    assert listed["scenes"] == ["a.toml", "b.toml"]
+    assert "1" in listed["more"]
 
 
 def test_every_scene_that_comes_with_it_is_listed_with_its_title_and_opened(place):

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
@@ -56,6 +57,17 @@ class Keys(Struct, frozen=True):
         sizes = np.where(places, keys, abs(keys))
         deviations, rulers = deviations / STRAIGHT, rulers / STRAIGHT
         return cls(fields, plans, places, beside, sizes, deviations, rulers, standards)
+
+    def rows(self, which: Sequence[int]) -> Keys:
+        """Those of some of the variants."""
+        rows = list(which)
+        return replace(
+            self,
+            sizes=self.sizes[rows],
+            deviations=self.deviations[rows],
+            rulers=self.rulers[rows],
+            standards=[self.standards[i] for i in rows],
+        )
 
     def key(self, variant: int, read: Any) -> Key:
         """The key of a variant in the fields that are read, with the errors of pencil and ruler."""

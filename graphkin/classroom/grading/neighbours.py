@@ -51,13 +51,18 @@ class Neighbours(Struct, frozen=True):
 
 
 def standards_of(lab: Lab, many: Sequence[Asked]) -> list[Standard]:
-    """What the answers to some variants are held against."""
+    """What the answers to some variants are held against; those of the same data share one."""
     text = lab.scene.read_text(encoding="utf-8")
-    named = [
+    every = [
         ({name: exact_text(value) for name, value in settings.items()}, computed)
         for settings, computed in many
     ]
-    return standards(lab.mechanism, text, items(lab.mechanism, lab), lab.rubric, named)
+    names = [(*settings.items(), computed) for settings, computed in every]
+    different = dict(zip(names, every, strict=True))
+    form = items(lab.mechanism, lab)
+    found = standards(lab.mechanism, text, form, lab.rubric, list(different.values()))
+    own = dict(zip(different, found, strict=True))
+    return [own[name] for name in names]
 
 
 def compared(found: Sequence[Standard]) -> Neighbours | None:
@@ -105,11 +110,16 @@ class RightValues(Struct, frozen=True):
             told(points_of, senses) / total,
         )
 
-    def by_key(self) -> Array:
-        """What the exact values of each earn on the sheets of all, a row for each sheet."""
-        shares = self.earned(self, is_within)
+    def rows(self, which: Sequence[int]) -> RightValues:
+        """Those of some of the variants."""
+        parts = (self.allowed, self.most, self.points, self.senses, self.unclear, self.sense_points)
+        return RightValues(self.keys.rows(which), *(part[list(which)] for part in parts))
+
+    def by_key(self, other: RightValues) -> Array:
+        """What the exact values of others earn on each own sheet, a row for each sheet."""
+        shares = self.earned(other, is_within)
         for i, points in enumerate(self.points):
-            away, read = self.keys.sizes - self.keys.sizes[i], self.keys.known(i)
+            away, read = other.keys.sizes - self.keys.sizes[i], self.keys.known(i)
             more = (abs(away) <= self.most[i]) & (abs(away) > self.allowed[i])
             one = np.flatnonzero(more @ points > 0)
             key, rounded = self.keys.key(i, read), self.keys.reading(i)[read]
@@ -134,11 +144,21 @@ class RightValues(Struct, frozen=True):
 
 def neighbours(found: Sequence[Standard]) -> Neighbours:
     """What each variant's right values earn on every other's sheet."""
-    own = RightValues.of(found)
+    different, row_of = without_doubles(found)
+    own = RightValues.of(different)
+    rows = np.ix_(row_of, row_of)
     itself = np.eye(len(found), dtype=bool)
-    shares = own.by_key(), own.earned(own, comes_within)
-    exact, drawn = (np.where(itself, np.nan, each) for each in shares)
-    return Neighbours(exact, drawn, np.array([worst_drawn(each)[1] for each in found]))
+    shares = own.by_key(own), own.earned(own, comes_within)
+    exact, drawn = (np.where(itself, np.nan, each[rows]) for each in shares)
+    pencil = np.array([worst_drawn(each)[1] for each in different])
+    return Neighbours(exact, drawn, pencil[row_of])
+
+
+def without_doubles(found: Sequence[Standard]) -> tuple[list[Standard], list[int]]:
+    """The standards that differ, and the place of each among them."""
+    different = {id(each): each for each in found}
+    places = {own: place for place, own in enumerate(different)}
+    return list(different.values()), [places[id(each)] for each in found]
 
 
 def worst_drawn(standard: Standard) -> tuple[str, float]:
@@ -199,4 +219,7 @@ def comes_within(away: Array, limit: Array, spread: Array) -> Array:
     wide = np.maximum(np.broadcast_to(np.nan_to_num(spread, posinf=0.0), away.shape), 1e-300)
     with np.errstate(all="ignore"):
         ends = [np.clip(np.nan_to_num((side - away) / wide), -9, 9) for side in (limit, -limit)]
-    return normal(ends[0]) - normal(ends[1])
+    found = np.zeros(away.shape)
+    open_ones = ends[0] != ends[1]  # where both lie as far off, nothing comes between them
+    found[open_ones] = normal(ends[0][open_ones]) - normal(ends[1][open_ones])
+    return found

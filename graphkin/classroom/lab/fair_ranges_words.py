@@ -33,8 +33,10 @@ def range_lines(lab: Lab, found: FairRanges) -> Iterator[str]:
         share = f"{100 * sum(found.exact) / len(found.exact):.0f} %"
         fair.append(f"a pencil draws {share} of {len(found.exact)} of these exactly enough")
     yield from labelled("fair", fair)
-    rows = [(limit, str(times)) for limit, times in tried.reasons()[:SHOWN]]
-    yield from labelled("unfair", table(("limit", "times"), rows) if rows else ["none"])
+    rows = [(limit, str(times)) for limit, times in tried.reasons()]
+    more = [f"and {len(rows) - SHOWN} more limits"] if rows[SHOWN:] else []
+    lines = [*table(("limit", "times"), rows[:SHOWN]), *more] if rows else ["none"]
+    yield from labelled("unfair", lines)
     if tried.share < 1:
         guilt = sorted(((tried.guilt(name), name) for name in tried.space), reverse=True)
         shares = [f"{name} {100 * share:.0f} %" for share, name in guilt]

@@ -23,10 +23,12 @@ from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, as_text
 from graphkin.documents.sheet_documents import language_of
 from graphkin.mechanism import Mechanism
+from graphkin.scene.file_limits import whole_file
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
 from graphkin.text.errors import Problem, SceneError
-from graphkin.writers.files import put_in_place
+from graphkin.writers.commit import reason_of, settle
+from graphkin.writers.files import write_all
 
 if TYPE_CHECKING:
     from graphkin.classroom.grading.class_marking import Book
@@ -83,6 +85,7 @@ def read_edition(folder: Path) -> Edition:
     """
     from graphkin.classroom.lab.read_lab import read_lab
 
+    settle(folder)
     raw = tables(folder)
     refuse_changed(folder, raw.get("sha256"))
     problems: list[Problem] = []
@@ -110,16 +113,16 @@ def keep_language(folder: Path, language: str) -> None:
     record = tables(folder)
     students = record.pop("students")
     text = as_text({**record, "language": language, "students": students})
-    put_in_place({folder / MANIFEST: text.encode()})
+    write_all(folder, {MANIFEST: text.encode()}, force=True)
 
 
 def tables(folder: Path) -> dict[str, Any]:
     """The tables of the manifest, of a format that is known, with its list of students."""
     path = folder / MANIFEST
     try:
-        raw = json.loads(path.read_text(encoding="utf-8"))
+        raw = json.loads(whole_file(path).decode("utf-8"))
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+        reason = reason_of(error)
         hint = "graphkin variants LAB ROSTER -o DIR makes one"
         found = f"cannot be read: {reason}"
         raise SceneError(Problem(str(path), found, "a class folder", hint)) from error
@@ -143,9 +146,9 @@ def refuse_changed(folder: Path, hashes: object) -> None:
     for name in FILES:
         path = folder / COPY / name
         try:
-            found = sha256(path.read_bytes()).hexdigest()
+            found = sha256(whole_file(path)).hexdigest()
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
+            reason = reason_of(error)
             problems.append(Problem(str(path), f"cannot be read: {reason}", "", AGAIN))
             continue
         if not isinstance(hashes, dict) or hashes.get(name) != found:
@@ -153,11 +156,19 @@ def refuse_changed(folder: Path, hashes: object) -> None:
             problems.append(Problem(str(path), "was changed since", expected, AGAIN))
     table = folder / TABLE
     known = hashes.get(TABLE) if isinstance(hashes, dict) else None
-    if known and table.exists() and sha256(table.read_bytes()).hexdigest() != known:
+    if known and table.exists() and digest_of(table) != known:
         expected = f"the table that was written with {MANIFEST}"
         problems.append(Problem(str(table), "was changed since", expected, f"{AGAIN} --force"))
     if problems:
         raise SceneError(problems)
+
+
+def digest_of(path: Path) -> str:
+    """The SHA-256 of a file; nothing where it cannot be read."""
+    try:
+        return sha256(whole_file(path)).hexdigest()
+    except OSError:
+        return ""
 
 
 def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:

@@ -15,9 +15,12 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct, field
 
-from graphkin.writers.files import put_in_place
+from graphkin.scene.file_limits import whole_file
+from graphkin.writers.commit import put_in_place
 
 JOURNAL = ".journal.jsonl"
+LARGEST = 512 << 20
+"""Bytes of a journal."""
 
 
 class Entry(Struct, frozen=True):
@@ -45,7 +48,7 @@ class Journal:
         self.folder = folder
         self.path = folder / JOURNAL
         self.entries: dict[str, Entry] = {}
-        data = self.path.read_bytes() if self.path.exists() else b""
+        data = whole_file(self.path, LARGEST) if self.path.exists() else b""
         whole = data[: data.rfind(b"\n") + 1]
         if whole != data:  # a line that was cut short
             with self.path.open("r+b") as stream:
@@ -92,7 +95,7 @@ class Journal:
         parts |= dict.fromkeys(sorted(self.entries.keys() - parts))
         data = b"".join(self.entries[part].line() for part in parts)
         if not self.path.exists() or self.path.read_bytes() != data:
-            put_in_place({self.path: data})
+            put_in_place(self.folder, {self.path: data})
 
 
 def entry_of(line: bytes) -> Entry | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from functools import partial
 from hashlib import sha256
 from math import ceil
@@ -24,8 +23,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.drawing.style import Ink
 from graphkin.text.errors import PageError, Problem
-from graphkin.writers.files import put_in_place, sweep
-from graphkin.writers.lock import locked
+from graphkin.writers.commit import held, put_in_place, reason_of, replacing
 from graphkin.writers.pdf_join import PdfPart, join
 
 FOLDER = "print"
@@ -92,8 +90,7 @@ def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell
     folder = edition.folder / FOLDER
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with locked(folder) as left:
-            sweep((folder, *(path for path in folder.iterdir() if path.is_dir())))
+        with held(folder) as left:
             run = PrintRun(edition, wishes, Journal(folder))
             run.outcome.left = left
             run.refuse_others()
@@ -108,8 +105,7 @@ def print_class(edition: Edition, wishes: PrintRequest, means: Means, tell: Tell
 
 def stopped(folder: Path, error: OSError) -> PageError:
     """The error of a run that the system did not let write: a full disk, a folder not ours."""
-    reason = error.strerror or str(error)
-    found = f"cannot be written: {reason[:1].lower()}{reason[1:]}"
+    found = f"cannot be written: {reason_of(error)}"
     hint = "what was finished is kept; when that is mended, the same command goes on"
     return PageError(Problem(str(error.filename or folder), found, hint=hint))
 
@@ -215,10 +211,8 @@ class PrintRun:
                 targets |= self.targets(part, files)
                 hashes = {name: sha256(data).hexdigest() for name, data in files.items()}
                 entries.append(Entry(part, self.keys[part], hashes, self.settings[part]))
-        for folder in {path.parent for path in targets}:
-            folder.mkdir(exist_ok=True)
         self.journal.write(entries)
-        put_in_place(targets)
+        put_in_place(self.journal.folder, targets)
 
     def targets(self, part: str, files: Mapping[str, bytes]) -> dict[Path, bytes]:
         """Where the files of a part go, but for those that stand there already.
@@ -257,16 +251,10 @@ class PrintRun:
             return
         if os.path.lexists(path) and name not in journal.entries and not self.wishes.force:
             raise PageError(in_the_way(journal.folder, [name]))
-        aside = path.with_name(f".graphkin-{os.getpid()}-{view}.part")
-        try:
-            with aside.open("wb") as stream:
-                join(parts(journal.folder, members), stream, title, language)
-            journal.write([Entry(name, key, {name: hash_of(aside)})])
-            aside.replace(path)
-        except BaseException:
-            with suppress(OSError):
-                aside.unlink()
-            raise
+        with replacing(journal.folder, path) as stream:
+            join(parts(journal.folder, members), stream, title, language)
+            stream.flush()
+            journal.write([Entry(name, key, {name: hash_of(Path(stream.name))})])
 
     def printed(self, view: str) -> list[tuple[Taker, list[str]]]:
         """The PDF files of a view that stand, student by student in the order of the roster."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from itertools import groupby
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -12,6 +13,7 @@ from graphkin.classroom.grading.neighbours import (
     RightValues,
     pencil_fault,
     standards_of,
+    without_doubles,
 )
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
@@ -26,6 +28,10 @@ from graphkin.text.errors import Problem, RosterError, problems_of
 
 VAIN = 300
 """Draws on end that find room for nobody, after which nobody is drawn again."""
+BLOCK = 256
+"""Students whose data are held against those before them at once."""
+MOST = 5_000
+"""Students of a list whose data are all held against one another."""
 
 
 class Assigned(Struct, frozen=True):
@@ -64,8 +70,13 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
 
     What ranges give that is unfair, or too near to the data of one before in the list, is drawn
     again, as often as the rule allows; the least unfair is kept.
-    Raises RosterError for numbers with which a formula leaves what the scene allows.
+    Raises RosterError for numbers with which a formula leaves what the scene allows, and for more
+    students than can be held against one another where a limit asks for that.
     """
+    if lab.fair.needs_keys and len(students) > MOST:
+        found = f"has {len(students)} students, and [fair] of lab.toml limits apart or pencil"
+        hint = "split the list, or take those limits out"
+        raise RosterError(Problem(roster, found, f"at most {MOST}", hint))
     if lab.rule.counts:
         refuse_misfits(lab, students, roster)
     every = fairest(lab, students)
@@ -80,15 +91,19 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
     has its fault.
     """
     kept: list[tuple[Assigned, Standard]] = []
+    known: dict[object, Standard] = {}
     vain = 0
     found, waiting = [*every], [i for i, each in enumerate(every) if each.fair]
     while waiting:
         tried = [found[i] for i in waiting]
-        held = standards_of(lab, [(each.settings, each.computed) for each in tried])
+        names = [(*each.settings.items(), each.computed) for each in tried]
+        new = {name: each for name, each in zip(names, tried, strict=True) if name not in known}
+        known |= zip(new, held_against(lab, list(new.values())), strict=True)
+        held = [known[name] for name in names]
         room = with_room(lab, kept, list(zip(tried, held, strict=True)))
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
         again = [i for i in near if found[i].attempt + 1 < lab.rule.attempts]
-        vain = vain + len(waiting) if len(near) == len(waiting) else 0
+        vain = vain + len(waiting) if len(near) == len(waiting) else longest(room)
         if not again or vain >= VAIN:
             for i, fault in near.items():
                 found[i] = replace(found[i], faults=(fault,))
@@ -104,28 +119,54 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
     return found
 
 
+def longest(room: Sequence[Fault | None]) -> int:
+    """How many in a row found no room, where these are so many that nobody is drawn again."""
+    runs = (sum(1 for _ in run) for full, run in groupby(room, bool) if full)
+    most = max(runs, default=0)
+    return most if most >= VAIN else 0
+
+
 def with_room(
     lab: Lab, kept: list[tuple[Assigned, Standard]], tried: Sequence[tuple[Assigned, Standard]]
 ) -> list[Fault | None]:
     """For each of some data what is too inexact or too near to others; what is not is kept."""
     limit, found = lab.fair.apart, list[Fault | None]()
-    before, both = len(kept), [*kept, *tried]
-    values = RightValues.of([standard for _, standard in both])
-    shares = values.by_key()
-    shares = np.maximum(shares, shares.T)
-    rows = list(range(before))
-    for row in range(before, len(both)):
-        nearest = max(rows, key=lambda other: shares[row, other], default=row)
-        if (coarse := pencil_fault(lab, both[row][1])) is not None:
-            found.append(coarse)
-        elif limit is not None and nearest != row and shares[row, nearest] > limit:
-            share = float(shares[row, nearest])
-            found.append(Fault("apart", both[nearest][0].student.id, share, limit))
-        else:
-            rows.append(row)
-            kept.append(both[row])
-            found.append(None)
+    data, places = without_doubles([standard for _, standard in (*kept, *tried)])
+    values, taken = RightValues.of(data), places[: len(kept)]
+    for start in range(0, len(tried), BLOCK):
+        block = tried[start : start + BLOCK]
+        own = places[len(places) - len(tried) + start :][: len(block)]
+        near = Nearness(values, own, [*taken, *own]) if limit is not None else None
+        for place, each in zip(own, block, strict=True):
+            nearest, share = near.nearest(place, taken) if near is not None else (-1, 0.0)
+            if (coarse := pencil_fault(lab, each[1])) is not None:
+                found.append(coarse)
+            elif limit is not None and share > limit:
+                found.append(Fault("apart", kept[nearest][0].student.id, share, limit))
+            else:
+                taken.append(place)
+                kept.append(each)
+                found.append(None)
     return found
+
+
+class Nearness:
+    """What the right values of some data and of others earn on each other's sheet, at most."""
+
+    def __init__(self, values: RightValues, own: Sequence[int], others: Sequence[int]) -> None:
+        rows, columns = list(dict.fromkeys(own)), list(dict.fromkeys(others))
+        self.row = {place: row for row, place in enumerate(rows)}
+        self.column = {place: column for column, place in enumerate(columns)}
+        here, there = values.rows(rows), values.rows(columns)
+        self.shares = np.maximum(here.by_key(there), there.by_key(here).T)
+
+    def nearest(self, place: int, among: Sequence[int]) -> tuple[int, float]:
+        """Which of some is nearest to a datum, the first of several, and what is earned there."""
+        if not among:
+            return -1, 0.0
+        shares = self.shares[self.row[place], [self.column[other] for other in among]]
+        found = int(np.argmax(shares))
+        return found, float(shares[found])
 
 
 def held_against(lab: Lab, every: Sequence[Assigned]) -> list[Standard]:

@@ -13,6 +13,8 @@ from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.csv_text import csv_text
 from graphkin.classroom.variants.assign import Assigned
 from graphkin.classroom.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
+from graphkin.scene.file_limits import whole_file
+from graphkin.writers.commit import settle
 from graphkin.writers.files import write_all
 
 HEAD = ("row", "number", "id", "name", "group")
@@ -35,13 +37,14 @@ def write_class(
     A class that is written again keeps its salt, so that codes that were printed stay true, and its
     language unless another is named.
     """
+    settle(folder)
     scene = lab.scene.read_bytes()
     rule = lab.text.encode("utf-8")
     salt = (kept(folder, "salt") if force else "") or secrets.token_hex(SALT)
     language = language or (kept(folder, "language") if force else "")
     table = csv_text(table_rows(students, salt)).encode("utf-8")
     hashes = {"scene.toml": digest(scene), "lab.toml": digest(rule), TABLE: digest(table)}
-    hashes["roster"] = digest(roster.read_bytes())
+    hashes["roster"] = digest(whole_file(roster))
     record = manifest(lab, students, hashes, roster.name, salt, language)
     files = {
         TABLE: table,
@@ -60,7 +63,7 @@ def digest(data: bytes) -> str:
 def kept(folder: Path, name: str) -> str:
     """A text of the manifest that stands in a folder; empty where none can be read."""
     try:
-        text = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))[name]
+        text = json.loads(whole_file(folder / MANIFEST).decode("utf-8"))[name]
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return ""
     return text if isinstance(text, str) else ""

@@ -22,6 +22,8 @@ from graphkin.text.plain_table import labelled, table
 
 MOST = 40
 """Rows of one list."""
+COMPARED = 1_000
+"""Students whose data are compared with one another; of more of them so many."""
 WHO = ("row", "number", "id", "name")
 """The heads of what lists say of who somebody is."""
 
@@ -48,6 +50,10 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     lengths = [each.shortest for each in drawn if each.shortest is not None]
     rays = [each.rays for each in drawn if each.rays is not None]
     yield from labelled("spread", spread_lines(angles, lengths, rays))
+    if len(drawn) > COMPARED:
+        told = f"{COMPARED} of {len(drawn)} students, evenly spaced in the list"
+        yield from labelled("compared", [told])
+        drawn = [drawn[i * len(drawn) // COMPARED] for i in range(COMPARED)]
     names = [each.student.id for each in drawn]
     standards = held_against(lab, drawn)
     neighbours = compared(standards)
@@ -73,12 +79,13 @@ def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[
 def alike_lines(students: Sequence[Student]) -> list[str]:
     """Numbers that several students of a group share, and so their data."""
     shared = Counter((student.group, student.number) for student in students)
-    return [
+    found = [
         f"{count} students{f' of group {group}' if group else ''} have number {number}: "
         "they get the same data"
         for (group, number), count in shared.items()
         if count > 1
-    ][:MOST]
+    ]
+    return [*found[:MOST], *([f"… and {len(found) - MOST} more numbers"] if found[MOST:] else [])]
 
 
 def who(student: Student) -> tuple[str, str, str, str]:

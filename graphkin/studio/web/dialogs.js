@@ -76,7 +76,7 @@ find("sought").addEventListener("input", seek);
 
 /** Let a scene or a lab be chosen; `go` is called with the address that opens it. */
 export async function choose(go) {
-  const { scenes, labs, examples } = await listed();
+  const { scenes, more, labs, examples } = await listed();
   const opener = (key, name, words) =>
     button(words, () => {
       find("opening").close();
@@ -98,6 +98,7 @@ export async function choose(go) {
   find("labs").replaceChildren(...labs.map(([name, title]) => entry("lab", name, title)));
   find("examples").replaceChildren(...examples.map(([name, title]) => entry("example", name, title)));
   find("no-scenes").hidden = scenes.length > 0;
+  find("more-scenes").textContent = more;
   find("from-nothing").onclick = () => {
     find("opening").close();
     go("?empty=yes");

@@ -22,7 +22,10 @@ from graphkin.classroom.lab.fairness_words import apart_lines
 from graphkin.classroom.lab.lab_model import LabRule, Range
 from graphkin.classroom.lab.rules import settings
 from graphkin.classroom.roster.student import Student
+from graphkin.classroom.variants import assign, class_words
 from graphkin.classroom.variants.assign import assigned
+from graphkin.classroom.variants.class_words import class_lines
+from graphkin.text.errors import RosterError
 from tests.classroom.grading.students import LABS, lab_of
 
 NUMBERS = (3, 7, 8, 12, 21)
@@ -147,3 +150,67 @@ def test_who_would_draw_too_inexactly_is_drawn_again():
 def asked(every):
     """Data with the fields that are computed."""
     return [(each.settings, each.computed) for each in every]
+
+
+def test_blocks_of_a_list_give_what_the_whole_list_gives(monkeypatch):
+    """And none of them holds more than its own students against the others."""
+    many = [Student(i, f"s{i}", i) for i in range(1, 25)]
+    lab = replace(drawing_lab(0.6, tries=4), rule=wide_rule())
+    whole = assigned(lab, many)
+    sizes = []
+    earned = RightValues.earned
+
+    def noted(own, other, chance):
+        sizes.append(min(len(own.points), len(other.points)))
+        return earned(own, other, chance)
+
+    monkeypatch.setattr(RightValues, "earned", noted)
+    monkeypatch.setattr(assign, "BLOCK", 5)
+    assert assigned(lab, many) == whole
+    assert {each.fair for each in whole} == {True, False}
+    assert max(sizes) <= 5
+
+
+def wide_rule() -> LabRule:
+    """Many different data."""
+    drawn = {
+        "n": Range(Fraction(3), Fraction(30), Fraction(1)),
+        "r": Range(Fraction(84), Fraction(138), Fraction(1)),
+    }
+    return LabRule("mechanics", drawn, 4)
+
+
+def test_students_of_the_same_data_are_compared_like_others(found):
+    """What is the same is worked out once."""
+    twice = [*found, *found]
+    apart = [replace(each) for each in twice]
+    told, expected = neighbours(twice), neighbours(apart)
+    for name in ("exact", "drawn", "pencil"):
+        np.testing.assert_array_equal(getattr(told, name), getattr(expected, name))
+
+
+def test_the_same_data_have_one_standard(found):
+    lab = lab_of("pump")
+    own = standards_of(lab, [({"n": Fraction(n)}, ()) for n in (7, 8, 7)])
+    assert own[0] is own[2]
+    assert own[0] is not own[1]
+
+
+@pytest.mark.parametrize("limits", [{"apart": 0.5}, {"pencil": 0.5}])
+def test_a_list_that_is_too_long_to_be_kept_apart_is_refused(limits, monkeypatch):
+    monkeypatch.setattr(assign, "MOST", 7)
+    lab = drawing_lab(None)
+    with pytest.raises(RosterError, match=r"class\.csv: has 8 students.*at most 7; split the list"):
+        assigned(replace(lab, fair=replace(lab.fair, **limits)), STUDENTS, "class.csv")
+    assert len(assigned(lab, STUDENTS)) == 8
+
+
+def test_of_a_long_list_a_part_is_compared_and_that_is_said(monkeypatch):
+    lab = lab_of("pump")
+    found = assigned(lab, STUDENTS)
+    assert not [line for line in class_lines(lab, found) if line.startswith("compared")]
+    monkeypatch.setattr(class_words, "COMPARED", 4)
+    told = list(class_lines(lab, found))
+    (said,) = [line for line in told if line.startswith("compared")]
+    assert said.endswith("4 of 8 students, evenly spaced in the list")
+    assert not [line for line in told if "s2's right values" in line]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import pytest
 
@@ -98,3 +99,19 @@ def test_students_with_the_same_id_or_code_are_refused(make):
     assert any('2 students have the id "1"' in line for line in lines)
     assert any('3 students have the code "AAAA"' in line for line in lines)
     assert all(line.startswith("manifest.json: ") for line in lines if " students have " in line)
+
+
+@pytest.mark.parametrize("name", ["manifest.json", "lab/scene.toml"])
+@pytest.mark.parametrize("kind", ["large", "pipe"])
+def test_a_file_of_a_class_that_is_too_large_or_a_pipe_is_refused(make, name, kind):
+    folder = make("class", ["0001"])
+    path = folder / name
+    path.unlink()
+    if kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.touch()
+        os.truncate(path, (64 << 20) + 1)
+    said = "larger than 64 MiB" if kind == "large" else "a pipe or a device is no file"
+    with pytest.raises(SceneError, match=said):
+        read_edition(folder)

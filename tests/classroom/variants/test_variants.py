@@ -25,6 +25,7 @@ from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.classroom.variants.class_words import class_lines
+from graphkin.scene.scene_files import UNFINISHED
 from graphkin.text.errors import PageError, RosterError
 from tests.classroom.variants.rederiving import read_rule, rederived
 from tests.running import killed_at, ran
@@ -207,24 +208,20 @@ def test_a_second_class_in_the_folder_is_refused_and_one_written_again_keeps_its
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL there")
-def test_a_class_whose_writing_was_killed_is_told_and_mended_by_the_next_run(tmp_path, roster):
-    """The table is new and the manifest old; print and grade take neither for the other."""
+@pytest.mark.parametrize(("point", "student"), [(12, ("0001", None)), (24, ("0003", "it"))])
+def test_a_class_whose_writing_was_killed_is_whole_for_the_next_command(
+    tmp_path, roster, point, student
+):
+    """It is the old class until all is written aside, then the new one."""
     folder, other = tmp_path / "class", tmp_path / "other.csv"
     other.write_text("number;id;limba\n3;0003;it\n", encoding="utf-8")
     assert ran("variants", "pump", roster, "-o", folder).exit_code == 1
-    args = ["variants", "pump", other, "-o", folder, "--force"]
-    killed_at(2, *args)
-    assert list(folder.rglob("*.part"))
-    for command in (("print", folder), ("grade", folder, other)):
-        refused = ran(*command)
-        assert refused.exit_code == 2
-        assert "variants.csv: was changed since; expected the table that was written with" in (
-            refused.stderr
-        )
-    assert ran(*args).exit_code == 0
-    assert not list(folder.rglob("*.part"))
-    (only,) = read_edition(folder).takers
-    assert (only.student.id, only.spoken) == ("0003", "it")
+    killed_at(point, folder, "variants", "pump", other, "-o", folder, "--force")
+    assert (folder / UNFINISHED).is_dir()
+    ran("grade", folder, other)
+    assert not (folder / UNFINISHED).exists()
+    first = read_edition(folder).takers[0]
+    assert (first.student.id, first.spoken) == student
 
 
 def test_a_full_disk_leaves_nothing(tmp_path, roster, monkeypatch):
