@@ -263,6 +263,22 @@ def test_an_address_leads_to_its_step_and_place(kept: Opened, pages: Path):
         assert 0 <= step_of(page) <= page.evaluate(STEPS)
 
 
+def test_a_number_in_an_address_is_as_if_it_were_dragged(kept: Opened, pages: Path):
+    """n leads the driver, and all else, to where `solve` has them; a place beside it holds."""
+    page = kept(pages / "pump.html", "#step=0", **DESKTOP)
+    address = (pages / "pump.html").as_uri()
+    for n in (10, 25):
+        page.goto(f"{address}#step=42&set=n:{n}")
+        mechanism = load("pump", n=n)
+        assert page.locator("#driven").inner_text() == f"{30 + 2 * n}.0°"
+        size = words("en").significant(abs(mechanism.solve().points["D"].acceleration))
+        assert page.locator("[data-row='a_D'] td").last.inner_text() == size
+        assert f"aD = {size} m/s" in page.locator("#values").inner_text()
+    page.goto(f"{address}#step=42&x=80&set=n:10")
+    assert page.locator("#driven").inner_text() == "80.0°"
+    page.locator("#back").click()
+
+
 # --- the driver ----------------------------------------------------------------------------------
 
 
