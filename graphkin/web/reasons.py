@@ -75,7 +75,9 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
         kind = construction(steps[sentence.step])
-        yield words(kind.rate_reason(drawing) if kind else "why.rate"), NO_STEP
+        read = kind.rate_reason(drawing) if kind else "why.rate"
+        keys = dict.fromkeys(reason or read for reason in sentence.reasons or ("",))
+        yield from ((words(key), NO_STEP) for key in keys)
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
     elif plan and (key := plan.reason(sentence.name)):
