@@ -57,3 +57,4 @@ byId("because").addEventListener("toggle", reason_in_sight);
 byId("because").querySelector("summary").addEventListener("click", () => by_hand = true);
 follow_address();
 fit();
+if (byId("turn")) recall_turn();
