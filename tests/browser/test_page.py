@@ -103,6 +103,20 @@ def test_a_reason_lights_its_own_stroke_alone(kept: Opened, pages: Path):
     assert page.locator(lit).count() == both
 
 
+def test_the_keys_go_through_why_and_what_it_hangs_on(kept: Opened, pages: Path):
+    """The list of what a reason hangs on is told anew, and does not drop the focus."""
+    page = kept(pages / "pump.html", "#step=6", **DESKTOP)
+    page.locator("#because summary").focus()
+    all_there = page.locator("#reason button").count() + page.locator("#from a").count()
+    inside = "document.activeElement.closest('#reason,#from')?.id ?? null"
+    seen = []
+    while page.keyboard.press("Tab") or (part := page.evaluate(inside)):
+        seen.append(part)
+    assert {*seen} == {"reason", "from"} and len(seen) <= all_there
+    assert page.evaluate("document.activeElement !== document.body")
+    assert page.locator("#from a").count() == 3
+
+
 # --- the beginning -------------------------------------------------------------------------------
 
 

@@ -361,6 +361,28 @@ def test_what_is_not_saved_is_kept_over_a_reload_and_replaces_no_newer_file(stud
     assert page.inner_text("#status") == ""
 
 
+def test_a_scene_that_is_gone_from_the_disk_is_not_lost_with_it(studio, place):
+    """Saved or not, what this tab has shown stands in the text again; another tab says what to do."""
+    page = studio()
+    (place / "mine.toml").unlink()
+    page.reload()
+    page.locator("#status.poor", has_text="mine.toml is not on the disk any more").wait_for()
+    at_rest(page)
+    assert page.input_value("#text") == PUMP
+    write(page, "C-D = 20", "C-D = 21")
+    page.reload()
+    at_rest(page)
+    assert "C-D = 21" in page.input_value("#text")
+    other = page.context.new_page()
+    other.goto(page.url)
+    other.locator("#status.poor", has_text="this tab keeps nothing of it").wait_for()
+    assert other.is_visible("#open") and other.input_value("#file") == "mine.toml"
+    other.close()
+    page.click("#save")
+    said(page, "Saved: mine.toml")
+    assert "C-D = 21" in (place / "mine.toml").read_text(encoding="utf-8")
+
+
 def test_each_field_shows_its_drawing_whole(studio):
     page = studio("?lab=slotted-lever")
     for width, height in ((1440, 900), (1280, 720), (820, 1180)):

@@ -60,10 +60,7 @@ function pull(event, one, number) {
     const steps = Math.round((moved.clientX - event.clientX - moved.clientY + event.clientY) / PULL);
     next_frame(number.follow = () => one.put(from + steps * one.step));
   };
-  number.addEventListener("pointermove", went);
-  for (const name of ["pointerup", "pointercancel"]) {
-    number.addEventListener(name, () => number.removeEventListener("pointermove", went), { once: true });
-  }
+  while_down(number, went);
 }
 
 /** The places where one of the data is said: in the task, and below the drawings. */
