@@ -355,6 +355,28 @@ def test_tables_margins_and_line_follow_the_driver(kept: Opened, pages: Path):
     assert page.locator("[data-row='v_D'] td").all_inner_texts() == before
 
 
+def test_what_is_read_off_is_the_same_in_the_list_the_tables_and_above_the_keys(
+    kept: Opened, pages: Path
+):
+    """As drawn, once the driver has moved, and drawn again."""
+    page = kept(pages / "pump.html", "#step=42", **DESKTOP)
+    listed = page.locator("#steps li .say")
+    drawn = listed.all_inner_texts()
+    page.locator("#driver").fill("154")
+    page.wait_for_url("**x=154")
+    sizes = {
+        row: page.locator(f"[data-row='{row}'] td").first.inner_text()
+        for row in ("ω2", "ω3", "ω4", "ε2", "ε3", "ε4")
+    }
+    read = [text for text in listed.all_inner_texts() if text not in drawn]
+    assert len(read) == len(sizes)
+    for text, (row, size) in zip(read, sizes.items(), strict=True):
+        assert text.startswith(f"{row} = ") and f" = {size} rad/s" in text
+    assert page.locator("#sentence").inner_text() == read[-1]
+    page.locator("#back").click()
+    assert listed.all_inner_texts() == drawn
+
+
 def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(kept: Opened, pages: Path):
     page = kept(pages / "pump.html", "#step=16&x=9999", **DESKTOP)
     seen = """name => [...document.querySelectorAll(`.sheet:not([hidden]) [data-name='${name}']`)]
