@@ -377,6 +377,42 @@ def test_what_is_read_off_is_the_same_in_the_list_the_tables_and_above_the_keys(
     assert listed.all_inner_texts() == drawn
 
 
+ENDS = """() => [...document.querySelectorAll('.sheet:not([hidden]) .view > svg')].map(svg => {
+  const { left, right, top, bottom } = svg.getBoundingClientRect(), matrix = svg.getScreenCTM();
+  const off = ({ x, y }) => x < left - 1 || x > right + 1 || y < top - 1 || y > bottom + 1;
+  const lines = [...svg.querySelectorAll('line[data-of]:not(.later,.void,.leader,[visibility])')];
+  const cut = lines.filter(line => {
+    const [p, q] = ['1', '2'].map(end => new DOMPoint(...['x', 'y'].map(axis =>
+      line.getAttribute(axis + end))).matrixTransform(matrix));
+    const places = Array.from({ length: 2001 }, (_, i) => i / 2000).map(part =>
+      ({ x: p.x + part * (q.x - p.x), y: p.y + part * (q.y - p.y) }));
+    return [p, q].some(off) && !places.every(off);
+  });
+  const marks = [...svg.querySelectorAll('.beyond')].map(mark => mark.getBoundingClientRect());
+  const inside = marks.every(({ x, y, width, height }) => !off({ x, y }) ||
+    !off({ x: x + width, y: y + height }));
+  return [cut.length, marks.length, inside];
+})"""
+"""Of each field the lines that leave it, and the marks of such."""
+
+
+def test_lines_that_leave_the_field_are_marked_at_its_edge(opened: Opened, tmp_path: Path):
+    """Near a dead point the plans of the trials have no room; as drawn, no line leaves."""
+    path = tmp_path / "crank.html"
+    path.write_text(step_page(mechanism_of("stephenson-3-crank"), "en"), encoding="utf-8")
+    page = opened(path, "#step=99", stopped=True, **DESKTOP)
+    assert page.evaluate(ENDS) == [[0, 0, True]] * 2
+    page.locator("#driver").fill("70")
+    page.clock.run_for(1000)
+    mechanism, plan = page.evaluate(ENDS)
+    assert mechanism[0] >= 1 and plan[0] > 5
+    for lines, marks, inside in (mechanism, plan):
+        assert lines <= marks <= 2 * lines and inside
+    page.locator("#back").click()
+    page.clock.run_for(1000)
+    assert page.evaluate(ENDS) == [[0, 0, True]] * 2
+
+
 def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(kept: Opened, pages: Path):
     page = kept(pages / "pump.html", "#step=16&x=9999", **DESKTOP)
     seen = """name => [...document.querySelectorAll(`.sheet:not([hidden]) [data-name='${name}']`)]
