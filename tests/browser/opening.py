@@ -19,7 +19,7 @@ ARGS += ["--disable-site-isolation-trials", "--renderer-process-limit=1"]
 """All pages are drawn in one process: a new one for each studio's port costs more than the page."""
 
 Opened = Callable[..., Any]
-LONG = 15_000
+LONG = 300_000
 """Milliseconds after which nothing more is waited for, on however slow a machine."""
 HOUR = 3600
 """Seconds after which the clock of a page stands still, for every page that a tab opens."""

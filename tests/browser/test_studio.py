@@ -442,6 +442,8 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     page = studio()
     page.click("#move")
     moving = page.frame_locator("#moving")
+    chart, frame = moving.locator("#curves figure").first.bounding_box(), page.locator("#moving")
+    assert chart["y"] + chart["height"] <= sum(map(frame.bounding_box().get, ("y", "height")))
     dead = moving.locator("#notable button").first
     dead.click()
     assert dead.get_attribute("title").startswith("−32.6°: dead point")
@@ -456,9 +458,39 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     moving.locator("#at[max='360']").wait_for()
     page.check("#motion-kind [value=steps]")
     moving.locator("#turn").wait_for()
+    assert moving.locator("#count").inner_text().startswith("Step 1 of ")
     assert not page.is_visible("#motion-driver")
     page.click("#move")
     assert page.locator("#mechanism").is_visible()
+
+
+BOXES = """() => Object.fromEntries(Object.entries({
+    editor: "#scene-part .editor", list: "#scene-part .mistakes", offered: "#offered",
+    line: "#scene-part .under > :last-child" }).map(([name, part]) => {
+  const { left, top, right, bottom } = document.querySelector(part).getBoundingClientRect();
+  return [name, [left, top, right, bottom]];
+}))"""
+
+
+def test_mistakes_leave_the_editor_its_room_and_the_caret_in_sight(studio):
+    """Also of whoever writes at the end of a long text, where words are offered above the line."""
+    page = studio()
+    before = page.evaluate(BOXES)["editor"]
+    page.focus("#text")
+    page.keyboard.press("Control+End")
+    answered(page, lambda: page.keyboard.type("\n[links.6]\nA-B = -1\nC-D = -2\nQ = 3\nR = 4\n"))
+    assert page.locator("#problems li").count() > 2
+    list_of = page.locator("#problems")
+    list_of.evaluate("list => { list.scrollTop = list.scrollHeight; }")
+    last, part = list_of.locator("li").last.bounding_box(), page.evaluate(BOXES)["list"]
+    assert last["y"] + last["height"] <= part[3] + 1
+    page.keyboard.type("sl")
+    page.locator("#offered li").first.wait_for()
+    boxes = page.evaluate(BOXES)
+    assert boxes["editor"] == before
+    assert before[1] <= boxes["line"][1] and boxes["line"][3] <= before[3] + 1  # of its leading
+    assert before[1] <= boxes["offered"][1] and boxes["offered"][3] <= before[3]
+    assert boxes["offered"][3] <= boxes["line"][1] or boxes["offered"][1] >= boxes["line"][3]
 
 
 def test_what_is_written_is_completed_and_mended(studio):
