@@ -362,7 +362,7 @@ def test_what_is_not_saved_is_kept_over_a_reload_and_replaces_no_newer_file(stud
 
 
 def test_a_scene_that_is_gone_from_the_disk_is_not_lost_with_it(studio, place):
-    """Saved or not, what this tab has shown stands in the text again; another tab says what to do."""
+    """Saved or not, what this tab has shown is in the text again; another says what to do."""
     page = studio()
     (place / "mine.toml").unlink()
     page.reload()
