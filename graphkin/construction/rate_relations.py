@@ -68,7 +68,7 @@ def of_links(drawing: Drawing) -> Iterator[Relation]:
         tail = (answer(drawing, abs(value)), rate.caret_unit, sense(drawing.words, value))
         if step.action is not None and turning_with(drawing, step.name) != link:
             other = rate_symbol(drawing, number, letter)
-            yield Relation(name, other, "", *tail, takes=other)
+            yield Relation(name, other, "", *tail, takes=other, reason="why.together")
         elif isinstance(kind := construction(step), TurningOfLink):
             yield kind.relation(drawing, tail)
         elif isinstance(kind, GivesRate) and (found := kind.rate_relation(drawing, link, tail)):
@@ -162,7 +162,8 @@ def by_radii(
     result = drawing.words.significant(whole, 4)
     remark = sense(drawing.words, whole)
     unit = drawing.rate.caret_unit
-    return Relation(wheel, symbols, figures, result, unit, remark, turns=True)
+    reason = "why.radii" if fixed else "why.willis"
+    return Relation(wheel, symbols, figures, result, unit, remark, turns=True, reason=reason)
 
 
 def radius_of(disc: Disc) -> str:

@@ -196,7 +196,7 @@ def keeper_of(
         pair = loose_pair(every, own, on)
         made = bar_between(*pair, measures) if pair else None
     else:
-        loose = held[rolling.on] < 2 and not bears(every, name, rolling.on)
+        loose = held.get(rolling.on, 2) < 2 and not bears(every, name, rolling.on)
         needed = rolling.on != FRAME and (asked or loose)
         needed = needed or (name == FRAME and rolling.on in turned)
         made = block_on(own.rim, rolling, measures) if needed else None

@@ -16,7 +16,7 @@ from tomlkit.exceptions import TOMLKitError
 from graphkin.scene.file_limits import tables_of
 from graphkin.scene.model import FRAME, KEYWORDS, link_words
 from graphkin.studio.drawn_closure import drawn_closed
-from graphkin.studio.names_in_text import forget, named_anew, raw, renamed, says
+from graphkin.studio.names_in_text import forget, let_go, named_anew, raw, renamed, says
 from graphkin.studio.sketch import (
     GRIDS,
     DrawnWheel,
@@ -440,25 +440,25 @@ def delete(work: Builder, act: Act) -> None:
         for table in tables:
             for key in [key for key in table if says(name, key, table[key])]:
                 table.pop(key)
-    for link, points in work.links.items():
-        held = links[link]
-        if not {"slides", "wheel", "wheels"} & set(held) and len(points) < 2:
-            links.pop(link)
-        elif isinstance(held.get("rolls"), dict) and str(held["rolls"].get("on")) not in {
-            FRAME,
-            *work.links,
-        }:
-            held.pop("rolls")
-    for link, points in work.links.items():
-        others = {point for name, held in work.links.items() if name != link for point in held}
-        if "slides" in links[link] and not others & set(points):
-            links.pop(link)
+    before = None
+    while before != work.links:
+        before = work.links
+        let_go(work.document)
+        drop_loose(work)
     for key in ("links", "frame"):
         if key in work.document and not table_of(work.document, key):
             work.document.pop(key)
-    left = work.links
-    known = {*left, *work.fixed, *(point for points in left.values() for point in points)}
-    forget(work.document, known)
+    forget(work.document)
+
+
+def drop_loose(work: Builder) -> None:
+    """Take away links that are no bodies any more: single pins, and blocks that nothing touches."""
+    links = table_of(work.document, "links")
+    for link, points in work.links.items():
+        others = {point for name, held in work.links.items() if name != link for point in held}
+        lone = len(points) < 2 and not {"slides", "wheel", "wheels"} & set(links[link])
+        if lone or ("slides" in links[link] and not others & set(points)):
+            links.pop(link)
 
 
 def close(work: Builder, act: Act) -> None:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.crossings import Crossing
 from graphkin.construction.core.drawn_scene import METRES, Drawing
 from graphkin.construction.core.program import Part
-from graphkin.construction.core.quantities import motion_value
+from graphkin.construction.core.quantities import CENTRES, motion_value, names_asked
 from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.result_tables import slide_rows, turning_rows, unread, vector_rows
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
@@ -22,6 +22,7 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Scene
 from graphkin.text import Words
+from graphkin.text.plain_table import NOISE
 from graphkin.writers.templates import from_template
 
 FLATTEST = 6
@@ -98,10 +99,16 @@ def told(rows: Iterable[Row], lost: Callable[[str], bool], heads: int) -> list[R
 def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
     """Where the centres and poles lie that are asked, in the unit of the scene."""
     full, breadth, unit = with_blocks(scene, solution), breadth_of(solution), scene.units["length"]
-    asked: list[tuple[str, Ratio | None]] = []
-    asked += [(f"I_{name}", full.links[name].instant_centre) for name in scene.ask.centres]
-    asked += [(f"I_{name}", solution.centres.get(name)) for name in scene.ask.pairs]
-    asked += [(f"J_{name}", full.links[name].acceleration_pole) for name in scene.ask.poles]
+    asked: list[tuple[str, Ratio | None]] = [
+        (
+            f"{quantity.letter}_{name}",
+            motion_value(full.links[name], quantity)
+            if name in full.links
+            else solution.centres.get(name),
+        )
+        for quantity in CENTRES
+        for name in names_asked(scene.ask, quantity)
+    ]
     rows = []
     for name, ratio in asked:
         at = place_of(ratio, breadth)
@@ -109,8 +116,9 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[str]:
         if at is not None and isnan(at):
             cells = ("–", "–")
         elif at is not None:
-            metre = METRES[unit]
-            cells = (words.significant(at.real / metre, 5), words.significant(at.imag / metre, 5))
+            metre, least = METRES[unit], NOISE * breadth
+            x, y = (0.0 if abs(part) < least else part / metre for part in (at.real, at.imag))
+            cells = (words.significant(x, 5), words.significant(y, 5))
         elif ratio is None or ratio.shift == 0:
             cells = (words("calculation.everywhere"), "")
         rows.append(Row((symbol(name), *cells)))

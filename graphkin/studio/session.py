@@ -99,6 +99,7 @@ class Opened(Struct, frozen=True):
 
     ``mark`` identifies the content of that file; it is empty for a text that is in no file here.
     ``rules`` are the text of the lab.toml that belongs to it, ``rules_mark`` the same of that.
+    ``gone``: there is no such file here, whatever a browser may keep of it.
     """
 
     name: str
@@ -106,6 +107,7 @@ class Opened(Struct, frozen=True):
     mark: str = ""
     rules: str = ""
     rules_mark: str = ""
+    gone: bool = False
 
 
 class Session:
@@ -156,6 +158,8 @@ class Session:
                 return Opened(self.folder.free(name), self.folder.read(name))
             case "empty":
                 return Opened(f"new{ENDING}", EMPTY)
+            case "scene" if self.folder.path(name) and not self.folder.holds(name):
+                return Opened(name, EMPTY, gone=True)
             case "scene":
                 text, mark = self.folder.read(name), mark_of_file(self.folder.path(name))
                 rules = self.folder.rules(name)

@@ -32,6 +32,7 @@ def page(opened: Opened, words: Words) -> str:
         text=opened.text.removeprefix("\ufeff"),
         rules=opened.rules.removeprefix("\ufeff"),
         rules_mark=opened.rules_mark,
+        gone=opened.gone,
         start=json.dumps(start, ensure_ascii=False),
     )
     return f"{page}\n"

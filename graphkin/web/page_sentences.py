@@ -30,7 +30,7 @@ MOST = 3
 class SentencePart(Struct, frozen=True):
     """A part of a sentence: the step that it ends with, and that of the point that it helps find.
 
-    ``name`` and ``link`` are those of its sentence.
+    ``name`` and ``link`` are those of its sentence, ``reason`` is one of its reasons.
     """
 
     step: int
@@ -38,11 +38,12 @@ class SentencePart(Struct, frozen=True):
     markup: str
     name: str = ""
     link: str = ""
+    reason: str = ""
 
     @property
     def sentence(self) -> Sentence:
         """It as a sentence of its own."""
-        return Sentence(self.step, self.name, self.markup, link=self.link)
+        return Sentence(self.step, self.name, self.markup, (), self.link, (self.reason,))
 
 
 class PartedSentence(Struct, frozen=True):
@@ -67,7 +68,8 @@ class PartedSentence(Struct, frozen=True):
                 markup = self.plan.introduced(drawing, markup, first=begins)
                 name = name if place == 0 else ""
             steps = tuple(part.step for part in some) if len(some) > 1 else ()
-            yield Sentence(some[-1].step, name, markup, steps, some[-1].link), len(some)
+            reasons = tuple(part.reason for part in some)
+            yield Sentence(some[-1].step, name, markup, steps, some[-1].link, reasons), len(some)
 
 
 def grouped(parts: Sequence[SentencePart], strokes: Sequence[int]) -> Iterator[list[SentencePart]]:
@@ -131,5 +133,6 @@ def readings(drawing: Drawing) -> Iterator[SentencePart]:
     for relation in of_turning(drawing):
         if (step := steps.get(relation.left)) is not None:
             told = " ".join(relation.parts(solved=True))
-            yield SentencePart(step, step, f"{how}: {told}" if how else told, TURNING)
+            markup = f"{how}: {told}" if how else told
+            yield SentencePart(step, step, markup, TURNING, reason=relation.reason)
             how = ""

@@ -76,8 +76,9 @@ def of_sentence(drawing: Drawing, sentence: Sentence) -> Iterator[tuple[str, int
     plan = auxiliary_plan(drawing, sentence.step)
     if sentence.name == TURNING:
         kind = construction(steps[sentence.step])
-        key = kind.rate_reason(drawing) if isinstance(kind, GivesRate) else "why.rate"
-        yield words(key), NO_STEP
+        read = kind.rate_reason(drawing) if isinstance(kind, GivesRate) else "why.rate"
+        keys = dict.fromkeys(reason or read for reason in sentence.reasons or ("",))
+        yield from ((words(key), NO_STEP) for key in keys)
     elif sentence.name in BY_NAME:
         yield words(BY_NAME[sentence.name]), NO_STEP
     elif plan and (key := plan.reason(sentence.name)):

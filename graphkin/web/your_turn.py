@@ -19,6 +19,7 @@ SAID = (
     "turn.say.saved",
     "turn.say.arc",
     "turn.say.again",
+    "turn.say.sure",
     "turn.say.choose",
     "turn.say.count",
     "turn.say.which",

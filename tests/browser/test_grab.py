@@ -117,6 +117,31 @@ def test_a_figure_leads_all_that_hangs_on_it(opened: Opened, pump: Path):
     assert page.locator("#values").inner_text() == before
 
 
+def test_a_drag_leaves_no_listener_behind(kept: Opened, pump: Path):
+    page = kept(pump, "#step=9", **DESKTOP)
+    browser = page.context.new_cdp_session(page)
+
+    def listening(selector: str) -> int:
+        found = browser.send(
+            "Runtime.evaluate", {"expression": f"document.querySelector('{selector}')"}
+        )
+        of = {"objectId": found["result"]["objectId"]}
+        return len(browser.send("DOMDebugger.getEventListeners", of)["listeners"])
+
+    driven = "#sheet-0 .grip.driven"
+    parts = (driven, "#figures .figure")
+    before = [listening(part) for part in parts]
+    for part in parts:
+        box = page.locator(part).bounding_box()
+        for across in (12, -12):
+            page.mouse.move(box["x"] + 4, box["y"] + 4)
+            page.mouse.down()
+            page.mouse.move(box["x"] + 4 + across, box["y"] + 4, steps=2)
+            page.mouse.up()
+    assert [listening(part) for part in parts] == before
+    browser.detach()
+
+
 def test_the_wheel_and_keys_zoom_and_a_double_click_restores(opened: Opened, pump: Path):
     page = opened(pump, "#step=9", **DESKTOP)
     drawn = page.evaluate(FRAMES)

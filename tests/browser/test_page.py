@@ -103,6 +103,20 @@ def test_a_reason_lights_its_own_stroke_alone(kept: Opened, pages: Path):
     assert page.locator(lit).count() == both
 
 
+def test_the_keys_go_through_why_and_what_it_hangs_on(kept: Opened, pages: Path):
+    """The list of what a reason hangs on is told anew, and does not drop the focus."""
+    page = kept(pages / "pump.html", "#step=6", **DESKTOP)
+    page.locator("#because summary").focus()
+    all_there = page.locator("#reason button").count() + page.locator("#from a").count()
+    inside = "document.activeElement.closest('#reason,#from')?.id ?? null"
+    seen = []
+    while page.keyboard.press("Tab") or (part := page.evaluate(inside)):
+        seen.append(part)
+    assert {*seen} == {"reason", "from"} and len(seen) <= all_there
+    assert page.evaluate("document.activeElement !== document.body")
+    assert page.locator("#from a").count() == 3
+
+
 # --- the beginning -------------------------------------------------------------------------------
 
 
@@ -263,6 +277,22 @@ def test_an_address_leads_to_its_step_and_place(kept: Opened, pages: Path):
         assert 0 <= step_of(page) <= page.evaluate(STEPS)
 
 
+def test_a_number_in_an_address_is_as_if_it_were_dragged(kept: Opened, pages: Path):
+    """n leads the driver, and all else, to where `solve` has them; a place beside it holds."""
+    page = kept(pages / "pump.html", "#step=0", **DESKTOP)
+    address = (pages / "pump.html").as_uri()
+    for n in (10, 25):
+        page.goto(f"{address}#step=42&set=n:{n}")
+        mechanism = load("pump", n=n)
+        assert page.locator("#driven").inner_text() == f"{30 + 2 * n}.0°"
+        size = words("en").significant(abs(mechanism.solve().points["D"].acceleration))
+        assert page.locator("[data-row='a_D'] td").last.inner_text() == size
+        assert f"aD = {size} m/s" in page.locator("#values").inner_text()
+    page.goto(f"{address}#step=42&x=80&set=n:10")
+    assert page.locator("#driven").inner_text() == "80.0°"
+    page.locator("#back").click()
+
+
 # --- the driver ----------------------------------------------------------------------------------
 
 
@@ -323,6 +353,64 @@ def test_tables_margins_and_line_follow_the_driver(kept: Opened, pages: Path):
     page.locator("#back").click()
     assert told.inner_text() == "ω3 = vBA/AB = 11.059/0.4 = 27.65 rad/s (counter-clockwise)"
     assert page.locator("[data-row='v_D'] td").all_inner_texts() == before
+
+
+def test_what_is_read_off_is_the_same_in_the_list_the_tables_and_above_the_keys(
+    kept: Opened, pages: Path
+):
+    """As drawn, once the driver has moved, and drawn again."""
+    page = kept(pages / "pump.html", "#step=42", **DESKTOP)
+    listed = page.locator("#steps li .say")
+    drawn = listed.all_inner_texts()
+    page.locator("#driver").fill("154")
+    page.wait_for_url("**x=154")
+    sizes = {
+        row: page.locator(f"[data-row='{row}'] td").first.inner_text()
+        for row in ("ω2", "ω3", "ω4", "ε2", "ε3", "ε4")
+    }
+    read = [text for text in listed.all_inner_texts() if text not in drawn]
+    assert len(read) == len(sizes)
+    for text, (row, size) in zip(read, sizes.items(), strict=True):
+        assert text.startswith(f"{row} = ") and f" = {size} rad/s" in text
+    assert page.locator("#sentence").inner_text() == read[-1]
+    page.locator("#back").click()
+    assert listed.all_inner_texts() == drawn
+
+
+ENDS = """() => [...document.querySelectorAll('.sheet:not([hidden]) .view > svg')].map(svg => {
+  const { left, right, top, bottom } = svg.getBoundingClientRect(), matrix = svg.getScreenCTM();
+  const off = ({ x, y }) => x < left - 1 || x > right + 1 || y < top - 1 || y > bottom + 1;
+  const lines = [...svg.querySelectorAll('line[data-of]:not(.later,.void,.leader,[visibility])')];
+  const cut = lines.filter(line => {
+    const [p, q] = ['1', '2'].map(end => new DOMPoint(...['x', 'y'].map(axis =>
+      line.getAttribute(axis + end))).matrixTransform(matrix));
+    const places = Array.from({ length: 2001 }, (_, i) => i / 2000).map(part =>
+      ({ x: p.x + part * (q.x - p.x), y: p.y + part * (q.y - p.y) }));
+    return [p, q].some(off) && !places.every(off);
+  });
+  const marks = [...svg.querySelectorAll('.beyond')].map(mark => mark.getBoundingClientRect());
+  const inside = marks.every(({ x, y, width, height }) => !off({ x, y }) ||
+    !off({ x: x + width, y: y + height }));
+  return [cut.length, marks.length, inside];
+})"""
+"""Of each field the lines that leave it, and the marks of such."""
+
+
+def test_lines_that_leave_the_field_are_marked_at_its_edge(opened: Opened, tmp_path: Path):
+    """Near a dead point the plans of the trials have no room; as drawn, no line leaves."""
+    path = tmp_path / "crank.html"
+    path.write_text(step_page(mechanism_of("stephenson-3-crank"), "en"), encoding="utf-8")
+    page = opened(path, "#step=99", stopped=True, **DESKTOP)
+    assert page.evaluate(ENDS) == [[0, 0, True]] * 2
+    page.locator("#driver").fill("70")
+    page.clock.run_for(1000)
+    mechanism, plan = page.evaluate(ENDS)
+    assert mechanism[0] >= 1 and plan[0] > 5
+    for lines, marks, inside in (mechanism, plan):
+        assert lines <= marks <= 2 * lines and inside
+    page.locator("#back").click()
+    page.clock.run_for(1000)
+    assert page.evaluate(ENDS) == [[0, 0, True]] * 2
 
 
 def test_at_a_dead_point_no_vector_is_drawn_that_hangs_on_it(kept: Opened, pages: Path):

@@ -361,6 +361,28 @@ def test_what_is_not_saved_is_kept_over_a_reload_and_replaces_no_newer_file(stud
     assert page.inner_text("#status") == ""
 
 
+def test_a_scene_that_is_gone_from_the_disk_is_not_lost_with_it(studio, place):
+    """Saved or not, what this tab has shown is in the text again; another says what to do."""
+    page = studio()
+    (place / "mine.toml").unlink()
+    page.reload()
+    page.locator("#status.poor", has_text="mine.toml is not on the disk any more").wait_for()
+    at_rest(page)
+    assert page.input_value("#text") == PUMP
+    write(page, "C-D = 20", "C-D = 21")
+    page.reload()
+    at_rest(page)
+    assert "C-D = 21" in page.input_value("#text")
+    other = page.context.new_page()
+    other.goto(page.url)
+    other.locator("#status.poor", has_text="this tab keeps nothing of it").wait_for()
+    assert other.is_visible("#open") and other.input_value("#file") == "mine.toml"
+    other.close()
+    page.click("#save")
+    said(page, "Saved: mine.toml")
+    assert "C-D = 21" in (place / "mine.toml").read_text(encoding="utf-8")
+
+
 def test_each_field_shows_its_drawing_whole(studio):
     page = studio("?lab=slotted-lever")
     for width, height in ((1440, 900), (1280, 720), (820, 1180)):
@@ -420,6 +442,8 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     page = studio()
     page.click("#move")
     moving = page.frame_locator("#moving")
+    chart, frame = moving.locator("#curves figure").first.bounding_box(), page.locator("#moving")
+    assert chart["y"] + chart["height"] <= sum(map(frame.bounding_box().get, ("y", "height")))
     dead = moving.locator("#notable button").first
     dead.click()
     assert dead.get_attribute("title").startswith("−32.6°: dead point")
@@ -434,9 +458,39 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     moving.locator("#at[max='360']").wait_for()
     page.check("#motion-kind [value=steps]")
     moving.locator("#turn").wait_for()
+    assert moving.locator("#count").inner_text().startswith("Step 1 of ")
     assert not page.is_visible("#motion-driver")
     page.click("#move")
     assert page.locator("#mechanism").is_visible()
+
+
+BOXES = """() => Object.fromEntries(Object.entries({
+    editor: "#scene-part .editor", list: "#scene-part .mistakes", offered: "#offered",
+    line: "#scene-part .under > :last-child" }).map(([name, part]) => {
+  const { left, top, right, bottom } = document.querySelector(part).getBoundingClientRect();
+  return [name, [left, top, right, bottom]];
+}))"""
+
+
+def test_mistakes_leave_the_editor_its_room_and_the_caret_in_sight(studio):
+    """Also of whoever writes at the end of a long text, where words are offered above the line."""
+    page = studio()
+    before = page.evaluate(BOXES)["editor"]
+    page.focus("#text")
+    page.keyboard.press("Control+End")
+    answered(page, lambda: page.keyboard.type("\n[links.6]\nA-B = -1\nC-D = -2\nQ = 3\nR = 4\n"))
+    assert page.locator("#problems li").count() > 2
+    list_of = page.locator("#problems")
+    list_of.evaluate("list => { list.scrollTop = list.scrollHeight; }")
+    last, part = list_of.locator("li").last.bounding_box(), page.evaluate(BOXES)["list"]
+    assert last["y"] + last["height"] <= part[3] + 1
+    page.keyboard.type("sl")
+    page.locator("#offered li").first.wait_for()
+    boxes = page.evaluate(BOXES)
+    assert boxes["editor"] == before
+    assert before[1] <= boxes["line"][1] and boxes["line"][3] <= before[3] + 1  # of its leading
+    assert before[1] <= boxes["offered"][1] and boxes["offered"][3] <= before[3]
+    assert boxes["offered"][3] <= boxes["line"][1] or boxes["offered"][1] >= boxes["line"][3]
 
 
 def test_what_is_written_is_completed_and_mended(studio):

@@ -78,3 +78,20 @@ def test_a_lab_is_begun_beside_any_scene(page, served):
     page.fill("#rules", page.input_value("#rules").replace("segment = 5", "segment = -5"))
     page.locator("#rules-part .gutter .wrong").wait_for()
     assert page.inner_text("#rules-part .under mark") == "segment = -5"
+
+
+def test_ranges_are_sought_of_a_whole_lab_alone(page, served):
+    """Where the scene or the rules have mistakes, the button says what is to be mended first."""
+    page.goto(f"{served.address}?lab=pump&rules=yes")
+    page.click("#lab")
+    fairness(page, 29)
+    for part, first in (("#text", "The scene"), ("#rules", "The rules")):
+        text = page.input_value(part)
+        assert page.is_enabled("#find-ranges")
+        page.fill(part, f"{text}\nbroken = ")
+        page.locator("#why-no-ranges", has_text=f"{first} ha").wait_for()
+        assert page.is_disabled("#find-ranges")
+        page.fill(part, text)
+        page.locator("#find-ranges:enabled").wait_for()
+        fairness(page, 29)
+        assert page.inner_text("#why-no-ranges") == ""

@@ -107,7 +107,7 @@ def begun(opened: Opened, pages: Path, name: str, step: int | str, **options: An
     page.locator("#turn-panel").wait_for()
     page.evaluate(PAINTED)
     if (again := page.locator("#turn-again")).is_visible():
-        again.click()
+        again.dblclick()
         page.evaluate(PAINTED)
     return page
 
@@ -341,9 +341,57 @@ def test_a_turn_that_was_left_goes_on(opened: Opened, pages: Path):
     assert page.locator("#count").inner_text() == "Step 42 of 42"
     page.locator('[data-stop="5"]').first.click()
     page.locator("#turn").click()
-    page.locator("#turn-again").click()
+    page.locator("#turn-again").dblclick()
     assert page.evaluate(SEEN, "a") == 0
     assert by_lists(page, "lay_off", "o", "vA") == EN("turn.say.which")
+
+
+def test_a_turn_outlives_its_page(opened: Opened, pages: Path):
+    """It goes on after a reload, and in another tab; only who presses twice throws it away."""
+    page = begun(opened, pages, "pump", 5)
+    by_lists(page, "lay_off", "o", "vA")
+    page.locator("#which button").first.click()
+    by_lists(page, "perpendicular", "o", "AB")  # a wrong turn
+    page.locator("#hint").click()
+    by_lists(page, "perpendicular", "a", "AB")
+    by_lists(page, "parallel", "a", "guide 5")
+    page.locator("#turn-score").click()
+    count, score = (page.locator(name).inner_text() for name in ("#turn-count", "#score"))
+    page.reload()
+    assert page.locator("#turn-panel").is_visible()
+    page.locator("#turn-score").click()
+    assert page.locator("#turn-count").inner_text() == count
+    assert page.locator("#score").inner_text() == score
+    assert by_lists(page, "perpendicular", "a", "AB") == "⊥ AB (a) is drawn already."
+    page.locator("#turn-end").click()
+    other = page.context.new_page()
+    other.goto(page.url)
+    assert not other.locator("#turn-panel").is_visible()
+    assert other.locator("#turn").get_attribute("title") == EN("turn.resume")
+    other.locator("#turn").click()
+    by_lists(other, "perpendicular", "o", "O2B")
+    assert by_lists(other, "cut", "⊥ AB (a)", "⊥ O2B (o)") == "b: right."
+    again = other.locator("#turn-again")
+    again.click()
+    assert said(other) == EN("turn.say.sure")
+    assert other.evaluate(SEEN, "b") > 0
+    other.locator("#hint").click()  # no answer to that
+    again.click()
+    assert other.evaluate(SEEN, "b") > 0
+    again.click()
+    assert other.evaluate(SEEN, "b") == 0
+    other.reload()
+    assert other.locator("#turn").get_attribute("title") == EN("turn.begin")
+    other.close()
+
+
+def test_a_line_of_ones_own_outlives_the_page(opened: Opened, pages: Path):
+    page = begun(opened, pages, "pump", 12)
+    assert by_lists(page, "perpendicular", "C", "vC").startswith("A line of your own")
+    page.reload()
+    assert page.locator(".sheet:not([hidden]) line.own").count() == 1
+    by_lists(page, "perpendicular", "A", "vA")
+    assert by_lists(page, "cut", "⊥ vA (A)", "⊥ vC (C)").startswith("I3: right.")
 
 
 def test_what_a_move_finds_is_told(kept: Opened, pages: Path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import tomlkit
 
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import Text
@@ -57,3 +58,13 @@ def test_names_that_cannot_be(names, place, found):
         scene("\n".join(lines))
     (problem,) = caught.value.problems
     assert (problem.place, problem.found) == (place, found)
+
+
+def test_wheels_that_roll_on_what_is_named_and_not_written_are_told_with_their_places():
+    """Also where a link that keeps another wheel in its place gets the free name."""
+    tables = tomlkit.parse(scene_text("loops/driven-against-a-slid-track"))
+    tables["links"].pop("1")
+    with pytest.raises(SceneError) as caught:
+        read_text(tomlkit.dumps(tables), "own", None, {})
+    places = {problem.place for problem in caught.value.problems}
+    assert places == {"links.3.rolls.start.1", "drivers[0].turn"}

@@ -221,3 +221,20 @@ def test_a_move_is_seen_as_if_it_were_the_first_look():
         assert bool(moved["problems"]) == (moves["z1"] == "20")
         both = [[row[-1] for row in rows(each.get("results", ""))] for each in (moved, fresh)]
         assert both[0] == both[1]
+
+
+def places_in(text: str) -> dict[str, list[str]]:
+    """The rows of centres and poles of a text, by the names of the places."""
+    told = seen(text)["results"].partition("Centres and poles")[2]
+    return {row[0].replace("_", ""): row[1:] for row in rows(told)[1:]}
+
+
+def test_every_place_that_is_asked_has_a_row_with_its_coordinates():
+    """Cardan's bar: the circle of inflections passes through the crossing of the guides, W."""
+    text = scene_text("studio/everything-asked")
+    ask = read_text(text, "own", None, {}).ask
+    wanted = {f"I{name}" for name in (*ask.centres, *ask.pairs)}
+    wanted |= {f"J{name}" for name in ask.poles} | {f"W{name}" for name in ask.inflection}
+    assert {*places_in(text)} == wanted
+    bar = (FOLDER / "inflection-cardan.toml").read_text(encoding="utf-8")
+    assert places_in(bar) == {"W2": ["0", "0"]}

@@ -168,6 +168,40 @@ def test_every_step_has_its_reason(name):
     assert not [plain(one.markup) for one in told_of(name).said if not one.why]
 
 
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [
+        ("gears-ring", [("3", "omega"), ("2", "willis"), ("3", "willis")]),
+        ("gears-pair", [("2", "omega radii")]),
+        ("slotted-lever", [("3 2", "omega together"), ("4", "omega")]),
+    ],
+)
+def test_a_rate_has_the_reason_of_how_it_is_found(name, found):
+    """By a bar, with another link, or by wheels that do not slip, seen from the arm or not."""
+    spoken = words("en")
+    rates = [one for one in told_of(name).said if one.rates and "ω" in plain(one.markup)]
+    assert [(" ".join(one.rates), list(one.why)) for one in rates][-len(found) :] == [
+        (links, [spoken(f"why.{key}") for key in keys.split()]) for links, keys in found
+    ]
+
+
+def test_the_line_of_the_trials_has_its_reason_where_it_is_drawn():
+    """What is missed grows in proportion; where this line is cut, the point lies on both."""
+    spoken = words("en")
+    said = told_of("stephenson-3-crank").said
+    drawn = [
+        one
+        for one in said
+        if "line " in plain(one.markup) and "of the trials;" in plain(one.markup)
+    ]
+    assert drawn
+    for one in drawn:
+        after = said[said.index(one) + 1]
+        assert spoken("why.trials") in one.why
+        assert spoken("why.trials") not in after.why
+        assert any(plain(why).startswith("each line alone holds") for why in after.why)
+
+
 def test_a_letter_that_shares_a_label_appears_with_its_own_sentence():
     """o stands from the first; the images of the first trial plan fall on it only with that."""
     told = told_of("stephenson-3-crank")

@@ -266,7 +266,8 @@ class Sentence(Struct, frozen=True):
     """A sentence of the construction with the number of the step that it ends with.
 
     ``steps`` are all the steps that it speaks of, where it stands for several sentences;
-    ``link`` is the idle link that it is of.
+    ``link`` is the idle link that it is of. ``reasons`` are keys of why, each empty where the
+    construction of the step says it.
     """
 
     step: int
@@ -274,6 +275,7 @@ class Sentence(Struct, frozen=True):
     markup: str
     steps: tuple[int, ...] = ()
     link: str = ""
+    reasons: tuple[str, ...] = ()
 
     @property
     def all_steps(self) -> tuple[int, ...]:

@@ -111,6 +111,8 @@ ASKED = {
     for key in dict.fromkeys(key for each in QUANTITIES for key in each.asked_by)
 }
 """What each key of [ask] asks for."""
+WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}
+"""Whose names each key of [ask] lists."""
 
 
 def those(whose: Whose, *sorts: Sort) -> tuple[MotionQuantity, ...]:

@@ -70,6 +70,7 @@ class Relation(Struct, frozen=True):
     and how it is counted. ``equation``: the vector equation that it is. ``given``: it is chosen, so
     that a form states it. ``takes``: the symbol of what is found in the plan, or of the rate, from
     which it follows. ``turns``: its result is a rate of turning, for whose sense a form has room.
+    ``reason``: the key of why it holds, where the construction of its step does not say.
     """
 
     left: str
@@ -86,6 +87,7 @@ class Relation(Struct, frozen=True):
     given: bool = False
     takes: str = ""
     turns: bool = False
+    reason: str = ""
 
     def parts(self, *, solved: bool) -> list[str]:
         """The pieces between which a line may be broken."""

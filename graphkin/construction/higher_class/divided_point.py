@@ -88,6 +88,7 @@ class CrossedLine(JoinsPoints, frozen=True):
     gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of the trials"}
     joins: ClassVar[frozenset[str]] = frozenset({"line"})
+    reasons: ClassVar[Mapping[str, str]] = {"line": "why.trials"}
 
     first: int
     second: int
@@ -115,10 +116,12 @@ class CrossedLine(JoinsPoints, frozen=True):
 class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
     """The image of a ``point``: where its line is crossed, or divided as another one's is."""
 
-    reasons: ClassVar[Mapping[str, str]] = {"value": "why.trials"}
-
     point: str
     crossed: CrossedLine | None = None
+
+    def reason(self, drawing: Drawing, role: str) -> str:
+        """Why it lies there: on both lines that cross, or divided as every line of the trials."""
+        return "why.meet" if self.is_crossed(drawing.trace.values) else "why.trials"
 
     def comes_along(self, role: str, found: Container[int]) -> bool:
         """An arrow brings the one that a crossing finds, by which the others are divided.

@@ -87,12 +87,13 @@ function offer(asked = false) {
   mark();
 }
 
-/** Set the list beside the writing mark. */
+/** Set the list beside the writing mark: below, or above where it would lie over the mistakes. */
 function place() {
   const at = scene.caret();
   list.style.left = `${Math.min(at.left, innerWidth - list.offsetWidth - 8)}px`;
-  const below = at.bottom + 2;
-  list.style.top = `${below + list.offsetHeight < innerHeight ? below : at.top - list.offsetHeight - 2}px`;
+  const [below, above] = [at.bottom + 2, at.top - list.offsetHeight - 2];
+  const end = Math.min(text.getBoundingClientRect().bottom, innerHeight);
+  list.style.top = `${below + list.offsetHeight < end || above < 0 ? below : above}px`;
 }
 
 /** Where the text has moved, by writing too, the list goes along; with the mark out of sight it closes. */

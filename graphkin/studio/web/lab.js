@@ -18,6 +18,9 @@ let timer = 0;
 let students = [];
 let chosen = ""; // the student whose sheets are shown
 let tried = ""; // the texts of which the report is shown
+let unread = false; // the scene has mistakes
+let refused = {}; // whether the scene, and whether the rules were refused when the lab was last tried
+let searching = false; // for fair ranges
 
 /** The text of lab.toml; empty where there is none. */
 export const writtenRules = () => rules.written();
@@ -31,6 +34,20 @@ export function labOf(fields, beginning, opening) {
   scene = fields;
   begun = beginning;
   opened = opening;
+}
+
+/** Ranges are sought of a whole lab alone: where there is none, it is said what is to be mended. */
+function ready() {
+  const { scene_wrong: scene, problems = [] } = refused;
+  const why = unread || scene ? say("studio.scene_first") : problems.length ? say("studio.rules_first") : "";
+  find("find-ranges").disabled = searching || Boolean(why);
+  find("why-no-ranges").textContent = why;
+}
+
+/** Tell the lab whether its scene can be read. */
+export function markScene(is) {
+  unread = !is;
+  ready();
 }
 
 /** Show the rules beside the scene, and how fair they are. */
@@ -80,9 +97,13 @@ async function asked(what) {
   const answer = await ask(what, { ...scene(), rules: writtenRules(), settings: {}, number: own });
   if (answer.stale || own !== number) return null;
   rules.showProblems(answer.problems);
+  refused = answer;
+  ready();
   if (answer.scene_wrong) fairness(say("studio.scene_first"), true);
   else if (answer.problems.length) fairness("");
-  return answer.scene_wrong || answer.problems.length ? null : answer;
+  if (!answer.scene_wrong && !answer.problems.length) return answer;
+  tried = "";
+  return null;
 }
 
 async function attempt() {
@@ -187,7 +208,8 @@ async function sheets(student) {
 /** Find fair ranges, and offer to put them into the text. */
 async function propose() {
   clearTimeout(timer);
-  find("find-ranges").disabled = true;
+  searching = true;
+  ready();
   advice.hidden = false;
   advice.replaceChildren(element("p", say("studio.searching")));
   try {
@@ -197,7 +219,8 @@ async function propose() {
   } catch (error) {
     advice.replaceChildren(element("p", error.message, "wrong"));
   } finally {
-    find("find-ranges").disabled = false;
+    searching = false;
+    ready();
     trySoon(0);
   }
 }
@@ -245,4 +268,7 @@ find("student-view").addEventListener("change", () => {
   const shown = students.find(({ name }) => name === chosen);
   if (shown) choose(shown);
 });
-onSpeaking(() => trySoon(0));
+onSpeaking(() => {
+  ready();
+  trySoon(0);
+});

@@ -3,7 +3,6 @@
 import { sentence } from "./mistakes.js";
 import { ask, find, onSpeaking, say } from "./talk.js";
 
-const LAST = 1e6; // a step beyond all: everything is drawn
 const REST = 500; // ms without a change before the page is drawn anew
 const toggle = find("move");
 const frame = find("moving");
@@ -53,7 +52,7 @@ async function moving() {
     told.textContent = answer.problems.map(sentence).join(" ");
     offer(answer.drivers, page);
     if (!answer.page) return;
-    frame.src = `${answer.page}#step=${LAST}`;
+    frame.src = `${answer.page}#step=1`; // step by step from the first
     frame.hidden = false;
     shown = now;
   } catch (error) {

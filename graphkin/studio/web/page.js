@@ -6,7 +6,7 @@ import { agreed, choose, saved, saveSheets } from "./dialogs.js";
 import { onChoosing, onMechanism, onPointing, showDrawings } from "./drawings.js";
 import { change, go as goTo, onWriting, replace, showProblems, written } from "./editor.js";
 import { historyOf } from "./history.js";
-import { inClass, labOf, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
+import { inClass, labOf, markScene, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
 import { counted, sentence } from "./mistakes.js";
 import { inMotion, motionOf, moveSoon, showMotion } from "./motion.js";
 import { forgetMoves, held as isHeld, markSliders, onMoving, setMoves, settings, showSliders, writing } from "./sliders.js";
@@ -50,6 +50,7 @@ async function look(quick) {
     if (answer.stale || own < shown) return false;
     shown = own;
     wrong = answer.problems;
+    markScene(answer.title !== undefined);
     if (isBare(answer)) {
       showProblems([], say("studio.how_begin"));
       showSliders([]);
@@ -129,21 +130,26 @@ function draft() {
   return `draft ${query}`;
 }
 
-/** Keep what is not saved over a reload, with the file from which it was written. */
+/** Keep what is written over a reload, with the file from which it was written. */
 function keep() {
-  const kept = { text: written(), rules: writtenRules(), held };
-  if (isSafe()) sessionStorage.removeItem(draft());
-  else sessionStorage.setItem(draft(), JSON.stringify(kept));
+  const kept = { text: written(), rules: writtenRules(), held, saved: isSafe() };
+  sessionStorage.setItem(draft(), JSON.stringify(kept));
 }
 
-/** What was kept of this address stands in the text again, as a change that can be undone; a file
- * that has changed since is still not replaced unasked. */
+/** What was kept of this address and is not in its file stands in the text again, as a change that
+ * can be undone; a file that has changed since is still not replaced unasked. */
 function recall() {
   const kept = JSON.parse(sessionStorage.getItem(draft()) ?? "null");
-  if (!kept?.held || kept.held.name !== held.name) return;
+  const lost = "gone" in document.body.dataset;
+  if (!kept?.held || kept.held.name !== held.name) {
+    if (lost) tell(say("studio.gone_unkept", { name: held.name }), "poor");
+    return;
+  }
+  if (kept.saved && !lost) return;
   held = kept.held;
   replace(kept.text);
   replaceRules(kept.rules);
+  if (lost) gone();
 }
 
 /** Say at the top whether something is not saved, but for what has just failed. */

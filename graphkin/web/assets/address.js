@@ -28,6 +28,6 @@ function follow_address() {
     const k = motion?.figures.findIndex(one => one.key === key) ?? -1;
     if (k >= 0 && Number.isFinite(Number(value))) keep_figure(k, Number(value));
   }
-  if (motion) drive(Number.isFinite(x) ? x : motion.start);
+  if (motion) drive(Number.isFinite(x) ? x : led_to(changed_figures(), motion.start));
   show(step);
 }

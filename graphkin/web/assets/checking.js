@@ -62,7 +62,7 @@ function check_move(action, given, found, plane, other) {
     return refuse_move(worded(omega ? "other_turned" : `other_${action}`, { name, about, omega, sense }), meant);
   }
   const lies = found.length && shape_of(action) !== "point" && shape_of(action) !== "vector" && leads_to(found[0], plane, open);
-  if (lies !== undefined && lies !== false && found.length) return keep_own(action, given, found[0], plane, lies);
+  if (lies !== undefined && lies !== false && found.length) return keep_own(action, given, lies);
   return why_wrong(action, given);
 }
 
@@ -73,14 +73,18 @@ function leads_to(curve, plane, open) {
 }
 
 /** A line that no sentence tells of, but that leads to a point: it is kept, and can be picked. */
-function keep_own(action, given, value, plane, step) {
-  const key = `own${++turn.own}`, names = given.map(one => picks[one].name);
-  const name = named_from(action, names, turning.words);
-  picks[key] = { kind: shape_of(action) === "circle" ? "circle" : "locus", name, plane, needs: [], value, sheet: here() };
+function keep_own(action, given, step) {
+  add_line(action, given, here());
   turn.fresh = [];
   forget_inputs();
   tell_turn(worded("own", { name: moves[step].name }));
   show_turn();
+}
+
+/** Let a line that is drawn from some picks on a sheet be picked. */
+function add_line(action, given, sheet) {
+  const name = named_from(action, given.map(one => picks[one].name), turning.words), [value] = results_of(action, given);
+  picks[`own${turn.lines.push([action, given, sheet])}`] = { kind: shape_of(action) === "circle" ? "circle" : "locus", name, plane: plane_of(action, given), needs: [], value, sheet };
 }
 
 /** Tell why a choice is wrong, by the move that is most like it. */
@@ -138,7 +142,7 @@ function refuse_move(words, meant) {
   turn.fresh = [];
   tell_turn(words);
   show_picks();
-  byId("turn-again").hidden = !is_begun();
+  show_again();
   if (!byId("score").hidden) show_score();
   if (at_keys) byId("inputs").querySelector("select").focus({ preventScroll: true });
 }

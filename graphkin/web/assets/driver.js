@@ -42,6 +42,7 @@ function rest() {
   halos();
   look(true);
   if (!state.dead) read();
+  tell_rates();
   remember();
 }
 

@@ -24,9 +24,13 @@ function keep_figure(k, value) {
 
 /** Change one; where it tells the place of the driver, that goes along. */
 function set_figure(k, value) {
-  const { moves } = motion.figures[k];
   keep_figure(k, value);
-  move(moves > 0 && motion.stands >= 0 ? motion.read(motion.stands, state.x) : state.x);
+  move(led_to([motion.figures[k]], state.x));
+}
+
+/** The place to which some figures lead the driver: where they tell one, else the place where it is. */
+function led_to(some, x) {
+  return motion.stands >= 0 && some.some(({ moves }) => moves > 0) ? motion.read(motion.stands, x) : x;
 }
 
 /** All as they are drawn. */
@@ -56,10 +60,7 @@ function pull(event, one, number) {
     const steps = Math.round((moved.clientX - event.clientX - moved.clientY + event.clientY) / PULL);
     next_frame(number.follow = () => one.put(from + steps * one.step));
   };
-  number.addEventListener("pointermove", went);
-  for (const name of ["pointerup", "pointercancel"]) {
-    number.addEventListener(name, () => number.removeEventListener("pointermove", went), { once: true });
-  }
+  while_down(number, went);
 }
 
 /** The places where one of the data is said: in the task, and below the drawings. */

@@ -76,12 +76,7 @@ function take(event, svg, one) {
     off = true;
     next_frame(pull);
   };
-  const gone = () => {
-    page.classList.remove("grabbing");
-    one.handle.removeEventListener("pointermove", went);
-  };
-  one.handle.addEventListener("pointermove", went);
-  for (const name of ["pointerup", "pointercancel"]) one.handle.addEventListener(name, gone, { once: true });
+  while_down(one.handle, went, () => page.classList.remove("grabbing"));
 }
 
 /** Move by keys. */

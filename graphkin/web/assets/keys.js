@@ -47,7 +47,10 @@ if (motion) {
   });
 }
 for (const sign of ["pointerover", "focusin"]) byId("reason").addEventListener(sign, light);
-for (const sign of ["pointerleave", "focusout"]) byId("reason").addEventListener(sign, () => point_at(null));
+byId("reason").addEventListener("pointerleave", () => point_at(null));
+for (const part of ["reason", "from"]) { // what a reason hangs on stays named while the keys are there
+  byId(part).addEventListener("focusout", ({ relatedTarget: to }) => to?.closest("#reason,#from") || point_at(null));
+}
 addEventListener("hashchange", follow_address);
 addEventListener("resize", fit);
 addEventListener("beforeprint", whole);
@@ -57,3 +60,4 @@ byId("because").addEventListener("toggle", reason_in_sight);
 byId("because").querySelector("summary").addEventListener("click", () => by_hand = true);
 follow_address();
 fit();
+if (byId("turn")) recall_turn();

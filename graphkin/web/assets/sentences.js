@@ -64,17 +64,22 @@ function tell(told, step) {
   warn(told, crossings);
 }
 
-/** Where the driver has moved, tell the rates that are read off as they are there. */
+/** Where the driver has moved, tell the rates that are read off as they are there: of the step in sight, and once all rests in the list. */
 function tell_rates() {
-  const read = rates_read(), told = byId("sentence");
-  if (!read.length) return;
-  told.replaceChildren(...copies(places[state.step - 1].say));
-  if (!moved()) return;
-  told.replaceChildren(...read.flatMap(({ row, told: name }, i) => {
+  for (const step of state.going ? [state.step] : Object.keys(data.rates)) tell_rates_of(step);
+  if (rates_read().length) byId("sentence").replaceChildren(...copies(places[state.step - 1].say));
+}
+
+/** The same in the sentence of a step. */
+function tell_rates_of(step) {
+  const place = places[step - 1], read = data.rates[step];
+  if (!read) return;
+  place.drawn ??= copies(place.say);
+  place.say.replaceChildren(...moved() ? read.flatMap(({ row, told: name }, i) => {
     const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`), start = document.createElement("span");
     start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped where it was made
     return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
-  }));
+  }) : place.drawn);
 }
 
 /** The reasons, each a line of its own in the colour of its stroke; a button where that can be lit. */

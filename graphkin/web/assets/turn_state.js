@@ -28,7 +28,10 @@ const next_move = () => moves_left().find(step => all_done(moves[step].needs));
 
 /** A sentence of the page with names, which are markup, escaped where they were made. */
 const worded = (key, fields = null) => turning.words[key].replace(/\{(\w+)\}/g, (gap, name) => fields?.[name] ?? gap);
-const tell_turn = text => { byId("turn-say").innerHTML = text.replace(/^\p{Ll}/u, first => first.toUpperCase()); };
+const tell_turn = text => {
+  turn.sure = false;
+  byId("turn-say").innerHTML = text.replace(/^\p{Ll}/u, first => first.toUpperCase());
+};
 const action_name = action => byId("palette").querySelector(`[data-action=${action}]`).textContent;
 
 /** Go on with the turn that was left, or begin one at the step in sight. */
@@ -56,28 +59,62 @@ function begin_turn() {
 /** Nothing is drawn yet from a step on. */
 function new_turn(came) {
   for (const key of Object.keys(picks)) if (key.startsWith("own")) delete picks[key];
-  turn = { done: new Set(ORDER.filter(step => moves[step].at < came)), from: came, came, near: turn?.near, log: [], action: null, inputs: [], own: 0, wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
+  turn = { done: new Set(ORDER.filter(step => moves[step].at < came)), from: came, came, near: turn?.near, log: [], action: null, inputs: [], lines: [], wrong: 0, hinted: null, asked: null, fresh: [], open: new Set(), sheet: null };
   byId("score").hidden = byId("turn-save").hidden = true;
   byId("turn-sentence").replaceChildren();
 }
 
-/** Throw away what is drawn, and begin at the step that was in sight before the turn. */
+/** Asked twice, throw away what is drawn, and begin at the step that was in sight before the turn. */
 function turn_again() {
-  new_turn(turn.came);
-  tell_turn(worded("begin"));
-  show_turn();
+  const { sure } = turn;
+  if (sure) new_turn(turn.came);
+  tell_turn(worded(sure ? "begin" : "sure"));
+  turn.sure = !sure;
+  if (sure) show_turn();
 }
 
 /** Whether anything was tried that would be lost. */
-const is_begun = () => turn.log.length + turn.own + turn.wrong > 0;
+const is_begun = one => one.log.length + one.lines.length + one.wrong > 0;
+
+const MEMORY = `graphkin turn ${[...byId("turning").textContent].reduce((sum, letter) => Math.imul(31, sum) + letter.codePointAt(0) | 0, 7)}`; // pages that are alike share it
+
+/** Keep the turn in this browser, where that allows it, for when the page is opened again. */
+function keep_turn() {
+  const one = turn ?? left_turn;
+  try {
+    if (!one || !is_begun(one)) return localStorage.removeItem(MEMORY);
+    const { done, from, log, lines, wrong, hinted } = one;
+    localStorage.setItem(MEMORY, JSON.stringify({ done: [...done], from, log, lines, wrong, hinted, open: turn !== null }));
+  } catch { /* it is lost with the page */ }
+}
+
+/** Find the turn that is kept of this page, and go on where the page was left in it. */
+function recall_turn() {
+  try {
+    const { done, lines, open, ...kept } = JSON.parse(localStorage.getItem(MEMORY));
+    new_turn(kept.from);
+    Object.assign(turn, kept, { done: new Set(done) });
+    lines.forEach(line => add_line(...line));
+    left_turn = turn;
+    turn = null;
+    call_turn();
+    if (open) begin_turn();
+  } catch {
+    turn = left_turn = null; // there is none, or it is not ours
+  }
+}
+
+/** Say whether a turn begins or goes on. */
+const call_turn = () => called(byId("turn"), byId("turn").dataset[left_turn ? "resume" : "begin"]);
 
 /** Leave the turn: what is drawn is kept. */
 function end_turn() {
   const { came, near } = turn;
   forget_inputs();
-  left_turn = is_begun() ? turn : null;
-  called(byId("turn"), byId("turn").dataset[left_turn ? "resume" : "begin"]);
+  left_turn = is_begun(turn) ? turn : null;
+  call_turn();
   turn = null;
+  keep_turn();
   page.classList.remove("turning");
   byId("turn-panel").hidden = true;
   if (near) follow.click();
@@ -115,9 +152,15 @@ function show_turn() {
   look();
   light_up();
   show_inputs();
-  byId("turn-again").hidden = !is_begun();
-  byId("turn-again").textContent = worded("again", { number: Math.max(turn.came, 1) });
+  show_again();
   if (next === undefined || !byId("score").hidden) show_score();
+}
+
+/** Keep what was tried, and offer to begin again. */
+function show_again() {
+  byId("turn-again").hidden = !is_begun(turn);
+  byId("turn-again").textContent = worded("again", { number: Math.max(turn.came, 1) });
+  keep_turn();
 }
 
 /** Whether what a sentence finds is found: all that it draws stands, and what its rates are read off. */

@@ -65,6 +65,13 @@ function next_frame(work) {
   });
 }
 
+/** Follow the pointer that is down on an element until it is let go. */
+function while_down(element, went, gone) {
+  const held = new AbortController(), { signal } = held;
+  element.addEventListener("pointermove", went, { signal });
+  for (const name of ["pointerup", "pointercancel"]) element.addEventListener(name, () => (held.abort(), gone?.()), { signal });
+}
+
 /** The middle of some pointers in the window, and how far apart they are. */
 function span(pointers) {
   const [p, q = p] = [...pointers.values()];

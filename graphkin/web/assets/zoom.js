@@ -38,7 +38,24 @@ function look(glides = false) {
     put();
     halos();
   }
+  sheet.fields.forEach((one, i) => mark_beyond(one, in_sight(boxes[i], sizes[i])));
   bars(sheet, sizes, boxes);
+}
+
+/** Mark where lines go on beyond what is seen of a field, once all rests. */
+function mark_beyond({ svg, front, view }, [x, y, width, height]) {
+  for (const mark of front.querySelectorAll(".beyond")) mark.remove();
+  if (!moved() || state.going || view) return;
+  front.append(...[...svg.querySelectorAll("line[data-of]:not(.later,.void,.leader,.centre-line,[visibility])")].flatMap(line => {
+    const [u, v, p, q] = ["x1", "y1", "x2", "y2"].map(name => line[name].baseVal.value), way = [p - u, q - v];
+    const ends = [[x - u, x + width - u], [y - v, y + height - v]].map((edges, k) => edges.map(edge => edge / way[k]).sort((a, b) => a - b));
+    const [low, high] = [Math.max(ends[0][0], ends[1][0]), Math.min(ends[0][1], ends[1][1])];
+    return low < high ? [low > 0 && low < 1 && [low, -1], high > 0 && high < 1 && [high, 1]].filter(Boolean).map(([part, sense]) => {
+      const mark = shape("path", "beyond", "M-14-5l5 5-5 5M-8-5l5 5-5 5");
+      mark.style.transform = `translate(${u + part * way[0]}px,${v + part * way[1]}px) rotate(${Math.atan2(sense * way[1], sense * way[0])}rad) scale(var(--dot))`;
+      return mark;
+    }) : [];
+  }));
 }
 
 /** How many times larger lettering is drawn at so many dots to the millimetre, `most` times where it could be read; at most `largest` times. */
