@@ -52,10 +52,17 @@ FORM = ("form.js",)
 WRITTEN_IN = {
     "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
     "$ACTIONS": json.dumps(
-        {key: [each.shape, each.plane, each.lies_with] for key, each in PALETTE.items()},
+        {
+            key: [each.shape, each.plane, each.lies_with]
+            for key, each in PALETTE.items()
+            if (each.shape, each.plane, each.lies_with) != ("point", None, 0)
+        },
         separators=(",", ":"),
     ),
-    "...$DRAW,": "\n".join(f"{key}: {each.script}," for key, each in PALETTE.items()),
+    "...$DRAW,": "\n".join(
+        f"{key}: {''.join(map(str.strip, each.script.splitlines(keepends=False)))},"
+        for key, each in PALETTE.items()
+    ),
 }
 """What files leave to the kinds of lines and to the actions of the palette."""
 REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")

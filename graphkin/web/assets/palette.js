@@ -105,7 +105,7 @@ function palette_of(record, all_done) {
   };
   /** In which drawing the result of an action lies. */
   function plane_of(action, inputs) {
-    const [, plane, lies_with] = ACTIONS[action];
+    const [, plane, lies_with] = ACTIONS[action] ?? [, null, 0];
     return plane ?? picks[inputs[lies_with]].plane;
   }
 
@@ -119,7 +119,7 @@ function palette_of(record, all_done) {
   const flat = value => value.r === undefined ? value.flat() : [...value.c, value.r];
 
   /** What kind of thing an action gives: a line, a circle, a vector set on the mechanism, or a point. */
-  const shape_of = action => ACTIONS[action][0];
+  const shape_of = action => ACTIONS[action]?.[0] ?? "point";
 
   /** How large each drawing is. */
   const sizes = [0, 1, 2, 3].map(plane => Math.max(1e-12, ...steps.filter(step => moves[step].plane === plane)
