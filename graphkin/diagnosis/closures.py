@@ -11,13 +11,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.bases import kept_touches
-from graphkin.construction.core.branches import has_two_ways
+from graphkin.construction.core.branches import block_of, has_two_ways
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed
 from graphkin.construction.higher_class.closure_solver import closer_of, run_settled, ways
 from graphkin.scene.model import Branch, Scene, Side, Way
-from graphkin.structure.groups import Dyad, Group, Higher, Stretched
+from graphkin.structure.groups import Dyad, Group, Higher, OnTwoPins, Stretched
 from graphkin.structure.pairs import Pin
 
 
@@ -227,4 +227,6 @@ def words_of(scene: Scene, pin: str, dyad: Dyad, way: int) -> str:
 def branch_of(scene: Scene, pin: str, dyad: Dyad) -> Branch | None:
     """What the scene says of a dyad: of its inner pin, or of one of its links."""
     names: Iterator[str] = iter((pin, *dyad.links, *dyad.inner.links, *dyad.right.links))
+    if isinstance(dyad, OnTwoPins):
+        names = iter((block_of(dyad),))
     return next((b for b in (scene.branches.get(name) for name in names) if b is not None), None)

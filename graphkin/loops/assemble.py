@@ -12,9 +12,16 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.loops.branch_closures import ON_LINE, closures, scattered, turned_side
+from graphkin.loops.branch_closures import (
+    ON_LINE,
+    closures,
+    facing,
+    places_of,
+    scattered,
+    turned_side,
+)
 from graphkin.loops.cam_laws import by_law
-from graphkin.loops.closing_groups import Group, counted_in_order, speaks_of, stages
+from graphkin.loops.closing_groups import Group, Mask, counted_in_order, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, part_of, undriven
 from graphkin.loops.loop_motion import Motion, Pose, pose_of, setting_of, spot, unknowns_of
 from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, newton, scaled
@@ -134,7 +141,12 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     holds = np.ones(len(found), dtype=np.bool_)
     motion = places_of(part, found)
     for name, branch in scene.branches.items():
-        holds &= stated(name, branch, motion, group, found, loops)
+        ahead = facing(part, motion, name) if isinstance(branch, Way) else None
+        if ahead is not None:
+            holds &= branch.way * ahead > 0
+    facing_so = holds.copy()
+    for name, branch in scene.branches.items():
+        holds &= stated(name, branch, motion, group, found, loops, facing_so)
     fitting = np.flatnonzero(holds)
     if len(fitting) == 1:
         return np.asarray(found[fitting[0]])
@@ -148,12 +160,6 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     raise StructureError(problem) if len(fitting) else WitnessError(problem)
 
 
-def places_of(part: Equations, found: Reals) -> Motion:
-    """Where points stand in each closure; nothing moves."""
-    many = replace(part, home=np.repeat(part.home, len(found)))
-    return Motion.of(many, found, np.zeros_like(found), np.zeros_like(found))
-
-
 def stated(
     name: str,
     branch: Side | Way | Closure,
@@ -161,8 +167,12 @@ def stated(
     group: Group,
     found: Reals,
     loops: Equations,
-) -> np.ndarray[Any, np.dtype[np.bool_]]:
-    """Which closures of a group fit one statement of the scene; all where it means another."""
+    facing_so: Mask,
+) -> Mask:
+    """Which closures of a group fit one statement of the scene; all where it means another.
+
+    Of those that have links which two pins guide the right way round (``facing_so``).
+    """
     part = motion.loops
     everything = np.ones(len(found), dtype=np.bool_)
     if isinstance(branch, Side):
@@ -178,10 +188,10 @@ def stated(
     if isinstance(branch, Closure):
         return np.asarray(np.arange(1, len(found) + 1) == branch.number)
     j = led_by(name, group, loops, part)
-    if j is None:
+    if j is None or not facing_so.any() or facing(part, motion, name) is not None:
         return everything
     slid = found[:, part.turning_count + j]
-    end = slid.max() if branch.way > 0 else slid.min()
+    end = slid[facing_so].max() if branch.way > 0 else slid[facing_so].min()
     return np.asarray(np.abs(slid - end) <= ON_LINE * part.size)
 
 

@@ -13,7 +13,15 @@ from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
-from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
+from graphkin.structure.next_group import (
+    left_by,
+    next_driven,
+    next_group,
+    next_on_two_pins,
+    next_stretched,
+    next_tie,
+    settle,
+)
 from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
@@ -34,11 +42,13 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
             or next_group(joints, known)
             or next_stretched(joints, known, waiting)
             or next_tie(joints, known)
+            or next_on_two_pins(joints, known, waiting)
             or next_tried(joints, known, waiting)
             or unresolved(joints, known, waiting)
         )
         groups.append(group)
         settle(group, known, waiting)
+        joints = left_by(group, joints)
     return tuple(groups)
 
 

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from itertools import combinations
 
-from graphkin.scene.model import FRAME, Driver
+from msgspec.structs import replace
+
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME, Driver, Scene, Slide
+from graphkin.scene.quantity import exact
 from graphkin.structure.groups import (
     CamFollower,
     Crank,
@@ -13,12 +18,14 @@ from graphkin.structure.groups import (
     Dyad,
     Group,
     Higher,
+    OnTwoPins,
     Spun,
     Stretched,
     Tie,
 )
 from graphkin.structure.joints import Joints, partner
-from graphkin.structure.pairs import Joint, Pair, Pin, Sliding
+from graphkin.structure.pairs import Joint, Pair, Pin, PinLine, Sliding
+from graphkin.structure.turning import LEVEL, guide_on
 from graphkin.structure.wheel_groups import by_centres, geared_of, spun, train_with, turned_wheel
 
 
@@ -159,6 +166,70 @@ def stretched_dyad(
     if second is None or joints.between(second.near, (near, far)):
         return None
     return Stretched((cylinder, second), Dyad((far, other), cylinder.foot, inner[0], second.foot))
+
+
+def next_on_two_pins(
+    joints: Joints, known: Collection[str], waiting: Sequence[Driver]
+) -> OnTwoPins | None:
+    """The first two blocks, as written, that guide a link together: on known pins, parallel.
+
+    What a driver slides along the link is kept to tell how far this has come.
+    """
+    driven = [{driver.link, driver.against} for driver in waiting if driver.kind == "slide"]
+    for rail in joints.unknown(known):
+        blocks = [each for pair in joints.others[rail] for each in pinned(joints, known, rail, pair)]
+        blocks.sort(key=lambda each: joints.order[partner(each[0], rail)])
+        for (first, start), (second, end) in combinations(blocks, 2):
+            if start.place != end.place and is_parallel(joints.scene, rail, first, second):
+                spare = first if {*second.links} in driven else second
+                return on_two_pins(joints, known, rail, (second, first), (end, start), spare)
+    return None
+
+
+def pinned(
+    joints: Joints, known: Collection[str], rail: str, pair: Joint
+) -> Iterator[tuple[Sliding, Pin]]:
+    """The slide between a link and a block on one known pin, with that pin; nothing else."""
+    block = partner(pair, rail)
+    if block in known or not isinstance(pair, Sliding):
+        return
+    held = joints.between(block, known)
+    if len(held) == 1 and isinstance(held[0], Pin) and len(joints.inner(rail, block, known)) == 1:
+        yield pair, held[0]
+
+
+def is_parallel(scene: Scene, rail: str, *pairs: Sliding) -> bool:
+    """Whether two guides lie in one direction on a link; false where its block names one second."""
+    if any(pair.block == rail and pair.slide != scene.link(rail).slides[0] for pair in pairs):
+        return False
+    one, other = (guide_on(scene, rail, pair.block, pair.slide) for pair in pairs)
+    return abs(cross(one, other)) <= LEVEL
+
+
+def on_two_pins(
+    joints: Joints,
+    known: Collection[str],
+    rail: str,
+    slides: tuple[Sliding, Sliding],
+    pins: tuple[Pin, Pin],
+    spare: Sliding,
+) -> OnTwoPins:
+    """Two blocks that guide a link: the later written with its pin, and the first."""
+    block, start = (partner(pair, rail) for pair in slides)
+    carriers = ({*joints.owners[pin.place]} & {*known} for pin in pins)
+    shared = sorted(set.intersection(*carriers), key=joints.order.__getitem__)
+    own, guide = slides[1].slide, Slide(start, pins[1].place, exact(0, "deg"), None, exact(0, "m"))
+    if own.on == start:
+        guide = replace(guide, angle=own.angle, along=own.along)
+    places = pins[0].place, pins[1].place
+    on = next(iter(shared), None)
+    line = PinLine(guide, (block, start), rail, slides, places, on, spare)
+    return OnTwoPins((start, block), pins[1], line, pins[0])
+
+
+def left_by(group: Group, joints: Joints) -> Joints:
+    """The pairs that count once a group is known: one of two blocks that guide a link suffices."""
+    return joints.without([group.inner.spare]) if isinstance(group, OnTwoPins) else joints
 
 
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:

@@ -14,6 +14,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    OnTwoPins,
     Spun,
     Stretched,
 )
@@ -163,7 +164,10 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
 
 
 def block_of(dyad: Dyad) -> str:
-    """The block, or the wheel, by which the scene names the way of a dyad."""
+    """The block, or the wheel, by which the scene names the way of a dyad; the link that two pins
+    guide."""
+    if isinstance(dyad, OnTwoPins):
+        return dyad.inner.named
     slide = next(p for p in (dyad.right, dyad.inner, dyad.left) if not isinstance(p, Pin))
     return slide.links[0]
 
@@ -175,7 +179,10 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     if isinstance(branch, Way):
         return branch.way
     hint = "the arc cuts the guide twice; forward is the larger coordinate along the guide"
-    if dyad.type == "RPR":
+    if isinstance(dyad, OnTwoPins):
+        pin, start = dyad.inner.pins
+        hint = f"link {dyad.rail} can lie either way round; forward: {pin} is ahead of {start} on it"
+    elif dyad.type == "RPR":
         hint = "the bar can point either way; forward is the larger coordinate along the guide"
     raise StructureError(
         Problem(
