@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from msgspec.structs import replace
 
 from graphkin.loops.branch_closures import (
     ON_LINE,

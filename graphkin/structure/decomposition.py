@@ -53,7 +53,21 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
 
 
 def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
-    """The next group of higher class; what finds these is loaded where the others end."""
+    """The next group of higher class; what finds these is loaded where the others end.
+
+    First without the bars that parallel ones make idle: they would seem to close a group.
+    """
+    from graphkin.structure.parallel_bars import idle_bars
+
+    if idle := {*idle_bars(joints.scene)} - {*known}:
+        found = tried(joints.leaving(idle), known, waiting)
+        if found is not None:
+            return found
+    return tried(joints, known, waiting)
+
+
+def tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+    """The next group that closes after some of its links have been tried."""
     from graphkin.structure.higher_groups import next_higher
 
     return (

@@ -101,14 +101,22 @@ def dyad_with(
         right = joints.between(second, known)
         if len(inner) == len(right) == 1 and inner[0].taken == right[0].taken == 2:
             dyad = Dyad((first, second), left[0], inner[0], right[0])
-            if can_close(dyad):
+            if can_close(joints.scene, dyad):
                 return in_order(dyad)
     return None
 
 
-def can_close(dyad: Dyad) -> bool:
-    """False for three slides, which leave the group loose, and for wheels pinned off centre."""
-    return dyad.type != "PPP" and by_centres(dyad.inner, dyad.outer, dyad.links)
+def can_close(scene: Scene, dyad: Dyad) -> bool:
+    """False for slides that leave the group loose: three of them, or two along one direction of
+    their link; and for wheels pinned off centre."""
+    if dyad.type == "PPP" or not by_centres(dyad.inner, dyad.outer, dyad.links):
+        return False
+    inner = dyad.inner
+    ends = zip(dyad.links, dyad.outer, strict=True)
+    led = [(link, pair) for link, pair in ends if isinstance(pair, Sliding)]
+    if not isinstance(inner, Sliding):
+        return True
+    return not any(is_parallel(scene, link, inner, pair) for link, pair in led)
 
 
 def in_order(dyad: Dyad) -> Dyad:
@@ -177,7 +185,8 @@ def next_on_two_pins(
     """
     driven = [{driver.link, driver.against} for driver in waiting if driver.kind == "slide"]
     for rail in joints.unknown(known):
-        blocks = [each for pair in joints.others[rail] for each in pinned(joints, known, rail, pair)]
+        slides = joints.others[rail]
+        blocks = [each for pair in slides for each in pinned(joints, known, rail, pair)]
         blocks.sort(key=lambda each: joints.order[partner(each[0], rail)])
         for (first, start), (second, end) in combinations(blocks, 2):
             if start.place != end.place and is_parallel(joints.scene, rail, first, second):

@@ -181,7 +181,9 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
     hint = "the arc cuts the guide twice; forward is the larger coordinate along the guide"
     if isinstance(dyad, OnTwoPins):
         pin, start = dyad.inner.pins
-        hint = f"link {dyad.rail} can lie either way round; forward: {pin} is ahead of {start} on it"
+        hint = (
+            f"link {dyad.rail} can lie either way round; forward: on it {pin} is ahead of {start}"
+        )
     elif dyad.type == "RPR":
         hint = "the bar can point either way; forward is the larger coordinate along the guide"
     raise StructureError(

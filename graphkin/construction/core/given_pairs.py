@@ -40,6 +40,10 @@ def sliding_point(drawing: Drawing, link: Link) -> str:
 def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for the one of two closures at which a block stands, seen from a known pin."""
     words, branch, line = drawing.words, drawing.scene.branches.get(link.name), drawing.guide(slide)
+    laid = constructions(drawing.trace.program, SwungGuide)
+    led = next((each for each in laid if each.ahead and each.guides(link.name, slide.on)), None)
+    if led is not None:
+        return words("page.ahead" if led.ahead > 0 else "page.behind", p=symbol(led.pivot))
     if not isinstance(branch, Way) or slide is not link.slides[0]:
         return ""
     dyads = tuple(arcs_finding(drawing, link.points))

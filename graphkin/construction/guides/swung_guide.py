@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
+from graphkin.construction.core.branches import way_of
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
@@ -106,7 +107,8 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
 class SwungGuide(Determined, frozen=True, kw_only=True):
     """A guide of a ``link`` that turns about its ``pivot`` and leads the ``pin`` of a ``block``.
 
-    It gives its direction ``turn`` and its ``line``.
+    It gives its direction ``turn`` and its ``line``. Where two pins guide the link, the ``pin`` is
+    ``ahead`` of the pivot along it (+1), or behind it (-1); else that is 0.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("turn", "line")
@@ -121,6 +123,11 @@ class SwungGuide(Determined, frozen=True, kw_only=True):
     pin: str
     turn: int
     line: int
+    ahead: int = 0
+
+    def guides(self, block: str, on: str) -> bool:
+        """Whether it leads a block along a link, whichever of the two has the guide."""
+        return {self.block, self.link} == {block, on}
 
     @property
     def found_link(self) -> str:
@@ -235,7 +242,7 @@ def swing_guide(pen: Pen, group: Dyad) -> None:
     pins = {first: group.left.point, second: group.right.point}
     height = height_of(pen, group.inner, pins)
     own = {"link": carrier, "block": block, "pivot": pins[carrier], "pin": pins[block]}
-    turn, line = lay_guide(pen, group, height, own)
+    turn, _ = lay_guide(pen, group, height, own)
     ends = local_line(pen, group.inner.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
@@ -247,7 +254,8 @@ def guide_by_pins(pen: Pen, group: OnTwoPins) -> None:
     """Two blocks whose pins guide a link: the line that they keep, and what slides along it."""
     (block, start), (pin, pivot) = group.inner.links, group.inner.pins
     ahead, behind = group.inner.slides
-    own = {"link": group.rail, "block": block, "pivot": pivot, "pin": pin}
+    own: dict[str, Any] = {"link": group.rail, "block": block, "pivot": pivot, "pin": pin}
+    own["ahead"] = way_of(pen.scene, group)
     turn, line = lay_guide(pen, group, height_between(pen, group.inner), own)
     ends = local_line(pen, group.inner.slide, start)
     with pen.on(Part.POSITION, Plane.NUMBERS):
@@ -261,9 +269,7 @@ def guide_by_pins(pen: Pen, group: OnTwoPins) -> None:
         pen.want("position", end, pen.the("position", pin))
 
 
-def lay_guide(
-    pen: Pen, group: Dyad, height: int | None, own: Mapping[str, str]
-) -> tuple[int, int]:
+def lay_guide(pen: Pen, group: Dyad, height: int | None, own: Mapping[str, Any]) -> tuple[int, int]:
     """The direction and the line of a guide by its ``pivot`` and ``pin``, where these stand."""
     places = [pen.the("position", own[end]) for end in ("pivot", "pin")]
     way, extra = pen.choice(group)
@@ -276,7 +282,7 @@ def lay_guide(
             by_hand = {} if way else tangent(pen, places, height, extra[0])
             last = by_hand.get("tangent")
             turn = pen.draw(swing, *places, height, *way, extra=sized, by_hand=last)
-        line = pen.draw_shared(("swing", own["link"]), ray, places[0], turn)
+        line = pen.draw_shared(("swing", group.inner.links[1]), ray, places[0], turn)
     if height is None:
         through = LineOfPins if isinstance(group, OnTwoPins) else GuideThroughPins
         pen.make(through(**own, turn=turn, line=line))

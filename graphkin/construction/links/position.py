@@ -176,7 +176,8 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
             f"links.{link}",
             found,
             expected,
-            "another closure may fit; or take a driver away, if the link is to move the rest",
+            "another closure may fit, and graphkin check lists them; or take a driver away, if the "
+            "link is to move the rest",
         )
     )
 
