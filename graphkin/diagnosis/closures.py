@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.bases import kept_touches
-from graphkin.construction.core.branches import block_of, has_two_ways
+from graphkin.construction.core.branches import block_of, has_two_ways, key_of
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.program import Part, Program, Step, Target
 from graphkin.construction.core.run import StepFailed
@@ -46,12 +46,13 @@ class Choice(Struct, frozen=True):
     """A group, one of its points, and its closures: of a dyad the picked one first.
 
     Where no point of it tells them apart, ``pin`` is a link of it, ``is_turned``, and the places
-    are unit vectors along that link's x axis.
+    are unit vectors along that link's x axis. [branches] states the closure under ``key``.
     """
 
     links: tuple[str, ...]
     pin: str
     closures: tuple[GroupClosure, ...]
+    key: str = ""
     is_turned: bool = False
 
 
@@ -108,9 +109,10 @@ def choices(scene: Scene, groups: tuple[Group, ...], program: Program) -> tuple[
         told = told_by(scene, group, program)
         if isinstance(group, Dyad):
             both = [dyad_closure(positions, number, group, told, way) for way in (1, -1)]
-            found.append(told_apart(group.links, told, tuple(both)))
+            closures = tuple(both)
         else:
-            found.append(told_apart(group.links, told, numbered(positions, number, told)))
+            closures = numbered(positions, number, told)
+        found.append(told_apart(group.links, told, closures, key_of(scene, group) or ""))
     return tuple(found)
 
 
@@ -133,7 +135,10 @@ def told_by(scene: Scene, group: Group, program: Program) -> tuple[Target, ...]:
 
 
 def told_apart(
-    links: tuple[str, ...], told: tuple[Target, ...], closures: tuple[GroupClosure, ...]
+    links: tuple[str, ...],
+    told: tuple[Target, ...],
+    closures: tuple[GroupClosure, ...],
+    key: str,
 ) -> Choice:
     """The closures of a group by the first point that differs between all of them, or link."""
     drawn = [each.stands for each in closures if each.place is not None]
@@ -144,7 +149,7 @@ def told_apart(
         each if each.place is None else replace(each, place=each.stands.get((what, name)))
         for each in closures
     )
-    return Choice(links, name, shown, what == "axis")
+    return Choice(links, name, shown, key, what == "axis")
 
 
 def are_apart(places: Sequence[complex]) -> bool:
@@ -206,7 +211,7 @@ def dyad_closure(
 ) -> GroupClosure:
     """One closure of a dyad: the picked crossing (way +1) or the other one (-1)."""
     scene, program, stated = positions.scene, positions.program, positions.stated
-    words = words_of(scene, told[0][1], dyad, way)
+    words = words_of(scene, dyad, way)
     if way > 0 and stated:
         stands = dict(found_of(program, told, stated))
         place, unfit = stands.get(told[0]), positions.unfit(stated)
@@ -304,9 +309,9 @@ def found_of(
             yield target, place
 
 
-def words_of(scene: Scene, pin: str, dyad: Dyad, way: int) -> str:
+def words_of(scene: Scene, dyad: Dyad, way: int) -> str:
     """A closure as [branches] writes it: left or right of a line, forward or backward."""
-    match branch_of(scene, pin, dyad):
+    match branch_of(scene, dyad):
         case Side(first, second, side):
             return f"{'left' if side * way > 0 else 'right'} of {first}-{second}"
         case Way(forward):
@@ -314,9 +319,11 @@ def words_of(scene: Scene, pin: str, dyad: Dyad, way: int) -> str:
     return "as the scene has it" if way > 0 else "the other"
 
 
-def branch_of(scene: Scene, pin: str, dyad: Dyad) -> Branch | None:
-    """What the scene says of a dyad: of its inner pin, or of one of its links."""
-    names: Iterator[str] = iter((pin, *dyad.links, *dyad.inner.links, *dyad.right.links))
-    if isinstance(dyad, OnTwoPins):
-        names = iter((block_of(dyad),))
-    return next((b for b in (scene.branches.get(name) for name in names) if b is not None), None)
+def branch_of(scene: Scene, dyad: Dyad) -> Branch | None:
+    """What the scene says of a dyad: of its inner pin, or of its block."""
+    names = [key_of(scene, dyad)]
+    if has_two_ways(dyad):
+        names.append(block_of(dyad))
+    return next(
+        (b for b in (scene.branches.get(name or "") for name in names) if b is not None), None
+    )

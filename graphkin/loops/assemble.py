@@ -195,9 +195,14 @@ def stated(
 
 
 def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | None:
-    """The guide of ``part`` whose coordinate tells forward from backward: the link's, or any."""
+    """The guide of ``part`` whose coordinate tells forward from backward: that of the link, or of
+    one that a pin of this name joins; or any."""
     inside = [loops.guides[joint.slide] for joint in group.slides]
-    own = [guide for guide in inside if guide.block == link]
+    own = [
+        g
+        for g in inside
+        if g.block == link or link in {**part.bodies[g.block], **part.bodies[g.on]}
+    ]
     led = next((spot(guide) for guide in own or inside), None)
     return next((j for j, guide in enumerate(part.guides) if spot(guide) == led), None)
 

@@ -138,7 +138,13 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
     A number means the group of the link. A way means the group of the slide whose block it names;
     the block itself may be known before, having closed with another group. Of a wheel on a straight
     track it means the group of the wheel: a track that lies on a known wheel has no way of its own.
+    A way under the name of a pin means the group that the pin joins, whatever its block says.
     """
+    if isinstance(branch, Way) and name not in loops.bodies:
+        return bool(group.slides) and any(joint.pin == name for joint in group.inner)
+    stated = (loops.scene.branches.get(joint.pin) for joint in group.inner if joint.pin)
+    if isinstance(branch, Way) and group.slides and any(isinstance(each, Way) for each in stated):
+        return False
     own = {j: guide.turns_alike for j, guide in enumerate(loops.guides) if guide.block == name}
     if isinstance(branch, Way) and own:
         led = (own[joint.slide] for joint in group.slides if joint.slide in own)

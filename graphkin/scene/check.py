@@ -24,6 +24,7 @@ from graphkin.scene.model import (
     Link,
     Scene,
     Side,
+    Way,
     lengths_of,
     link_words,
 )
@@ -125,8 +126,9 @@ def check_alone(scene: Scene, findings: Findings) -> None:
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:
-    """A side is chosen for a point, a way or a closure for a link."""
+    """A side is chosen for a point, a way or a closure for a link, a way also for a pin."""
     points = scene.points
+    shared = Counter(point for link in scene.every_link for point in link.points)
     for name, branch in scene.branches.items():
         place = f"branches.{name}"
         if name not in points and name not in scene.links:
@@ -141,6 +143,8 @@ def check_branches(scene: Scene, findings: Findings) -> None:
                 known_point(point, points, "the mechanism", place, findings)
             if name in (branch.first, branch.second):
                 findings.add(place, f"{name} on a side of itself", "a line of two other points")
+        elif isinstance(branch, Way) and shared[name] > 1:
+            continue
         elif name not in scene.links:
             expected = '"left of P-Q" or "right of P-Q"'
             blocks = [link for link in scene.links.values() if link.slides and name in link.points]
