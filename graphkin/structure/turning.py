@@ -42,16 +42,16 @@ def guides_under(scene: Scene, name: str) -> Iterator[str]:
 
 def together(scene: Scene, name: str) -> frozenset[str]:
     """All links that turn with a link: slides alone lead from one to the other, or two pins do."""
+    beside: dict[str, list[str]] = {}
     joined = [(block, slide.on) for block, slide in every_slide(scene)]
-    joined += [(block, on) for block, _, on in pinned_twice(scene)]
+    for one, other in (*joined, *((block, on) for block, _, on in pinned_twice(scene))):
+        beside.setdefault(one, []).append(other)
+        beside.setdefault(other, []).append(one)
     found, waiting = {name}, [name]
     while waiting:
-        here = waiting.pop()
-        for pair in joined:
-            for one, other in (pair, pair[::-1]):
-                if one == here and other not in found:
-                    found.add(other)
-                    waiting.append(other)
+        new = [link for link in beside.get(waiting.pop(), ()) if link not in found]
+        found.update(new)
+        waiting += new
     return frozenset(found)
 
 
