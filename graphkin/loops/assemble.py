@@ -140,8 +140,7 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     holds = np.ones(len(found), dtype=np.bool_)
     motion = places_of(part, found)
     for name, branch in scene.branches.items():
-        ahead = facing(part, motion, name) if isinstance(branch, Way) else None
-        if ahead is not None:
+        if isinstance(branch, Way) and (ahead := facing(part, motion, name)) is not None:
             holds &= branch.way * ahead > 0
     facing_so = holds.copy()
     for name, branch in scene.branches.items():

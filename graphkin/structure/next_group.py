@@ -212,7 +212,7 @@ def is_parallel(scene: Scene, rail: str, *pairs: Sliding) -> bool:
     if any(pair.block == rail and pair.slide != scene.link(rail).slides[0] for pair in pairs):
         return False
     one, other = (guide_on(scene, rail, pair.block, pair.slide) for pair in pairs)
-    return abs(cross(one, other)) <= LEVEL
+    return bool(abs(cross(one, other)) <= LEVEL)
 
 
 def on_two_pins(

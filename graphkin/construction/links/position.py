@@ -15,8 +15,8 @@ from graphkin.construction.links.link_shapes import bar_length, local_place, pla
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Apart, Link
-from graphkin.structure.groups import Crank, Driven, Dyad, Tie
-from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding
+from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Tie
+from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
 FITS = 1e-6
@@ -68,11 +68,11 @@ def driven(pen: Pen, group: Driven) -> None:
 
 def dyad(pen: Pen, group: Dyad) -> None:
     """What two links and three pairs leave free: one crossing of two loci."""
-    match group.left, group.inner, group.right:
-        case Pin(), PinLine(), Pin():
-            from graphkin.construction.guides.swung_guide import guide_by_pins
+    if isinstance(group, OnTwoPins):
+        from graphkin.construction.guides.swung_guide import guide_by_pins
 
-            guide_by_pins(pen, group)
+        return guide_by_pins(pen, group)
+    match group.left, group.inner, group.right:
         case Pin(point=left), Pin(point=pin), _:
             with pen.on(Part.POSITION, Plane.MECHANISM):
                 near = arc(pen, group.links[0], left, pin)

@@ -68,10 +68,11 @@ def branch_conditions(
             side = turned_side(motion, branch.first, branch.second, name)
             found[name] = np.asarray(branch.side * side > -side_slack(solved, name, branch))
             continue
-        ahead = facing(solved.loops, motion, name) if isinstance(branch, Way) else None
-        if ahead is not None:
-            found[name] = np.asarray(branch.way * ahead > 0)
-            continue
+        if isinstance(branch, Way):
+            ahead = facing(solved.loops, motion, name)
+            if ahead is not None:
+                found[name] = np.asarray(branch.way * ahead > 0)
+                continue
         for group in (each for each in known if speaks_of(name, branch, each, solved.loops)):
             if isinstance(branch, Way) and group.is_dyad:
                 holds = way_of_dyad(branch, solved, group)
