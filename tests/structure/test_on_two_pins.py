@@ -41,7 +41,7 @@ def test_the_independent_route_agrees(name):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_other_way_round_is_another_closure(name):
-    """The rail turned over on its pins, where the rest still closes: the witness tells them apart."""
+    """The rail turned over on its pins is told from how it stands, by the witness too."""
     scene = found(name).scene
     (group,) = (each for each in found(name).groups if isinstance(each, OnTwoPins))
     key = group.inner.named
