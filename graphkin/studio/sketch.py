@@ -214,7 +214,7 @@ def others(mechanism: Mechanism) -> Iterator[Ghost]:
     """The closures that are not drawn, each with the branch that chooses it."""
     scene = mechanism.scene
     metre = METRES[scene.units["length"]]
-    for choice in choices(scene, mechanism.groups, mechanism.program):
+    for choice in choices(scene, *mechanism.laid):
         key = choice.key
         for closure in choice.closures:
             if not key or closure.picked or closure.fails or closure.unfit or closure.place is None:

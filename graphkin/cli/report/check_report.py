@@ -74,16 +74,17 @@ class Checking:
         mechanism = self.mechanism
         lines: list[str] = []
         try:
-            program = mechanism.program
+            groups, program = mechanism.laid
         except StructureError:  # an idle link may have no room in the stated closure
-            program = write(mechanism.scene, mechanism.groups, fitted=False)
-        for choice in choices(mechanism.scene, mechanism.groups, program):
+            groups = mechanism.groups
+            program = write(mechanism.scene, groups, fitted=False)
+        for choice in choices(mechanism.scene, groups, program):
             lines += closure_lines(choice)
         stated = any(line.startswith("*") for line in lines)
         legend = ["(* as the scene says)"] if stated else []
         lines = lines or ["nothing to choose"]
         yield from labelled("closures", [*lines, *legend])
-        if program is mechanism.program:
+        if program is mechanism.program:  # which raises where an idle link has no room
             yield from labelled("range", range_lines(mechanism))
 
     def rank(self) -> list[str]:

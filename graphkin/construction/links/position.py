@@ -71,7 +71,8 @@ def dyad(pen: Pen, group: Dyad) -> None:
     if isinstance(group, OnTwoPins):
         from graphkin.construction.guides.swung_guide import guide_by_pins
 
-        return guide_by_pins(pen, group)
+        guide_by_pins(pen, group)
+        return
     match group.left, group.inner, group.right:
         case Pin(point=left), Pin(point=pin), _:
             with pen.on(Part.POSITION, Plane.MECHANISM):
