@@ -168,9 +168,9 @@ def joined_once(every: Joints, link: str) -> dict[str, Joint]:
     return {other: joined[0] for other, joined in pairs.items() if len(joined) == 1}
 
 
-def place_of(joint: Joint) -> object:
-    """What tells a pair from another: the point of a pin, else itself."""
-    return joint.point if isinstance(joint, Pin) else joint
+def place_of(joint: Joint) -> str | tuple[str, str]:
+    """What tells a pair from another: the point of a pin, else the two links."""
+    return joint.point if isinstance(joint, Pin) else joint.links
 
 
 class Bodies(dict[str, Mapping[str, complex]]):
