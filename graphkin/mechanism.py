@@ -21,6 +21,7 @@ from graphkin.construction.core.solution import (
     rows_of,
     without_touching,
 )
+from graphkin.construction.flat_rods import Laid, laid
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.arrays import np
 from graphkin.scene import scene_files
@@ -103,9 +104,14 @@ class Mechanism(Struct, frozen=True, dict=True):
         return groups
 
     @cached_property
+    def laid(self) -> Laid:
+        """The groups as they are drawn where the mechanism stands, and their construction."""
+        return laid(self.scene, self.groups)
+
+    @cached_property
     def program(self) -> Program:
         """The construction, step by step, of everything that can be asked."""
-        return write(self.scene, self.groups)
+        return self.laid[1]
 
     @cached_property
     def press(self) -> BatchRunner:

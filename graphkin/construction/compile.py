@@ -45,14 +45,17 @@ Standing = list[tuple[Group, tuple[Base, ...]]]
 """Each group with the bases of its links."""
 
 
-def write(scene: Scene, groups: tuple[Group, ...]) -> Program:
-    """The program of a mechanism, everything included. Raises StructureError, all at once."""
+def write(scene: Scene, groups: tuple[Group, ...], *, fitted: bool = True) -> Program:
+    """The program of a mechanism, everything included. Raises StructureError, all at once.
+
+    Also for idle links without room in the stated closure, unless these need not be ``fitted``.
+    """
     standing = stand(scene, groups)
     pen = Pen(scene)
     position.frame(pen)
     for group, found in standing:
         place(pen, group, found)
-        if isinstance(group, Tie):
+        if fitted and isinstance(group, Tie):
             position.refuse_misfit(pen, group)
     if any(link.rolls for link in scene.every_link):
         from graphkin.construction.rolling import rolling

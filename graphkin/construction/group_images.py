@@ -30,7 +30,7 @@ from graphkin.construction.velocity.image_of_link import (
     translated_image,
 )
 from graphkin.construction.velocity.velocity import BarVelocity, GuideVelocity, slide_arrow
-from graphkin.structure.groups import Crank, Driven, Dyad, Spun, Tie, other_of
+from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie, other_of
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
 
 Sides = list[tuple[Joint, str]]
@@ -116,7 +116,9 @@ class GroupImages(Struct, frozen=True):
     # --- dyads and ties --------------------------------------------------------------------------
 
     def dyad(self, pen: Pen, group: Dyad) -> None:
-        """Image of the point that closes a dyad."""
+        """Image of the point that closes a dyad; both pins of a guide on one link turn with it."""
+        if isinstance(group, OnTwoPins) and group.inner.on is not None:
+            return
         self.cross(pen, *sides_of(pen.bases, group))
 
     def tie(self, pen: Pen, group: Tie) -> None:

@@ -20,6 +20,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    OnTwoPins,
     Spun,
     Stretched,
     Tie,
@@ -49,6 +50,8 @@ def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()
     match group:
         case Crank() | Driven() | Spun():
             return words("calculation.group_driven", links=links)
+        case OnTwoPins():
+            return words("calculation.group_pins", links=links, rail=escape(group.rail))
         case Dyad():
             return words("calculation.group_dyad", links=links, type=group.type)
         case CamFollower():

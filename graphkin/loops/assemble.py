@@ -10,11 +10,17 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from msgspec.structs import replace
 
-from graphkin.loops.branch_closures import ON_LINE, closures, scattered, turned_side
+from graphkin.loops.branch_closures import (
+    ON_LINE,
+    closures,
+    facing,
+    places_of,
+    scattered,
+    turned_side,
+)
 from graphkin.loops.cam_laws import by_law
-from graphkin.loops.closing_groups import Group, counted_in_order, speaks_of, stages
+from graphkin.loops.closing_groups import Group, Mask, counted_in_order, speaks_of, stages
 from graphkin.loops.equations import Equations, equations, part_of, undriven
 from graphkin.loops.loop_motion import Motion, Pose, pose_of, setting_of, spot, unknowns_of
 from graphkin.loops.newton import AT_REST, LoopSolution, closed_from, largest, newton, scaled
@@ -134,7 +140,11 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     holds = np.ones(len(found), dtype=np.bool_)
     motion = places_of(part, found)
     for name, branch in scene.branches.items():
-        holds &= stated(name, branch, motion, group, found, loops)
+        if isinstance(branch, Way) and (ahead := facing(part, motion, name)) is not None:
+            holds &= branch.way * ahead > 0
+    facing_so = holds.copy()
+    for name, branch in scene.branches.items():
+        holds &= stated(name, branch, motion, group, found, loops, facing_so)
     fitting = np.flatnonzero(holds)
     if len(fitting) == 1:
         return np.asarray(found[fitting[0]])
@@ -148,12 +158,6 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     raise StructureError(problem) if len(fitting) else WitnessError(problem)
 
 
-def places_of(part: Equations, found: Reals) -> Motion:
-    """Where points stand in each closure; nothing moves."""
-    many = replace(part, home=np.repeat(part.home, len(found)))
-    return Motion.of(many, found, np.zeros_like(found), np.zeros_like(found))
-
-
 def stated(
     name: str,
     branch: Side | Way | Closure,
@@ -161,8 +165,12 @@ def stated(
     group: Group,
     found: Reals,
     loops: Equations,
-) -> np.ndarray[Any, np.dtype[np.bool_]]:
-    """Which closures of a group fit one statement of the scene; all where it means another."""
+    facing_so: Mask,
+) -> Mask:
+    """Which closures of a group fit one statement of the scene; all where it means another.
+
+    Of those that have links which two pins guide the right way round (``facing_so``).
+    """
     part = motion.loops
     everything = np.ones(len(found), dtype=np.bool_)
     if isinstance(branch, Side):
@@ -178,17 +186,22 @@ def stated(
     if isinstance(branch, Closure):
         return np.asarray(np.arange(1, len(found) + 1) == branch.number)
     j = led_by(name, group, loops, part)
-    if j is None:
+    if j is None or not facing_so.any() or facing(part, motion, name) is not None:
         return everything
     slid = found[:, part.turning_count + j]
-    end = slid.max() if branch.way > 0 else slid.min()
+    end = slid[facing_so].max() if branch.way > 0 else slid[facing_so].min()
     return np.asarray(np.abs(slid - end) <= ON_LINE * part.size)
 
 
 def led_by(link: str, group: Group, loops: Equations, part: Equations) -> int | None:
-    """The guide of ``part`` whose coordinate tells forward from backward: the link's, or any."""
+    """The guide of ``part`` whose coordinate tells forward from backward: that of the link, or of
+    one that a pin of this name joins; or any."""
     inside = [loops.guides[joint.slide] for joint in group.slides]
-    own = [guide for guide in inside if guide.block == link]
+    own = [
+        g
+        for g in inside
+        if g.block == link or link in {**part.bodies[g.block], **part.bodies[g.on]}
+    ]
     led = next((spot(guide) for guide in own or inside), None)
     return next((j for j, guide in enumerate(part.guides) if spot(guide) == led), None)
 

@@ -9,15 +9,19 @@ abs(w + x·u) = abs(w) has the roots x = 0 and x = -2 w·u.
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
+from msgspec.structs import replace
 
 from graphkin.loops.closing_groups import Group, Joint, Mask, moved_by
 from graphkin.loops.equations import Equations, part_of
 from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
 from graphkin.loops.newton import CLOSED, largest, moving_step, newton, scaled
 from graphkin.loops.newton_start import as_meant, counted_freely, settle
-from graphkin.loops.rigid_bodies import Complexes, Reals
+from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
 from graphkin.loops.rounding import PositionBounds
+from graphkin.scene.model import FRAME
 
 STARTS = {1: 12, 2: 48}
 """Random starts from which the closures of a group of so many links are looked for."""
@@ -67,6 +71,74 @@ def turned_side(motion: Motion, first: str, second: str, pin: str) -> Reals:
     start, end, place = (motion.place(name) for name in (first, second, pin))
     line, arm = end - start, place - start
     return np.asarray((line.conj() * arm).imag / (abs(line) * abs(arm)))
+
+
+def led_both(loops: Equations, name: str) -> tuple[str, Guide, str, str] | None:
+    """The link that two pins guide, of which a scene says under a name which way round it lies.
+
+    With it the guide of the first written of its two blocks, and the pins of both. None where no
+    two blocks slide along it in one direction, pinned apart. The name of a block on it means it
+    only where it is itself a block on the other.
+    """
+    guides = [guide for guide in loops.guides if guide.turns_alike]
+    rails = [guide.on for guide in guides if guide.block == name]
+    rail = rails[0] if rails else name
+    slides = [g for g in guides if rail in (g.block, g.on) and other_of(g, rail) != FRAME]
+    slides.sort(key=lambda g: loops.links.index(other_of(g, rail)))
+    for one, other in combinations(slides, 2):
+        if bool(rails) != (rail in (one.block, other.block)):
+            continue
+        if np.all(abs(np.imag(np.conj(way_on(one, rail)) * way_on(other, rail))) < LEVEL):
+            pins = [pin_of(loops, other_of(g, rail), rail) for g in (one, other)]
+            if None not in pins and pins[0] != pins[1]:
+                return rail, one, str(pins[0]), str(pins[1])
+    return None
+
+
+def other_of(guide: Guide, link: str) -> str:
+    """The other of the two links of a guide."""
+    return guide.on if guide.block == link else guide.block
+
+
+def way_on(guide: Guide, link: str) -> Complexes:
+    """The direction of a guide in the axes of one of its links."""
+    return np.asarray(guide.along if guide.on == link else 1 + 0j)
+
+
+def pin_of(loops: Equations, block: str, rail: str) -> str | None:
+    """The first point that a block shares with a link other than that along which it slides."""
+    others = [body for name, body in loops.bodies.items() if name not in (block, rail)]
+    return next((p for p in loops.bodies[block] if any(p in body for body in others)), None)
+
+
+def facing(loops: Equations, motion: Motion, name: str) -> Reals | None:
+    """How far (m) the pin of the later written block is ahead of the other along the link that both
+    guide; None for a name that is of no such link."""
+    found = led_both(loops, name)
+    if found is None:
+        return None
+    rail, guide, start, end = found
+    heading = motion.heading[:, motion.index[rail]] * way_on(guide, rail)
+    way = motion.point(end).place - motion.point(start).place
+    return np.asarray((way * heading.conj()).real)
+
+
+def facing_alike(part: Equations, stands: Reals, rows: Reals, group: Group) -> Mask:
+    """Which closures of a group have the links that two pins guide the way round they ``stand``."""
+    alike = np.ones(len(rows), dtype=np.bool_)
+    now, others = places_of(part, stands), places_of(part, rows)
+    for link in group.links:
+        ahead, every = (facing(part, motion, link) for motion in (now, others))
+        if ahead is not None and every is not None:
+            alike &= ahead * every > 0
+    return alike
+
+
+def places_of(part: Equations, found: Reals) -> Motion:
+    """Where points stand in each closure; nothing moves."""
+    many = replace(part, home=np.repeat(part.home, len(found)))
+    still = np.zeros_like(found)
+    return Motion.of(many, found, still, still)
 
 
 def closure_numbers(loops: Equations, group: Group, row: Reals, setting: int) -> range:

@@ -138,7 +138,13 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
     A number means the group of the link. A way means the group of the slide whose block it names;
     the block itself may be known before, having closed with another group. Of a wheel on a straight
     track it means the group of the wheel: a track that lies on a known wheel has no way of its own.
+    A way under the name of a pin means the group that the pin joins, whatever its block says.
     """
+    if isinstance(branch, Way) and name not in loops.bodies:
+        return bool(group.slides) and any(joint.pin == name for joint in group.inner)
+    stated = (loops.scene.branches.get(joint.pin) for joint in group.inner if joint.pin)
+    if isinstance(branch, Way) and group.slides and any(isinstance(each, Way) for each in stated):
+        return False
     own = {j: guide.turns_alike for j, guide in enumerate(loops.guides) if guide.block == name}
     if isinstance(branch, Way) and own:
         led = (own[joint.slide] for joint in group.slides if joint.slide in own)
@@ -197,18 +203,30 @@ class Net:
         return tuple(first[n] for n in sorted(first)), tuple(second[n] for n in sorted(second))
 
     def sets_beside(self, links: Iterable[str], known: frozenset[str]) -> list[Set]:
-        """The sets of one and of two unknown links, joined together, beside some links."""
-        every, ties = self.near(links)
-        beside = {link for joint in (*every, *ties) for link in joint.links} - known
+        """The sets of one and of two unknown links, joined together, beside some known links.
+
+        What a pin joins to links that were known before is beside these already, and no pin that
+        is known joins two unknown links.
+        """
+        chosen = tuple(links)
+        every, ties = self.near(chosen)
+        before = self.pins_of(known.difference(chosen))
+        new = [joint for joint in every if joint.pin not in before]
+        beside = {link for joint in (*new, *ties) for link in joint.links} - known
+        stands = self.pins_of(known)
         found: set[Set] = set()
         for link in beside & self.order.keys():
             found.add((1, (self.order[link],)))
             mine, tied_to = self.near((link,))
-            others = {each for joint in mine for each in joint.links}
+            others = {each for joint in mine if joint.pin not in stands for each in joint.links}
             others |= {each for tie in tied_to if link in tie.links[:2] for each in tie.links[:2]}
             pairs = ({link, each} for each in (others & self.order.keys()) - known - {link})
             found |= {(2, tuple(sorted(self.order[each] for each in pair))) for pair in pairs}
         return sorted(found)
+
+    def pins_of(self, links: Iterable[str]) -> set[str]:
+        """The points of some links."""
+        return {point for link in links for point in self.loops.bodies[link]}
 
     def ready(self, links: tuple[str, ...], known: frozenset[str]) -> Group | None:
         """The group that some links make, if it is determined."""

@@ -24,6 +24,7 @@ from graphkin.scene.model import (
     Link,
     Scene,
     Side,
+    Way,
     lengths_of,
     link_words,
 )
@@ -125,7 +126,10 @@ def check_alone(scene: Scene, findings: Findings) -> None:
 
 
 def check_branches(scene: Scene, findings: Findings) -> None:
-    """A side is chosen for a point, a way or a closure for a link."""
+    """A side is chosen for a point, a way or a closure for a link.
+
+    A way also for a pin, where a link is led in several ways.
+    """
     points = scene.points
     for name, branch in scene.branches.items():
         place = f"branches.{name}"
@@ -141,6 +145,8 @@ def check_branches(scene: Scene, findings: Findings) -> None:
                 known_point(point, points, "the mechanism", place, findings)
             if name in (branch.first, branch.second):
                 findings.add(place, f"{name} on a side of itself", "a line of two other points")
+        elif isinstance(branch, Way) and is_of_several_ways(scene, name):
+            continue
         elif name not in scene.links:
             expected = '"left of P-Q" or "right of P-Q"'
             blocks = [link for link in scene.links.values() if link.slides and name in link.points]
@@ -149,6 +155,13 @@ def check_branches(scene: Scene, findings: Findings) -> None:
             found = f"forward, backward or a closure for point {name}"
             outer = f"P and Q are the outer pins of the two links that {name} joins"
             findings.add(place, found, expected, hint if blocks else outer)
+
+
+def is_of_several_ways(scene: Scene, point: str) -> bool:
+    """Whether a point is of a link that is led in several ways, or of what leads one."""
+    several = [link for link in scene.links.values() if len(link.paths) > 1]
+    near = {name for link in several for name in (link.name, *(path.on for path in link.paths))}
+    return any(point in scene.link(name).points for name in near if name != FRAME)
 
 
 def side_hint(scene: Scene, name: str, side: Side) -> str:

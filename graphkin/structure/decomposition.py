@@ -13,7 +13,15 @@ from graphkin.scene.model import FRAME, Cam, Driver, Scene
 from graphkin.structure.groups import Group, Unresolved
 from graphkin.structure.joints import Joints
 from graphkin.structure.link_axes import body, guide_line, metres
-from graphkin.structure.next_group import next_driven, next_group, next_stretched, next_tie, settle
+from graphkin.structure.next_group import (
+    left_by,
+    next_driven,
+    next_group,
+    next_on_two_pins,
+    next_stretched,
+    next_tie,
+    settle,
+)
 from graphkin.structure.wheel_groups import next_coupled, tracks_held, wedged_wheels
 from graphkin.text.errors import Problem, StructureError
 
@@ -34,16 +42,32 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
             or next_group(joints, known)
             or next_stretched(joints, known, waiting)
             or next_tie(joints, known)
+            or next_on_two_pins(joints, known, waiting)
             or next_tried(joints, known, waiting)
             or unresolved(joints, known, waiting)
         )
         groups.append(group)
         settle(group, known, waiting)
+        joints = left_by(group, joints)
     return tuple(groups)
 
 
 def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
-    """The next group of higher class; what finds these is loaded where the others end."""
+    """The next group of higher class; what finds these is loaded where the others end.
+
+    First without the bars that parallel ones make idle: they would seem to close a group.
+    """
+    from graphkin.structure.parallel_bars import idle_bars
+
+    if idle := {*idle_bars(joints.scene)} - {*known}:
+        found = tried(joints.leaving(idle), known, waiting)
+        if found is not None:
+            return found
+    return tried(joints, known, waiting)
+
+
+def tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+    """The next group that closes after some of its links have been tried."""
     from graphkin.structure.higher_groups import next_higher
 
     return (

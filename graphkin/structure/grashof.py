@@ -131,26 +131,46 @@ def single_loops(scene: Scene) -> tuple[Loop, ...]:
     found: list[Loop] = []
     if scene.cams:  # an equivalent linkage holds at its instant alone
         return ()
-    every, bodies = Joints(scene), Bodies(scene)
-    for links in four_cycles(every):
-        beside = zip(links, (*links[1:], links[0]), strict=True)
-        joined = [every.between(link, (other,)) for link, other in beside]
-        if all(len(pairs) == 1 for pairs in joined):
-            loop = loop_of(bodies, links, [pairs[0] for pairs in joined])
-            found += [] if loop is None else [loop]
+    bodies = Bodies(scene)
+    for links, joints in four_cycles(Joints(scene)):
+        loop = loop_of(bodies, links, joints)
+        found += [] if loop is None else [loop]
     return tuple(sorted(found, key=lambda loop: FRAME not in loop.links))
 
 
-def four_cycles(every: Joints) -> Iterator[tuple[str, str, str, str]]:
-    """Each ring of four links joined one to the next, once, its first-written link first."""
+def four_cycles(every: Joints) -> Iterator[tuple[tuple[str, ...], list[Joint]]]:
+    """Each ring of four links joined one to the next, once, its first-written link first.
+
+    Each link is joined to both neighbours by one pair each, at another place, for else these are
+    joined past it: so many links at one pin make no ring.
+    """
     order = every.order
-    near = {name: every.neighbours(name) for name in order}
+    near = {name: joined_once(every, name) for name in order}
     for first in order:
         later = [name for name in near[first] if order[name] > order[first]]
+        at_start = {name: place_of(near[first][name]) for name in later}
         for second, last in combinations(later, 2):
-            for third in near[second]:
-                if order[third] > order[first] and third != last and third in near[last]:
-                    yield first, second, third, last
+            if at_start[second] == at_start[last]:
+                continue
+            for third, inner in near[second].items():
+                outer = near[last].get(third)
+                if outer is None or third == last or order[third] <= order[first]:
+                    continue
+                places = at_start[second], place_of(inner), place_of(outer), at_start[last]
+                if len({*places}) == len(places):
+                    joints = [near[first][second], inner, outer, near[first][last]]
+                    yield (first, second, third, last), joints
+
+
+def joined_once(every: Joints, link: str) -> dict[str, Joint]:
+    """The links that one pair joins to a link, each with that pair, as written."""
+    pairs = {other: every.between(link, (other,)) for other in every.neighbours(link)}
+    return {other: joined[0] for other, joined in pairs.items() if len(joined) == 1}
+
+
+def place_of(joint: Joint) -> str | tuple[str, str]:
+    """What tells a pair from another: the point of a pin, else the two links."""
+    return joint.point if isinstance(joint, Pin) else joint.links
 
 
 class Bodies(dict[str, Mapping[str, complex]]):

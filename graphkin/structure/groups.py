@@ -11,7 +11,7 @@ from graphkin.scene.findings import natural
 from graphkin.scene.link_points import under
 from graphkin.scene.model import Driver, joined_words
 from graphkin.structure.one_link import Crank, Driven, Tie, TriedLink, other_of
-from graphkin.structure.pairs import Contact, Joint, Pin, Sliding
+from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding
 from graphkin.structure.wheel_groups import CoupledTrain, Geared, PinnedWheel, Spun, Train
 from graphkin.text.plain_table import listed
 
@@ -85,6 +85,7 @@ __all__ = [
     "Geared",
     "Group",
     "Higher",
+    "OnTwoPins",
     "PinnedWheel",
     "Spun",
     "Stretched",
@@ -127,6 +128,32 @@ class Dyad(Struct, frozen=True):
         outer = listed(pair.brief for pair in self.outer)
         of = f"{self.title} (class II, order 2) of links {listed(self.links)}"
         return f"{of}, inner {self.inner.brief}, outer {outer}"
+
+
+class OnTwoPins(Dyad, frozen=True):
+    """Two blocks on known pins in parallel guides of one link: their pins guide that link.
+
+    Its direction follows from both pins; how far it has slid is left to what comes after. The
+    dyad is that of the blocks, of which each leads the other along the line of the guides.
+    """
+
+    inner: PinLine
+
+    @property
+    def rail(self) -> str:
+        """The link that both guide."""
+        return self.inner.rail
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return f"guide of link {self.rail} through two pins"
+
+    @property
+    def words(self) -> str:
+        """Its links, the link that they guide, and by what."""
+        pins = listed(pair.brief for pair in self.outer)
+        return f"{joined_words(self.links)} on {pins} guide link {self.rail}"
 
 
 class CamFollower(Struct, frozen=True):

@@ -25,8 +25,10 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.joints import Joints, partner
 from graphkin.structure.next_group import (
+    left_by,
     next_driven,
     next_group,
+    next_on_two_pins,
     next_stretched,
     next_tie,
     settle,
@@ -156,6 +158,7 @@ def closing(
             next_driven(joints, grown, left)
             or next_group(joints, grown)
             or next_stretched(joints, grown, left)
+            or next_on_two_pins(joints, grown, left)
             or (next_group(let_slip(joints, grown), grown) if by_wheels else None)
             or (least_tried(joints, grown, left, count, by_wheels) if count else None)
         )
@@ -165,6 +168,7 @@ def closing(
             group = by_known(joints, group, {*known, tried.link})
         chain.append(group)
         settle(group, grown, left)
+        joints = left_by(group, joints)
         count -= len(group.nested) if isinstance(group, Higher) else 0
     ends = needed_by(last)
     kept = needed(joints, chain, ends)

@@ -67,6 +67,18 @@ class Joints:
         """The same pairs, where only some links are looked at as unknown."""
         return self._but(names=tuple(name for name in self.names if name in links))
 
+    def leaving(self, links: Collection[str]) -> Joints:
+        """The same pairs but those of some links, as if these were not there."""
+        others = {
+            link: [pair for pair in own if not {*pair.links} & {*links}]
+            for link, own in self.others.items()
+            if link not in links
+        }
+        owners = {p: tuple(k for k in own if k not in links) for p, own in self.owners.items()}
+        names = tuple(name for name in self.names if name not in links)
+        beside = {k: near - {*links} for k, near in self.beside.items() if k not in links}
+        return self._but(found={}, others=others, owners=owners, names=names, beside=beside)
+
     def with_pins(self, pins: Sequence[tuple[Joint, Pin]]) -> Joints:
         """The same pairs, with pins in place of some of them."""
         others = {

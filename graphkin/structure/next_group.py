@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from itertools import combinations
 
-from graphkin.scene.model import FRAME, Driver
+from msgspec.structs import replace
+
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME, Driver, Scene, Slide
+from graphkin.scene.quantity import exact
 from graphkin.structure.groups import (
     CamFollower,
     Crank,
@@ -13,12 +18,14 @@ from graphkin.structure.groups import (
     Dyad,
     Group,
     Higher,
+    OnTwoPins,
     Spun,
     Stretched,
     Tie,
 )
 from graphkin.structure.joints import Joints, partner
-from graphkin.structure.pairs import Joint, Pair, Pin, Sliding
+from graphkin.structure.pairs import Joint, Pair, Pin, PinLine, Sliding
+from graphkin.structure.turning import LEVEL, guide_on
 from graphkin.structure.wheel_groups import by_centres, geared_of, spun, train_with, turned_wheel
 
 
@@ -94,14 +101,22 @@ def dyad_with(
         right = joints.between(second, known)
         if len(inner) == len(right) == 1 and inner[0].taken == right[0].taken == 2:
             dyad = Dyad((first, second), left[0], inner[0], right[0])
-            if can_close(dyad):
+            if can_close(joints.scene, dyad):
                 return in_order(dyad)
     return None
 
 
-def can_close(dyad: Dyad) -> bool:
-    """False for three slides, which leave the group loose, and for wheels pinned off centre."""
-    return dyad.type != "PPP" and by_centres(dyad.inner, dyad.outer, dyad.links)
+def can_close(scene: Scene, dyad: Dyad) -> bool:
+    """False for slides that leave the group loose: three of them, or two along one direction of
+    their link; and for wheels pinned off centre."""
+    if dyad.type == "PPP" or not by_centres(dyad.inner, dyad.outer, dyad.links):
+        return False
+    inner = dyad.inner
+    ends = zip(dyad.links, dyad.outer, strict=True)
+    led = [(link, pair) for link, pair in ends if isinstance(pair, Sliding)]
+    if not isinstance(inner, Sliding):
+        return True
+    return not any(is_parallel(scene, link, inner, pair) for link, pair in led)
 
 
 def in_order(dyad: Dyad) -> Dyad:
@@ -159,6 +174,71 @@ def stretched_dyad(
     if second is None or joints.between(second.near, (near, far)):
         return None
     return Stretched((cylinder, second), Dyad((far, other), cylinder.foot, inner[0], second.foot))
+
+
+def next_on_two_pins(
+    joints: Joints, known: Collection[str], waiting: Sequence[Driver]
+) -> OnTwoPins | None:
+    """The first two blocks, as written, that guide a link together: on known pins, parallel.
+
+    What a driver slides along the link is kept to tell how far this has come.
+    """
+    driven = [{driver.link, driver.against} for driver in waiting if driver.kind == "slide"]
+    for rail in joints.unknown(known):
+        slides = joints.others[rail]
+        blocks = [each for pair in slides for each in pinned(joints, known, rail, pair)]
+        blocks.sort(key=lambda each: joints.order[partner(each[0], rail)])
+        for (first, start), (second, end) in combinations(blocks, 2):
+            if start.place != end.place and is_parallel(joints.scene, rail, first, second):
+                spare = first if {*second.links} in driven else second
+                return on_two_pins(joints, known, rail, (second, first), (end, start), spare)
+    return None
+
+
+def pinned(
+    joints: Joints, known: Collection[str], rail: str, pair: Joint
+) -> Iterator[tuple[Sliding, Pin]]:
+    """The slide between a link and a block on one known pin, with that pin; nothing else."""
+    block = partner(pair, rail)
+    if block in known or not isinstance(pair, Sliding):
+        return
+    held = joints.between(block, known)
+    if len(held) == 1 and isinstance(held[0], Pin) and len(joints.inner(rail, block, known)) == 1:
+        yield pair, held[0]
+
+
+def is_parallel(scene: Scene, rail: str, *pairs: Sliding) -> bool:
+    """Whether two guides lie in one direction on a link; false where its block names one second."""
+    if any(pair.block == rail and pair.slide != scene.link(rail).slides[0] for pair in pairs):
+        return False
+    one, other = (guide_on(scene, rail, pair.block, pair.slide) for pair in pairs)
+    return bool(abs(cross(one, other)) <= LEVEL)
+
+
+def on_two_pins(
+    joints: Joints,
+    known: Collection[str],
+    rail: str,
+    slides: tuple[Sliding, Sliding],
+    pins: tuple[Pin, Pin],
+    spare: Sliding,
+) -> OnTwoPins:
+    """Two blocks that guide a link: the later written with its pin, and the first."""
+    block, start = (partner(pair, rail) for pair in slides)
+    carriers = ({*joints.owners[pin.place]} & {*known} for pin in pins)
+    shared = sorted(set.intersection(*carriers), key=joints.order.__getitem__)
+    own, guide = slides[1].slide, Slide(start, pins[1].place, exact(0, "deg"), None, exact(0, "m"))
+    if own.on == start:
+        guide = replace(guide, angle=own.angle, along=own.along)
+    places = pins[0].place, pins[1].place
+    on = next(iter(shared), None)
+    line = PinLine(guide, (block, start), rail, slides, places, on, spare)
+    return OnTwoPins((start, block), pins[1], line, pins[0])
+
+
+def left_by(group: Group, joints: Joints) -> Joints:
+    """The pairs that count once a group is known: one of two blocks that guide a link suffices."""
+    return joints.without([group.inner.spare]) if isinstance(group, OnTwoPins) else joints
 
 
 def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:

@@ -28,6 +28,7 @@ __all__ = [
     "Leading",
     "Pair",
     "Pin",
+    "PinLine",
     "Sliding",
     "all_pairs",
     "contacts",
@@ -93,6 +94,37 @@ class Sliding(Struct, frozen=True):
     def led_point(self, scene: Scene, link: str) -> str:
         """The point of one of its links that it leads along a line."""
         return scene.link(link).points[0]
+
+
+class PinLine(Sliding, frozen=True):
+    """The line on which two blocks keep each other, for both slide on parallel guides of ``rail``.
+
+    ``links`` are the later written block and the first, from which the line leads; ``slides`` are
+    their pairs with the rail, and ``pins`` their pins, likewise. ``slide`` is the line as a guide
+    of the first. ``on`` is the link that carries both pins, None where two links do; ``spare`` is
+    the slide that is left out once the direction is known.
+    """
+
+    rail: str
+    slides: tuple[Sliding, Sliding]
+    pins: tuple[str, str]
+    on: str | None
+    spare: Sliding
+
+    @property
+    def named(self) -> str:
+        """The link by which a scene says which way round the rail lies: another where that has a
+        way of its own, as a block."""
+        led = next((p.links[1] for p in self.slides if p.block == self.rail), None)
+        return self.rail if led is None else next(link for link in self.links if link != led)
+
+    @property
+    def words(self) -> str:
+        """Both blocks with the link on whose guides they slide."""
+        block, start = self.links
+        return f"slides of blocks {start} and {block} on {link_words(self.rail)}"
+
+    brief = words
 
 
 class ContactName(str):

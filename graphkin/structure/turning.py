@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import combinations
 
 from msgspec import Struct
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import FRAME, Scene, Slide
+from graphkin.scene.model import FRAME, Link, Scene, Slide
 from graphkin.structure.link_axes import body, guide_line, metres
 
 LEVEL = 1e-9
@@ -40,15 +41,17 @@ def guides_under(scene: Scene, name: str) -> Iterator[str]:
 
 
 def together(scene: Scene, name: str) -> frozenset[str]:
-    """All links that turn with a link, because slides alone lead from one to the other."""
+    """All links that turn with a link: slides alone lead from one to the other, or two pins do."""
+    beside: dict[str, list[str]] = {}
+    joined = [(block, slide.on) for block, slide in every_slide(scene)]
+    for one, other in (*joined, *((block, on) for block, _, on in pinned_twice(scene))):
+        beside.setdefault(one, []).append(other)
+        beside.setdefault(other, []).append(one)
     found, waiting = {name}, [name]
     while waiting:
-        here = waiting.pop()
-        for block, slide in every_slide(scene):
-            for one, other in ((block, slide.on), (slide.on, block)):
-                if one == here and other not in found:
-                    found.add(other)
-                    waiting.append(other)
+        new = [link for link in beside.get(waiting.pop(), ()) if link not in found]
+        found.update(new)
+        waiting += new
     return frozenset(found)
 
 
@@ -57,6 +60,39 @@ def every_slide(scene: Scene) -> Iterator[tuple[str, Slide]]:
     for link in scene.links.values():
         for slide in link.slides:
             yield link.name, slide
+
+
+def pinned_twice(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    """Two blocks on pins of one link, in parallel guides of another: with that on which they are.
+
+    They keep that direction, as a rod does in two bushings.
+    """
+    beside: dict[str, list[tuple[str, complex]]] = {}
+    for block, slide in every_slide(scene):
+        for rail, other in ((slide.on, block), (block, slide.on)):
+            if rail != FRAME != other:
+                beside.setdefault(rail, []).append((other, guide_on(scene, rail, block, slide)))
+    for rail, blocks in beside.items():
+        for (one, way), (other, second) in combinations(blocks, 2):
+            if one == other or abs(cross(way, second)) > LEVEL:
+                continue
+            for link in scene.every_link:
+                if link.name not in (rail, one, other) and two_pins(scene, one, other, link):
+                    yield one, other, link.name
+
+
+def two_pins(scene: Scene, one: str, other: str, on: Link) -> bool:
+    """Whether two links are pinned to a third, each by a point of its own."""
+    first, second = ({*scene.link(name).points} & {*on.points} for name in (one, other))
+    return bool(first and second) and len(first | second) > 1
+
+
+def guide_on(scene: Scene, link: str, block: str, slide: Slide) -> complex:
+    """The direction of a guide in the axes of one of its two links.
+
+    A block's x axis lies along the guide that it names first.
+    """
+    return complex(guide_line(scene, slide).along) if slide.on == link else 1 + 0j
 
 
 def stands(scene: Scene, base: str, way: complex) -> Mapping[str, Stand]:

@@ -7,7 +7,7 @@ from itertools import product
 
 import tomlkit
 
-from graphkin.construction.core.branches import block_of, choosing
+from graphkin.construction.core.branches import block_of, choosing, pins_choosing
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
@@ -28,7 +28,7 @@ def drawn_closed(text: str, places: Places) -> str:
     except GraphkinError:
         return text
     document = tomlkit.parse(text)
-    allowed = choosing(groups)
+    allowed = [*choosing(groups), *pins_choosing(groups)]
     kept = {name for name in scene.branches if name in allowed and fits(groups, name, document)}
     branches = table_of(document, "branches")
     for name in [name for name in branches if name not in kept]:

@@ -13,7 +13,6 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.core.branches import choosing
 from graphkin.construction.core.drawn_scene import METRES
 from graphkin.diagnosis.closures import choices
 from graphkin.mechanism import Mechanism
@@ -215,11 +214,10 @@ def others(mechanism: Mechanism) -> Iterator[Ghost]:
     """The closures that are not drawn, each with the branch that chooses it."""
     scene = mechanism.scene
     metre = METRES[scene.units["length"]]
-    names = choosing(mechanism.groups)
-    for choice in choices(scene, mechanism.groups, mechanism.program):
-        key = next((name for name in (choice.pin, *choice.links) if name in names), None)
+    for choice in choices(scene, *mechanism.laid):
+        key = choice.key
         for closure in choice.closures:
-            if key is None or closure.picked or closure.fails or closure.place is None:
+            if not key or closure.picked or closure.fails or closure.unfit or closure.place is None:
                 continue
             at = closure.place / metre
             there = {p: (z.real / metre, z.imag / metre) for p, z in closure.points.items()}

@@ -67,13 +67,23 @@ WRITTEN_IN = {
 """What files leave to the kinds of lines and to the actions of the palette."""
 REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
 """A remark at the end of a line, in which no text can stand."""
+TEXT = re.compile("[\"'`/\\\\]")
+"""What a line with a text, a pattern or a division holds."""
+SIGN = re.compile(r" *([=<>?:,;{}()\[\]&|*]+) *")
+"""Signs that need no blanks; two signs + or - must not meet."""
 REMARKS = ("//", "/**")
 """How lines begin that only a reader of the files needs."""
 
 
 def together(names: tuple[str, ...]) -> str:
     """Some files as one script, whose names nothing else on the page sees."""
-    return "\n".join(("(() => {", '"use strict";', joined(names), "})();"))
+    return "\n".join(("(() => {", '"use strict";', tight(joined(names)), "})();"))
+
+
+def tight(script: str) -> str:
+    """A script without blanks around signs, on the lines that hold no text and no division."""
+    lines = script.split("\n")
+    return "\n".join(line if TEXT.search(line) else SIGN.sub(r"\1", line) for line in lines)
 
 
 @lru_cache(maxsize=4)

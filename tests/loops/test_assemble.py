@@ -160,8 +160,10 @@ def test_the_square_of_half_an_angle_is_the_direction_of_a_side(near, far, side)
 
 
 def test_forward_is_told_by_the_guide_of_the_link_that_is_named():
-    """Of a group with two guides; where none is the link's, by the first."""
-    four, five = (SimpleNamespace(block=name, number=0, moved_by=None) for name in "45")
+    """Of a group with two guides, or of a link with the pin of that name; else by the first."""
+    four, five = (SimpleNamespace(block=name, on="0", number=0, moved_by=None) for name in "45")
     group = SimpleNamespace(slides=[SimpleNamespace(slide=0), SimpleNamespace(slide=1)])
-    loops, part = SimpleNamespace(guides=[four, five]), SimpleNamespace(guides=[five, four])
-    assert [led_by(link, group, loops, part) for link in "549"] == [0, 1, 1]
+    bodies = {"0": {"A": 0j}, "4": {"B": 0j}, "5": {"C": 0j}}
+    loops = SimpleNamespace(guides=[four, five])
+    part = SimpleNamespace(guides=[five, four], bodies=bodies)
+    assert [led_by(name, group, loops, part) for name in "549CB"] == [0, 1, 1, 0, 1]

@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.web import scripts
 from graphkin.web.offline_page import WEB, part
-from graphkin.web.scripts import FORM, MOVING, PLAYER, STEP_PAGE, joined, together
+from graphkin.web.scripts import FORM, MOVING, PLAYER, STEP_PAGE, joined, tight, together
 
 PAGES = (STEP_PAGE, PLAYER, FORM, MOVING)
 DECLARED = re.compile(
@@ -60,4 +60,15 @@ def test_remarks_are_left_out_and_nothing_else(page):
         assert line == short or line.removeprefix(short).lstrip().startswith("// ")
         assert short.count('"') == line.count('"'), line
     assert all(not line or line.startswith(scripts.REMARKS) for line in set(written) - set(told))
-    assert together(page) == f'(() => {{\n"use strict";\n{joined(page)}\n}})();'
+    assert together(page) == f'(() => {{\n"use strict";\n{tight(joined(page))}\n}})();'
+
+
+def test_blanks_go_only_where_no_text_is():
+    """Without any blank a script and its tight form are one; lines with a text stay as they are."""
+    script = joined(STEP_PAGE)
+    lines = zip(script.split("\n"), tight(script).split("\n"), strict=True)
+    for whole, short in lines:
+        assert whole.replace(" ", "") == short.replace(" ", "")
+        assert whole == short or not set(whole) & set("\"'`/\\")
+    assert tight("return a - -b + +c") == "return a - -b + +c"
+    assert len(tight(script)) < 0.97 * len(script)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Iterator
 from itertools import combinations
 from math import degrees, isinf
@@ -10,6 +11,7 @@ from graphkin.cli.report.crossing_words import crossing
 from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
 from graphkin.cli.report.solution_record import heading
 from graphkin.cli.report.structure_report import group_lines, structure
+from graphkin.construction.compile import write
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.construction.core.crossings import crossings
 from graphkin.construction.core.drawn_scene import METRES
@@ -25,7 +27,13 @@ from graphkin.structure.driver_count import driver_problem
 from graphkin.structure.groups import Higher
 from graphkin.structure.pairs import sharers
 from graphkin.structure.turn_counting import place_of_turns
-from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError
+from graphkin.text.errors import (
+    ClosureError,
+    GraphkinError,
+    Problem,
+    StructureError,
+    WitnessError,
+)
 from graphkin.text.plain_table import labelled, listed, table
 
 WORST = 3
@@ -65,13 +73,19 @@ class Checking:
         """Closures of the dyads, and the driver's angles for which everything closes."""
         mechanism = self.mechanism
         lines: list[str] = []
-        for choice in choices(mechanism.scene, mechanism.groups, mechanism.program):
+        try:
+            groups, program = mechanism.laid
+        except StructureError:  # an idle link may have no room in the stated closure
+            groups = mechanism.groups
+            program = write(mechanism.scene, groups, fitted=False)
+        for choice in choices(mechanism.scene, groups, program):
             lines += closure_lines(choice)
         stated = any(line.startswith("*") for line in lines)
         legend = ["(* as the scene says)"] if stated else []
         lines = lines or ["nothing to choose"]
         yield from labelled("closures", [*lines, *legend])
-        yield from labelled("range", range_lines(mechanism))
+        if program is mechanism.program:  # which raises where an idle link has no room
+            yield from labelled("range", range_lines(mechanism))
 
     def rank(self) -> list[str]:
         """The true mobility in words; a wrong number of drivers for it is a problem.
@@ -115,16 +129,21 @@ class Checking:
 
 def closure_lines(choice: Choice) -> list[str]:
     """Both closures of a dyad, the picked one marked."""
-    lines = [f"{choice.pin} of links {listed(choice.links)}:"]
+    of = f"the angle of link {choice.pin}" if choice.is_turned else choice.pin
+    lines = [f"{of} of links {listed(choice.links)}:"]
     if not choice.closures:
         lines.append("  none in this position")
     for closure in choice.closures:
         if closure.place is None:
             where = "cannot be drawn"
+        elif choice.is_turned:
+            where = f"{degrees(phase(closure.place)) + 0.0:.3f}°"
         else:
             x, y = (f"{1e3 * part + 0.0:.3f}" for part in (closure.place.real, closure.place.imag))
             where = f"({x}, {y}) mm"
         rest = f"then {closure.fails} cannot be drawn" if closure.fails else "the rest closes"
+        if closure.unfit:
+            rest = f"then link {closure.unfit} does not fit"
         if closure.place is None:
             rest = ""
         mark = "*" if closure.picked else " "

@@ -25,7 +25,15 @@ from graphkin.structure.groups import (
     Unresolved,
 )
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, Sliding, contacts
+from graphkin.structure.pairs import (
+    Contact,
+    ContactName,
+    Joint,
+    Pin,
+    PinLine,
+    Sliding,
+    contacts,
+)
 from graphkin.text.errors import Problem, StructureError
 
 
@@ -133,6 +141,8 @@ def leads_of(group: Group | TriedLink) -> dict[str, str]:
             return {link: partner(pair, link)}
         case Dyad(links=(first, second), left=Pin(), inner=Sliding(), right=Sliding() as right):
             return {second: partner(right, second), first: second}
+        case Dyad(inner=PinLine(links=(block, start), on=str(on))):
+            return {start: on, block: start}
         case Dyad(inner=Sliding(links=(block, carrier))):
             return {block: carrier}
         case Dyad(links=links, left=left, right=right):
@@ -152,6 +162,8 @@ def dyad_bases(scene: Scene, dyad: Dyad) -> tuple[Base, ...]:
     """The bases of the two links of a dyad."""
     first, second = dyad.links
     match dyad.left, dyad.inner, dyad.right:
+        case Pin(left), PinLine(on=str()), Pin(right):
+            return base_of(scene, first, left, None), base_of(scene, second, right, None)
         case Pin(left), Pin(pin), Pin(right):
             return base_of(scene, first, left, pin), base_of(scene, second, right, pin)
         case Pin(left), Pin(pin), Sliding():

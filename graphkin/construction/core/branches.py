@@ -14,6 +14,7 @@ from graphkin.structure.groups import (
     Geared,
     Group,
     Higher,
+    OnTwoPins,
     Spun,
     Stretched,
 )
@@ -38,6 +39,34 @@ def choosing(groups: tuple[Group, ...]) -> list[str]:
             case Higher(links=links):
                 names += links
     return names
+
+
+def pins_choosing(groups: tuple[Group, ...]) -> list[str]:
+    """The pins under which a scene may state the way of a dyad that a slide or a track leads."""
+    dyads = (group.dyad if isinstance(group, Stretched) else group for group in groups)
+    pins = (led_pin(dyad) for dyad in dyads if isinstance(dyad, Dyad))
+    return [pin for pin in pins if pin is not None]
+
+
+def led_pin(dyad: Dyad) -> str | None:
+    """The inner pin of a dyad that closes in two ways by a slide or a track, if it has one."""
+    return dyad.inner.point if has_two_ways(dyad) and isinstance(dyad.inner, Pin) else None
+
+
+def key_of(scene: Scene, group: Group) -> str | None:
+    """The name under which a scene writes how a group closes; None where there is no choice.
+
+    A block that is led in several ways tells its dyads apart by their pins.
+    """
+    group = group.dyad if isinstance(group, Stretched) else group
+    if not isinstance(group, Dyad):
+        return next((name for name in scene.links if name in choosing((group,))), None)
+    pin = led_pin(group)
+    if pin is not None:
+        shared = len(scene.links[block_of(group)].paths) > 1
+        stated = isinstance(scene.branches.get(pin), Way)
+        return pin if stated or shared else block_of(group)
+    return next(iter(choosing((group,))), None)
 
 
 def refuse_unstated(scene: Scene, group: Group) -> None:
@@ -71,8 +100,9 @@ def unused_branches(
             f"take it out{only_way(scene, groups, name)}",
             (TakenOut(),),
         )
-        for name in scene.branches
+        for name, branch in scene.branches.items()
         if name not in allowed and name not in told
+        if not (isinstance(branch, Way) and name in pins_choosing(groups))
     ]
 
 
@@ -115,6 +145,7 @@ def stray(scene: Scene, groups: tuple[Group, ...], group: Group) -> list[str]:
     """The branches written under the other names of a group, where no group has a choice."""
     allowed = choosing(groups)
     own = {*group.links, *(point for link in group.links for point in scene.links[link].points)}
+    allowed += [name for name in pins_choosing(groups) if isinstance(scene.branches.get(name), Way)]
     return [name for name in scene.branches if name in own and name not in allowed]
 
 
@@ -163,23 +194,32 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
 
 
 def block_of(dyad: Dyad) -> str:
-    """The block, or the wheel, by which the scene names the way of a dyad."""
+    """The block, or the wheel, by which the scene names the way of a dyad; the link that two pins
+    guide."""
+    if isinstance(dyad, OnTwoPins):
+        return dyad.inner.named
     slide = next(p for p in (dyad.right, dyad.inner, dyad.left) if not isinstance(p, Pin))
     return slide.links[0]
 
 
 def way_of(scene: Scene, dyad: Dyad) -> int:
-    """The stated way of a sliding link: +1 the larger slide coordinate, -1 the smaller."""
-    block = block_of(dyad)
-    branch = scene.branches.get(block)
+    """The stated way of a sliding link: +1 the larger slide coordinate, -1 the smaller.
+
+    It is written under the link, or under the dyad's pin where links are led in several ways.
+    """
+    key = key_of(scene, dyad) or block_of(dyad)
+    branch = scene.branches.get(key, scene.branches.get(block_of(dyad)))
     if isinstance(branch, Way):
         return branch.way
     hint = "the arc cuts the guide twice; forward is the larger coordinate along the guide"
-    if dyad.type == "RPR":
+    if isinstance(dyad, OnTwoPins):
+        pin, start = dyad.inner.pins
+        hint = f"link {dyad.rail} can lie either way round: forward puts {pin} ahead of {start}"
+    elif dyad.type == "RPR":
         hint = "the bar can point either way; forward is the larger coordinate along the guide"
     raise StructureError(
         Problem(
-            f"branches.{block}",
+            f"branches.{key}",
             MISSING if branch is None else f'"{branch}" for a link that {LEADING}',
             " or ".join(WAYS),
             hint,

@@ -15,7 +15,7 @@ from graphkin.construction.guides.swung_guide import SwungGuide
 from graphkin.construction.links.counted_turn import counted_link
 from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.scene.link_points import under
-from graphkin.scene.model import FRAME, Closure, Link, Rolling, Scene, Slide, Way, Wheel
+from graphkin.scene.model import FRAME, Branch, Closure, Link, Rolling, Scene, Slide, Way, Wheel
 from graphkin.scene.quantity import shortest
 from graphkin.scene.wheels import contact_letters
 from graphkin.text import Words
@@ -39,7 +39,15 @@ def sliding_point(drawing: Drawing, link: Link) -> str:
 
 def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
     """Words for the one of two closures at which a block stands, seen from a known pin."""
-    words, branch, line = drawing.words, drawing.scene.branches.get(link.name), drawing.guide(slide)
+    words, branch, line = (
+        drawing.words,
+        stated_way(drawing.scene, link, slide),
+        drawing.guide(slide),
+    )
+    laid = constructions(drawing.trace.program, SwungGuide)
+    led = next((each for each in laid if each.ahead and each.guides(link.name, slide.on)), None)
+    if led is not None:
+        return words("page.ahead" if led.ahead > 0 else "page.behind", p=symbol(led.pivot))
     if not isinstance(branch, Way) or slide is not link.slides[0]:
         return ""
     dyads = tuple(arcs_finding(drawing, link.points))
@@ -54,6 +62,15 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
         key = "half_line" if branch.way > 0 else "half_line_back"
         return words(f"page.{key}", p=p, q=q)
     return words("page.forward" if branch.way > 0 else "page.backward")
+
+
+def stated_way(scene: Scene, link: Link, slide: Slide) -> Branch | None:
+    """What the scene states of a block, or of the pin that its guide leads where that has a way."""
+    led = (
+        scene.link(slide.on).points if link.rolls else (*scene.link(slide.on).points, *link.points)
+    )
+    ways = (scene.branches.get(point) for point in led)
+    return next((way for way in ways if isinstance(way, Way)), scene.branches.get(link.name))
 
 
 def is_led(drawing: Drawing, link: Link, slide: Slide) -> bool:

@@ -33,8 +33,9 @@ from graphkin.scene.link_points import ends_of, lettered
 from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import angle_less_cycles
 from graphkin.structure.groups import Dyad
-from graphkin.structure.pairs import Sliding, SlippingName, is_in_scene, turns
+from graphkin.structure.pairs import Sliding, SlippingName, is_in_scene
 from graphkin.structure.turn_counting import counted_near
+from graphkin.structure.turning import together
 from graphkin.text.errors import ClosureError
 
 R = TypeVar("R", bound=Roles)
@@ -54,7 +55,7 @@ class Pen:
         self.arrows: set[str] = set()
         self.chosen: dict[tuple[str, str], int] = {}
         self.drives: dict[int, Drive] = {}
-        self.turning: dict[str, bool] = {FRAME: False}
+        self.shifting = together(scene, FRAME)
         self.near = counted_near(scene)
         self.counted: set[str] = set()
         self.scale_step: int | None = None
@@ -221,9 +222,7 @@ class Pen:
 
     def turns(self, link: str) -> bool:
         """False for the frame and for links that slides alone join to it: they only shift."""
-        if link not in self.turning:
-            self.turning[link] = turns(self.scene, link)
-        return self.turning[link]
+        return link not in self.shifting
 
     def drive(self, driver: Driver) -> Drive:
         """The given motion of a driver."""

@@ -9,7 +9,7 @@ from typing import ClassVar
 from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.vocabulary import across
+from graphkin.construction.core.vocabulary import across, difference
 from graphkin.construction.guides.guide_line import (
     axis_along,
     axis_by_guide,
@@ -26,9 +26,11 @@ from graphkin.construction.guides.guide_line import (
     way_between,
 )
 from graphkin.construction.links.link_shapes import local_place, polar
+from graphkin.numbers.plane import dot
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, Apart, At, GuideOrTrack, OnLine, Slide
-from graphkin.structure.pairs import Sliding
+from graphkin.structure.pairs import PinLine, Sliding
+from graphkin.structure.turning import guide_on
 
 
 class CarriedDirection(Construction, frozen=True, kw_only=True):
@@ -229,6 +231,60 @@ def height_of(pen: Pen, pair: Sliding, pins: dict[str, str]) -> int | None:
         there = beside_line(pen, carrier, on_carrier, ends)
         offset = pen.given("length", pair.slide.offset)
         return pen.draw(gap, offset, here, there)
+
+
+def height_between(pen: Pen, line: PinLine) -> int | None:
+    """How far the pin ahead stands to the left of the line through the other, as the rail has them.
+
+    None where the scene is written so that one guide passes through both.
+    """
+    ahead, behind = line.slides
+    point = next(iter(shared_points(ahead, behind)), None)
+    ends = zip((ahead, behind), line.pins, strict=True)
+    if point is not None and all(is_through(pen, pair, pin) for pair, pin in ends):
+        return None
+    point = point or pen.scene.link(line.rail).points[0]
+    with pen.on(Part.SHAPE, Plane.NUMBERS):
+        there, here = (
+            height_over(pen, pair, pin, line.rail, point)
+            for pair, pin in zip((ahead, behind), line.pins, strict=True)
+        )
+        if are_opposed(pen, line):
+            there = pen.draw(difference, pen.given("nought"), there)
+        return pen.draw(difference, there, here)
+
+
+def shared_points(one: Sliding, other: Sliding) -> list[str]:
+    """The points of one link through which two guides of it are written to pass."""
+    if one.links[1] != other.links[1]:
+        return []
+    names = (one.slide.through, *(one.slide.along or ()))
+    return [name for name in names if isinstance(name, str) and lies_on(other.slide, name)]
+
+
+def is_through(pen: Pen, pair: Sliding, pin: str) -> bool:
+    """Whether a guide is written to pass through the pin of its block, the block's first point."""
+    level = pair.slide.offset.number(pen.scene.values) == 0
+    return level and pin == pen.scene.link(pair.block).points[0]
+
+
+def height_over(pen: Pen, pair: Sliding, pin: str, rail: str, point: str) -> int:
+    """How far a pin stands to the left of a point of the rail, across the guide between them."""
+    block, carrier = pair.links
+    first = local_place(pen, block, pen.scene.link(block).points[0])
+    ends, offset = local_line(pen, pair.slide, carrier), pen.given("length", pair.slide.offset)
+    if carrier == rail:
+        here = pen.draw(across, first, local_place(pen, block, pin))
+        return pen.draw(gap, offset, here, beside_line(pen, rail, point, ends))
+    there = beside_line(pen, carrier, pin, ends)
+    lower = pen.draw(across, first, local_place(pen, block, point))
+    return pen.draw(difference, there, pen.draw(gap, lower, offset, pen.given("nought")))
+
+
+def are_opposed(pen: Pen, line: PinLine) -> bool:
+    """Whether the two guides of a link are written in opposite senses."""
+    one, other = (guide_on(pen.scene, line.rail, p.block, p.slide) for p in line.slides)
+    return bool(dot(one, other) < 0)
 
 
 def turned_with(pen: Pen, pair: Sliding, known: str) -> None:

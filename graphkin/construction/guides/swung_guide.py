@@ -1,4 +1,5 @@
-"""A guide that turns about a pivot and leads a pin: laid through both, or as a tangent from it."""
+"""A guide that turns about a pivot and leads a pin, or that two pins are: laid through both, or as
+a tangent from one to a circle about the other."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from typing import Any, ClassVar
 
 from msgspec.structs import replace
 
+from graphkin.construction.core.branches import way_of
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
@@ -16,12 +18,18 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_line import axis_by_guide
-from graphkin.construction.guides.guides import height_of, local_line
+from graphkin.construction.guides.guides import (
+    height_between,
+    height_of,
+    is_through,
+    local_line,
+    turned_with,
+)
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, compass
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.scene.link_points import lettered
-from graphkin.structure.groups import Dyad
+from graphkin.structure.groups import Dyad, OnTwoPins
 from graphkin.structure.pairs import Pin, Sliding
 from graphkin.text.errors import Problem, Sought
 
@@ -102,7 +110,8 @@ def from_foot(foot: Point, pin: Point, way: int) -> Point:
 class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
     """A guide of a ``link`` that turns about its ``pivot`` and leads the ``pin`` of a ``block``.
 
-    It gives its direction ``turn`` and its ``line``.
+    It gives its direction ``turn`` and its ``line``. Where two pins guide the link, the ``pin`` is
+    ``ahead`` of the pivot along it (+1), or behind it (-1); else that is 0.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("turn", "line")
@@ -117,6 +126,11 @@ class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
     pin: str
     turn: int
     line: int
+    ahead: int = 0
+
+    def guides(self, block: str, on: str) -> bool:
+        """Whether it leads a block along a link, whichever of the two has the guide."""
+        return {self.block, self.link} == {block, on}
 
     @property
     def found_link(self) -> str:
@@ -139,11 +153,12 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
 
     reasons: ClassVar[Mapping[str, str]] = {"turn": "why.lever"}
     has_angle: ClassVar[bool] = False
+    key: ClassVar[str] = "step.swing-through"
     titled: ClassVar[str] = "the line {pivot}-{pin}"
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """Joining them."""
-        return drawing.words("step.swing-through", **self.fields()) if role == "turn" else ""
+        return drawing.words(self.key, **self.fields()) if role == "turn" else ""
 
     def in_line(self, steps: Sequence[Step], nearly: str) -> str:
         """Pins at one place."""
@@ -163,6 +178,12 @@ class GuideThroughPins(SwungGuide, frozen=True, kw_only=True):
     def at_end(self, steps: Sequence[Step], loci: Sequence[Any]) -> tuple[str, str]:
         """Pins at one place."""
         return f"link {self.link}", f"{self.pin} on {self.pivot}"
+
+
+class LineOfPins(GuideThroughPins, frozen=True, kw_only=True):
+    """A line through two pins in parallel guides of a link, which both guide along it."""
+
+    key: ClassVar[str] = "step.pins-guide"
 
 
 class TangentGuide(SwungGuide, frozen=True, kw_only=True):
@@ -232,12 +253,40 @@ def swing_guide(pen: Pen, group: Dyad) -> None:
     first, second = group.links
     block, carrier = group.inner.links
     pins = {first: group.left.point, second: group.right.point}
-    places = [pen.the("position", pins[link]) for link in (carrier, block)]
     height = height_of(pen, group.inner, pins)
+    own = {"link": carrier, "block": block, "pivot": pins[carrier], "pin": pins[block]}
+    turn, _ = lay_guide(pen, group, height, own)
+    ends = local_line(pen, group.inner.slide, carrier)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", block, turn)
+    pen.want("position", pen.bases[carrier].end or "", pen.the("position", pins[block]))
+
+
+def guide_by_pins(pen: Pen, group: OnTwoPins) -> None:
+    """Two blocks whose pins guide a link: the line that they keep, and what slides along it."""
+    (block, start), (pin, pivot) = group.inner.links, group.inner.pins
+    ahead, behind = group.inner.slides
+    own: dict[str, Any] = {"link": group.rail, "block": block, "pivot": pivot, "pin": pin}
+    own["ahead"] = way_of(pen.scene, group)
+    turn, line = lay_guide(pen, group, height_between(pen, group.inner), own)
+    ends = local_line(pen, group.inner.slide, start)
+    with pen.on(Part.POSITION, Plane.NUMBERS):
+        pen.want("axis", start, pen.draw(axis_by_guide, turn, *ends))
+    turned_with(pen, behind, start)
+    turned_with(pen, ahead, group.rail)
+    if is_through(pen, behind, pivot):
+        pen.shared["guide", *behind.links] = line
+    end = pen.bases[start].end
+    if end is not None:
+        pen.want("position", end, pen.the("position", pin))
+
+
+def lay_guide(pen: Pen, group: Dyad, height: int | None, own: Mapping[str, Any]) -> tuple[int, int]:
+    """The direction and the line of a guide by its ``pivot`` and ``pin``, where these stand."""
+    places = [pen.the("position", own[end]) for end in ("pivot", "pin")]
     way, extra = pen.choice(group)
     sized = (*extra, breadth_about(pen, places[0]))
-    own: dict[str, Any] = {"link": carrier, "block": block}
-    own |= {"pivot": pins[carrier], "pin": pins[block]}
     with pen.on(Part.POSITION, Plane.MECHANISM):
         by_hand: dict[str, Any] = {}
         if height is None:
@@ -246,16 +295,13 @@ def swing_guide(pen: Pen, group: Dyad) -> None:
             by_hand = {} if way else tangent(pen, places, height, extra[0])
             last = by_hand.get("tangent")
             turn = pen.draw(swing, *places, height, *way, extra=sized, by_hand=last)
-        line = pen.draw_shared(("swing", carrier), ray, places[0], turn)
+        line = pen.draw_shared(("swing", group.inner.links[1]), ray, places[0], turn)
     if height is None:
-        pen.make(GuideThroughPins(**own, turn=turn, line=line))
+        through = LineOfPins if isinstance(group, OnTwoPins) else GuideThroughPins
+        pen.make(through(**own, turn=turn, line=line))
     else:
         pen.make(TangentGuide(**own, turn=turn, line=line, height=height, **by_hand))
-    ends = local_line(pen, group.inner.slide, carrier)
-    with pen.on(Part.POSITION, Plane.NUMBERS):
-        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
-        pen.want("axis", block, turn)
-    pen.want("position", pen.bases[carrier].end or "", places[1])
+    return turn, line
 
 
 def breadth_about(pen: Pen, pivot: int) -> float:

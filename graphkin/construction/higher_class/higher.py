@@ -365,7 +365,6 @@ class TrialPen(Pen):
         self.parent = parent
         self.bases |= parent.bases
         self.leads |= parent.leads
-        self.turning = parent.turning
         self.inputs: dict[int, int] = {}
 
     def input_step(self) -> int:

@@ -15,7 +15,7 @@ from graphkin.construction.links.link_shapes import bar_length, local_place, pla
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Apart, Link
-from graphkin.structure.groups import Crank, Driven, Dyad, Tie
+from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Tie
 from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.text.errors import Problem, StructureError
 
@@ -68,6 +68,11 @@ def driven(pen: Pen, group: Driven) -> None:
 
 def dyad(pen: Pen, group: Dyad) -> None:
     """What two links and three pairs leave free: one crossing of two loci."""
+    if isinstance(group, OnTwoPins):
+        from graphkin.construction.guides.swung_guide import guide_by_pins
+
+        guide_by_pins(pen, group)
+        return
     match group.left, group.inner, group.right:
         case Pin(point=left), Pin(point=pin), _:
             with pen.on(Part.POSITION, Plane.MECHANISM):
@@ -172,7 +177,8 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
             f"links.{link}",
             found,
             expected,
-            "another closure may fit; or take a driver away, if the link is to move the rest",
+            "another closure may fit, and graphkin check lists them; or take a driver away, if the "
+            "link is to move the rest",
         )
     )
 

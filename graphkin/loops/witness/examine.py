@@ -23,6 +23,8 @@ from graphkin.loops.branch_closures import (
     ON_LINE,
     closure_numbers,
     closures,
+    facing,
+    facing_alike,
     other_closure,
     turned_side,
 )
@@ -196,6 +198,11 @@ def branch_conditions(
             side = turned_side(motion, branch.first, branch.second, name)
             found[name] = np.asarray(branch.side * side > -side_slack(solved, name, branch))
             continue
+        if isinstance(branch, Way):
+            ahead = facing(solved.loops, motion, name)
+            if ahead is not None:
+                found[name] = np.asarray(branch.way * ahead > 0)
+                continue
         for group in (each for each in known if speaks_of(name, branch, each, solved.loops)):
             if isinstance(branch, Way) and group.is_dyad:
                 holds = way_of_dyad(branch, solved, group)
@@ -252,7 +259,8 @@ def farthest(branch: Way, solved: LoopSolution, group: Group, name: str, n: int)
     if j is None:
         return True
     column = part.turning_count + j
-    every = closures(part, stands, group)[:, column]
+    rows = closures(part, stands, group)
+    every = rows[facing_alike(part, stands, rows, group)][:, column]
     end = every.max(initial=-np.inf) if branch.way > 0 else every.min(initial=np.inf)
     return bool(abs(stands[0, column] - end) <= 1e-6 * part.size[0])
 
