@@ -206,9 +206,13 @@ def page_of(
     title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
     sheet = drawing.scene.sheet
-    marks: list[Mark] = [
-        *page_frame((title, name), (escape(sheet.author) or words("page.student"), number))
-    ]
+    made, whose = escape(sheet.author), escape(sheet.student)
+    if view == "task" or whose or not made:
+        made = f"{words('block.creator')}: {made}" if made else ""
+        foot = whose or words("page.student"), "   ".join(filter(None, (made, number)))
+    else:
+        foot = made, number
+    marks: list[Mark] = [*page_frame((title, name), foot)]
     for y, row in rows:
         if row.heading:
             marks.append(Text(LEFT, y, row.markup, "caption", 3.5))
