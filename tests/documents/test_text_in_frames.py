@@ -32,6 +32,7 @@ VIEWS = ("key", "task", "steps", "overlay")
 MM = 25.4 / 72
 NEAR = 0.05
 """How far, in mm, a letter may reach over a line or the frame without being seen to."""
+SLACK = np.array([NEAR, NEAR, -NEAR, -NEAR])
 RULES = ("frame", "border", "panel")
 """The classes of the lines of frames and cells."""
 OWN = ("known", "vector")
@@ -41,8 +42,10 @@ OUTSIDE = 5.0
 
 
 def pages_of(name: str, n: int | None, language: str) -> Iterator[Page]:
-    """The pages of a scene or a student's lab in all views, its calculations among them; of those that grow step by
-    step each with the texts that the one before it lacks."""
+    """The pages of a scene or a student's lab in all views, its calculations among them.
+
+    Of pages that grow step by step each has the texts that the one before it lacks.
+    """
     found = [replace(each, words=words(language)) for each in drawings(name, n)]
     for view in VIEWS:
         for sheet in drawn_sheets(found, view):
@@ -98,7 +101,7 @@ def faults(pages: Sequence[Page]) -> Iterator[str]:
     document = pypdfium2.PdfDocument(write_pdf(written))
     for page, printed in zip(pages, document, strict=True):
         boxes = np.array([*boxes_of(printed, page.height)])
-        at = boxes + (NEAR, NEAR, -NEAR, -NEAR)
+        at = boxes + SLACK
         left, top, right, low = A4_FRAME if page.width == A4_SIZE[0] else A3_AREA
         inside = (at[:, :2] >= (left, top)).all(1) & (at[:, 2:] <= (right, low)).all(1)
         if page.width > A4_SIZE[0]:  # the letters of a sheet's grid stand around its frame
