@@ -6,7 +6,6 @@ A cell that cannot be read is no error of the table: it is told, and does not co
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 
@@ -27,7 +26,7 @@ from graphkin.classroom.roster.spreadsheets import (
     sheet_in,
 )
 from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
-from graphkin.scene.findings import nearest, visible
+from graphkin.scene.findings import near_name, nearest, visible
 from graphkin.text.errors import Problem, RosterError
 
 ABSENT = (
@@ -230,8 +229,8 @@ class AnswerReading(Struct, dict=True):
 
     def stranger(self, sheet: Spreadsheet, cell: str) -> None:
         """Note what is no field, with the field that may be meant."""
-        near = get_close_matches(cell[:60], list(self.known), n=1)
-        self.answers.strangers.append(Stranger(sheet.name, visible(cell), near[0] if near else ""))
+        near = near_name(cell, self.known)
+        self.answers.strangers.append(Stranger(sheet.name, visible(cell), near))
 
     def cell(self, sheet: Spreadsheet, row: SheetRow, column: int, who: str, name: str) -> Answer:
         """One cell; one that cannot be read is noted."""
