@@ -183,7 +183,8 @@ def number_of(name: str) -> int:
 
 def changes_between(name: str, other: str) -> int:
     """How many letters must be put in, left out, replaced or exchanged with the next one."""
-    before, row = [0] * (len(other) + 1), [*range(len(other) + 1)]
+    before: list[int] = [0] * (len(other) + 1)
+    row: list[int] = [*range(len(other) + 1)]
     for i, letter in enumerate(name, 1):
         earlier, before, row = before, row, [i]
         for j, sign in enumerate(other, 1):
